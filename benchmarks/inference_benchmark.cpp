@@ -14,8 +14,8 @@
 #include <fmt/format.h>
 
 #include "core/random.hpp"
-#include "prediction/features.hpp"
-#include "prediction/graphsage.hpp"
+#include "prediction/comparison/dissertation_net.hpp"
+#include "prediction/comparison/features.hpp"
 #include "prediction/nets.hpp"
 #include "prediction/predictor.hpp"
 
@@ -157,7 +157,8 @@ void net_alone(benchmark::State& state, std::uint32_t inputs, std::uint32_t hidd
     prediction::MessageGraph messages;
     prediction::ObservedMessages().build(scene, rules, messages);
     const prediction::FeatureSchema schema{"benchmark", 1, inputs};
-    prediction::GraphSageNet net(prediction::testing::random_net(schema, hidden, output), schema, kernel);
+    prediction::DissertationNet net(prediction::Convolution::sage,
+                                    prediction::testing::random_net(schema, hidden, output), schema, kernel);
     std::vector<float> features(scene.tracks.size() * inputs);
     for (std::size_t at = 0; at < features.size(); ++at) {
         features[at] = static_cast<float>(draw(at, 4));

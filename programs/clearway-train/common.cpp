@@ -3,13 +3,8 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <memory>
 
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
-
-#include "core/usage.hpp"
-#include "samples/graph_sample.hpp"
 
 namespace clearway::training {
 namespace {
@@ -20,32 +15,34 @@ extern "C" void remember_signal(int signal) {
     received_signal = signal;
 }
 
+void report_early_end(const OutputFolder& folder, const TrainingResult& result) {
+    const std::size_t rounds = result.losses.size();
+    const bool has_model = !result.state.empty();
+    if (result.outcome == Outcome::diverged) {
+        fmt::print(stderr,
+                   "clearway-train: training diverged after {} good {}{}: a loss is not finite. {}. Try a "
+                   "smaller --learning-rate, or features of a smaller scale\n",
+                   rounds - 1, result.round, rounds == 2 ? "" : "s",
+                   has_model ? "The parameters before it are kept"
+                             : "None had finite losses, so no model was written");
+    } else if (result.outcome == Outcome::interrupted) {
+        const char* const kept = folder.is_whole() ? "the whole training that was there stays"
+                                 : has_model       ? "the model so far is written"
+                                                   : "no model was written";
+        fmt::print(stderr, "clearway-train: interrupted after {} {}{}; {}\n", rounds, result.round,
+                   rounds == 1 ? "" : "s", kept);
+    }
+}
+
 }  // namespace
 
-void add_folder_options(CLI::App& app, CommonArguments& arguments, const char* data_doc,
-                        const char* out_doc) {
-    app.add_option("--data", arguments.data, data_doc)->required()->option_text("DIR (required)");
-    app.add_option("--out", arguments.out, out_doc)->required()->option_text("DIR (required)");
-}
-
-void add_printing_options(CLI::App& app, Printing& printing) {
-    app.add_flag_callback(
-        "--quiet", [&] { printing = Printing::closing_only; }, "Do not print the losses of each epoch");
-    app.add_flag_callback(
-        "--json", [&] { printing = Printing::json; }, "Print the summary as JSON, and nothing else");
-}
-
-RepairData read_repair_data(const std::filesystem::path& folder) {
-    auto [files, hashes] = read_distinct(samples::find_graph_samples(folder), samples::read_repair_samples);
-    return {std::move(files), core::content_hash(fmt::format("{}", fmt::join(hashes, "")))};
+void watch_signals() {
+    std::signal(SIGINT, remember_signal);
+    std::signal(SIGTERM, remember_signal);
 }
 
 std::string figure(const std::optional<double>& value) {
     return value ? fmt::format("{:.3f}", *value) : "undefined";
-}
-
-bool stop_requested() {
-    return received_signal != 0;
 }
 
 void print_quality(const std::string& label, const metrics::LinkQuality& quality) {
@@ -56,7 +53,7 @@ void print_quality(const std::string& label, const metrics::LinkQuality& quality
 
 TrainingHooks hooks_with_lines(Printing printing, std::uint32_t rounds, const char* round) {
     TrainingHooks hooks;
-    hooks.should_stop = stop_requested;
+    hooks.should_stop = [] { return received_signal != 0; };
     if (printing != Printing::epochs) return hooks;
     const auto started = std::chrono::steady_clock::now();
     hooks.on_epoch = [started, rounds, round](std::uint32_t epoch, const EpochLoss& loss) {
@@ -69,63 +66,27 @@ TrainingHooks hooks_with_lines(Printing printing, std::uint32_t rounds, const ch
     return hooks;
 }
 
-void print_json(const nlohmann::ordered_json& summary) {
-    fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
-}
-
-void print_result(Printing printing, const RepairTraining& result, const nlohmann::ordered_json& summary,
-                  const std::string& kept) {
-    if (printing == Printing::json) print_json(summary);
-    if (printing == Printing::json || result.groups.empty()) return;
-    fmt::print("{}; seeds: {} training, {} validation, {} test\n", kept, result.seeds.train.size(),
-               result.seeds.validation.size(), result.seeds.test.size());
-    for (const RepairGroup& group : result.groups) {
-        std::string label = group.failure.empty() ? "all test seeds" : group.failure;
-        if (!group.scenario.empty()) label += ", " + group.scenario;
-        print_quality(label, group.model);
-        print_quality("  route rule", group.rule);
+core::ExitCode conclude(const CommonArguments& arguments, const OutputFolder& folder,
+                        const TrainingResult& result, const Identity& identity, const std::string& closing) {
+    const nlohmann::ordered_json summary = summary_of(result, identity, arguments.data);
+    if (!folder.keeps_earlier(result.outcome, result.losses.size()))
+        write_outputs(folder.path(), result, summary);
+    if (arguments.printing == Printing::json) {
+        fmt::print("{}\n", summary.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    } else if (!result.groups.empty()) {
+        fmt::print("{}; seeds: {} training, {} validation, {} test\n", closing, result.seeds.train.size(),
+                   result.seeds.validation.size(), result.seeds.test.size());
+        for (const GroupQuality& group : result.groups) {
+            std::string label = group.failure.empty() ? "all test seeds" : group.failure;
+            if (!group.scenario.empty()) label += ", " + group.scenario;
+            print_quality(label, group.model);
+            if (group.reference) print_quality(fmt::format("  {}", result.reference), *group.reference);
+        }
     }
-}
-
-core::ExitCode exit_code_for(const OutputFolder& folder, Outcome outcome, std::size_t rounds, bool has_model,
-                             const char* round) {
-    if (outcome == Outcome::diverged) {
-        fmt::print(stderr,
-                   "clearway-train: training diverged after {} good {}{}: a loss is not finite. {}. Try a "
-                   "smaller --learning-rate, or features of a smaller scale\n",
-                   rounds - 1, round, rounds == 2 ? "" : "s",
-                   has_model ? "The parameters before it are kept"
-                             : "None had finite losses, so no model was written");
-        return core::ExitCode::runs_failed;
-    }
-    if (outcome == Outcome::interrupted) {
-        const char* const kept = folder.is_whole() ? "the whole training that was there stays"
-                                 : has_model       ? "the model so far is written"
-                                                   : "no model was written";
-        fmt::print(stderr, "clearway-train: interrupted after {} {}{}; {}\n", rounds, round,
-                   rounds == 1 ? "" : "s", kept);
-        return received_signal == SIGTERM ? core::ExitCode::terminated : core::ExitCode::interrupted;
-    }
-    return core::ExitCode::ok;
-}
-
-int parse_and_train(CLI::App& app, int argument_count, char** argument_values,
-                    const std::function<core::ExitCode()>& train) {
-    app.formatter(std::make_shared<core::HelpFormatter>());
-    try {
-        app.parse(argument_count, argument_values);
-    } catch (const CLI::Success& help) {
-        return app.exit(help);
-    } catch (const CLI::ParseError& error) {
-        fmt::print(stderr, "{}",
-                   core::usage_message(app, app.get_name(), error, {graphsage_word, gradient_boosting_word}));
-        return static_cast<int>(core::ExitCode::usage);
-    }
-    std::signal(SIGINT, remember_signal);
-    std::signal(SIGTERM, remember_signal);
-    const core::ExitCode code = train();
-    if (std::fflush(stdout) != 0) throw core::EnvironmentError("standard output cannot be written");
-    return static_cast<int>(code);
+    report_early_end(folder, result);
+    if (result.outcome == Outcome::diverged) return core::ExitCode::runs_failed;
+    if (result.outcome != Outcome::interrupted) return core::ExitCode::ok;
+    return received_signal == SIGTERM ? core::ExitCode::terminated : core::ExitCode::interrupted;
 }
 
 }  // namespace clearway::training

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -18,10 +19,8 @@
 #include "core/files.hpp"
 #include "core/number_range.hpp"
 #include "metrics/link_quality.hpp"
-#include "samples/repair_sample.hpp"
 #include "training/output_folder.hpp"
 #include "training/outputs.hpp"
-#include "training/repair_scores.hpp"
 #include "training/trainer.hpp"
 
 namespace clearway::training {
@@ -36,8 +35,8 @@ struct CommonArguments {
     Printing printing = Printing::epochs;
 };
 
-/// Whether SIGINT or SIGTERM was received. Training then ends after the current epoch and keeps what it has.
-bool stop_requested();
+/// From now on, after SIGINT or SIGTERM training ends after the current epoch and keeps what it has.
+void watch_signals();
 
 /// An option for every field of a configuration: `learning_rate` becomes `--learning-rate`, with its range
 /// and default.
@@ -77,13 +76,6 @@ std::vector<CLI::Option*> add_field_options(CLI::App& app, Config& config, const
     return options;
 }
 
-/// `--data` and `--out` with their descriptions.
-void add_folder_options(CLI::App& app, CommonArguments& arguments, const char* data_doc, const char* out_doc);
-inline constexpr const char* repair_data_doc = "Data set of `clearway dataset --samples --net graphsage`";
-
-/// `--quiet` and `--json`.
-void add_printing_options(CLI::App& app, Printing& printing);
-
 /// The sample files, and the hash of the content of each. Throws core::InputError where two are the same.
 template <class Read>
 auto read_distinct(const std::vector<std::filesystem::path>& paths, const Read& read) {
@@ -101,14 +93,6 @@ auto read_distinct(const std::vector<std::filesystem::path>& paths, const Read& 
     return std::pair(std::move(files), std::move(hashes));
 }
 
-/// The data of the improved net, and the hash of their content.
-struct RepairData {
-    std::vector<samples::RepairSampleFile> files;
-    std::string hash;
-};
-/// Throws core::InputError.
-RepairData read_repair_data(const std::filesystem::path& folder);
-
 /// Three decimals, or `undefined`.
 std::string figure(const std::optional<double>& value);
 void print_quality(const std::string& label, const metrics::LinkQuality& quality);
@@ -117,26 +101,24 @@ void print_quality(const std::string& label, const metrics::LinkQuality& quality
 /// is what one is called.
 TrainingHooks hooks_with_lines(Printing printing, std::uint32_t rounds, const char* round = "epoch");
 
-void print_json(const nlohmann::ordered_json& summary);
-/// The summary for `--json`; otherwise, if it was measured, what was `kept` and the quality of each group.
-void print_result(Printing printing, const RepairTraining& result, const nlohmann::ordered_json& summary,
-                  const std::string& kept);
+/// Writes the files of a training; prints its summary with `--json`, otherwise `closing` where it was
+/// measured, and the quality of each group. Returns the exit code; if it ended early, this is reported on
+/// standard error.
+core::ExitCode conclude(const CommonArguments& arguments, const OutputFolder& folder,
+                        const TrainingResult& result, const Identity& identity, const std::string& closing);
 
-/// The exit code of a training. If it ended early, this is reported on standard error. `rounds` is the number
-/// of rounds that it ran, including one that diverged, and `round` what one is called.
-core::ExitCode exit_code_for(const OutputFolder& folder, Outcome outcome, std::size_t rounds, bool has_model,
-                             const char* round = "epoch");
-
-/// Parses the command line and trains. Returns the program's exit code. Throws core::Error.
-int parse_and_train(CLI::App& app, int argument_count, char** argument_values,
-                    const std::function<core::ExitCode()>& train);
-
-/// `clearway train graphsage`.
-inline constexpr const char* graphsage_word = "graphsage";
-int run_graphsage(int argument_count, char** argument_values);
-
-/// `clearway train gradient_boosting`.
-inline constexpr const char* gradient_boosting_word = "gradient_boosting";
-int run_gradient_boosting(int argument_count, char** argument_values);
+/// A net that can be trained.
+struct Net {
+    const char* name;     ///< The predictor that it drives.
+    const char* summary;  ///< A line for the list of nets, which is also the head of its help.
+    const char* data;     ///< What `clearway dataset SCENARIO --out DIR` needs beside to record its data.
+    const char* results;  ///< The files that it writes.
+    /// Declares its options and returns what trains it.
+    std::function<core::ExitCode()> (*configure)(CLI::App& app, CommonArguments& arguments);
+};
+/// The learned repairs, the recommended one first.
+std::span<const Net> repair_nets();
+/// What only compares, and what repeats the dissertation.
+std::span<const Net> comparison_nets();
 
 }  // namespace clearway::training

@@ -50,7 +50,7 @@ constexpr std::array all_verbs = {
          "clearway verify runs/reproduce/city/baseline/7", configure_verify},
     Verb{"dataset", "Record a data set for link prediction from a scenario",
          "clearway dataset city --out data/city", configure_dataset},
-    Verb{"train", "Train link prediction, as published or corrected",
+    Verb{"train", "Train the net of link prediction that is named",
          "clearway train graphsage --data data/graphsage --out trained/graphsage", configure_train},
     Verb{"links", "Evaluate link prediction: links evaluate",
          "clearway links evaluate --benchmark eval_v1 --quick", configure_links},

@@ -102,7 +102,12 @@ Section failures() {
 Section predictors() {
     Section section{"predictors", "Predictors (run --predictor NAME)", {}};
     for (const prediction::PredictorEntry& entry : prediction::predictors()) {
-        section.entries.push_back({entry.name, entry.summary, {{"summary", entry.summary}}});
+        const std::string role(core::name(entry.role));
+        const bool is_repair = entry.role == prediction::PredictorRole::repair;
+        section.entries.push_back(
+            {entry.name,
+             is_repair ? entry.summary : entry.summary + " (" + role + ")",
+             {{"summary", entry.summary}, {"role", role}, {"learned", entry.is_learned}}});
     }
     return section;
 }

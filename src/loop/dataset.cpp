@@ -10,7 +10,7 @@
 #include "core/temporary_folder.hpp"
 #include "loop/detail/plain_run.hpp"
 #include "loop/unit_run.hpp"
-#include "prediction/features.hpp"
+#include "prediction/comparison/features.hpp"
 #include "samples/recorders.hpp"
 #include "trace/listeners.hpp"
 

@@ -16,13 +16,6 @@ float distance_m(const std::vector<float>& x_m, const std::vector<float>& y_m, R
     return std::sqrt(across * across + along * along);
 }
 
-/// Row of a vehicle, or the number of rows.
-std::uint32_t row_of(const Tracks& tracks, core::VehicleKey key) {
-    const auto found = std::ranges::lower_bound(tracks.key, key);
-    return found != tracks.key.end() && *found == key ? static_cast<std::uint32_t>(found - tracks.key.begin())
-                                                      : static_cast<std::uint32_t>(tracks.size());
-}
-
 /// At most so many places of a vehicle count: last seen, dead-reckoned, of its twin.
 constexpr std::size_t most_graphs = 3;
 using Graphs = std::span<const graph::ProximityGraph* const>;
@@ -84,8 +77,8 @@ void SceneBuilder::collect_detected(const traffic::Observation& observation, Sce
     detections_.clear();
     const Tracks& tracks = scene.tracks;
     for (const traffic::DetectedLink& link : observation.detected_links) {
-        const std::uint32_t from = row_of(tracks, link.from);
-        const std::uint32_t to = row_of(tracks, link.to);
+        const std::uint32_t from = tracks.row_of(link.from);
+        const std::uint32_t to = tracks.row_of(link.to);
         if (from == tracks.size() || to == tracks.size() || from == to) continue;
         detections_.push_back({{std::min(from, to), std::max(from, to)}, link.range_m});
     }

@@ -7,7 +7,7 @@
 
 #include "core/spellings.hpp"
 #include "graph/proximity.hpp"
-#include "prediction/graphsage.hpp"
+#include "prediction/net_rows.hpp"
 #include "prediction/tracks.hpp"
 #include "prediction/twin_traffic.hpp"
 #include "traffic/observation.hpp"

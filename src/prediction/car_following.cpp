@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "prediction/detail/pairwise.hpp"
-#include "prediction/graphsage.hpp"
+#include "prediction/net_rows.hpp"
 #include "prediction/twin_traffic.hpp"
 
 namespace clearway::prediction {
@@ -43,17 +43,16 @@ class CarFollowing final : public PairwisePredictor {
                std::vector<float>& probabilities) override {
         const Tracks& tracks = scene.tracks;
         const auto within_m = static_cast<float>(rules().radius_m + config_.bias_m);
-        for (std::size_t at = 0; at < scene.candidates.size(); ++at) {
+        score_present(scene, beliefs, probabilities, [&](std::size_t at) {
             const auto [left, right] = scene.candidates.rows[at];
-            if (!beliefs[left].present || !beliefs[right].present) continue;
             const float distance_m = std::hypot(beliefs[left].state.x_m - beliefs[right].state.x_m,
                                                 beliefs[left].state.y_m - beliefs[right].state.y_m);
             const float sensors_m =
                 std::hypot(sensor_sigma_m_[left], sensor_sigma_m_[right]) / deviation_of_spread;
-            probabilities[at] = probability_from_logit(
+            return probability_from_logit(
                 twin_link_logit(within_m - distance_m, sensors_m,
                                 twin_spread_m(tracks.age_s[left], tracks.age_s[right], config_), config_));
-        }
+        });
     }
 
     CarFollowingConfig config_;

@@ -12,18 +12,6 @@ namespace {
 using detail::PairwisePredictor;
 using detail::RowBelief;
 
-/// P(d < radius) by the distances in `distances_m` and the sigmas of both ends.
-void score_by_distance(const Scene& scene, const std::vector<RowBelief>& beliefs,
-                       const std::vector<float>& distances_m, double radius_m,
-                       std::vector<float>& probabilities) {
-    for (std::size_t at = 0; at < scene.candidates.size(); ++at) {
-        const RowPair pair = scene.candidates.rows[at];
-        const float sigma_m = std::hypot(beliefs[pair.left].sigma_m, beliefs[pair.right].sigma_m);
-        if (!beliefs[pair.left].present || !beliefs[pair.right].present) continue;
-        probabilities[at] = probability_within(static_cast<float>(radius_m), distances_m[at], sigma_m);
-    }
-}
-
 class NoRepair final : public PairwisePredictor {
   public:
     using PairwisePredictor::PairwisePredictor;
@@ -40,12 +28,10 @@ class NoRepair final : public PairwisePredictor {
     /// Fresh reports with a stated error are candidates: linked by the measured distance as it stands.
     void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
                std::vector<float>& probabilities) override {
-        for (std::size_t at = 0; at < scene.candidates.size(); ++at) {
-            const RowPair pair = scene.candidates.rows[at];
-            if (!beliefs[pair.left].present || !beliefs[pair.right].present) continue;
-            probabilities[at] = probability_within(static_cast<float>(rules().radius_m),
-                                                   scene.candidates.last_seen_m[at], 0.0F);
-        }
+        score_present(scene, beliefs, probabilities, [&](std::size_t at) {
+            return probability_within(static_cast<float>(rules().radius_m), scene.candidates.last_seen_m[at],
+                                      0.0F);
+        });
     }
 };
 
@@ -61,7 +47,7 @@ class LastSeen final : public PairwisePredictor {
     }
     void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
                std::vector<float>& probabilities) override {
-        score_by_distance(scene, beliefs, scene.candidates.last_seen_m, rules().radius_m, probabilities);
+        score_by_distance(scene, beliefs, scene.candidates.last_seen_m, probabilities);
     }
 
     LastSeenConfig config_;
@@ -79,7 +65,7 @@ class DeadReckoning final : public PairwisePredictor {
     }
     void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
                std::vector<float>& probabilities) override {
-        score_by_distance(scene, beliefs, scene.candidates.dead_reckoned_m, rules().radius_m, probabilities);
+        score_by_distance(scene, beliefs, scene.candidates.dead_reckoned_m, probabilities);
     }
 
     DeadReckoningConfig config_;
@@ -104,19 +90,6 @@ void believe_dead_reckoned(const Tracks& tracks, std::vector<RowBelief>& beliefs
         beliefs[row] = {tracks.state[row],
                         dead_reckoned_sigma_m(tracks.sensor_sigma_m[row], tracks.age_s[row], config),
                         !tracks.has_left(row)};
-    }
-}
-
-void score_by_place(const PairList& candidates, const std::vector<RowBelief>& beliefs, double radius_m,
-                    std::vector<float>& probabilities) {
-    for (std::size_t at = 0; at < candidates.size(); ++at) {
-        const RowBelief& left = beliefs[candidates.rows[at].left];
-        const RowBelief& right = beliefs[candidates.rows[at].right];
-        if (!left.present || !right.present) continue;
-        const float distance_m =
-            std::hypot(left.state.x_m - right.state.x_m, left.state.y_m - right.state.y_m);
-        probabilities[at] = probability_within(static_cast<float>(radius_m), distance_m,
-                                               std::hypot(left.sigma_m, right.sigma_m));
     }
 }
 

@@ -1,16 +1,17 @@
 #include "prediction/learned.hpp"
 
-#include <string>
+#include <array>
+#include <cmath>
 #include <string_view>
-#include <utility>
+#include <vector>
 
-#include "prediction/convolution_net.hpp"
+#include "prediction/boosted_trees.hpp"
+#include "prediction/car_following.hpp"
 #include "prediction/detail/pairwise.hpp"
-#include "prediction/features.hpp"
-#include "prediction/graphsage.hpp"
-#include "prediction/kinematic.hpp"
+#include "prediction/repair_net.hpp"
+#include "prediction/route_rule.hpp"
 #include "prediction/shipped_models.hpp"
-#include "prediction/weights.hpp"
+#include "prediction/tree_inputs.hpp"
 
 namespace clearway::prediction {
 namespace {
@@ -18,119 +19,119 @@ namespace {
 using detail::PairwisePredictor;
 using detail::RowBelief;
 
-/// The published schema that a model file names; otherwise the net's constructor explains the mismatch.
-FeatureSchema published_schema_of(const Weights& weights) {
-    const FeatureSchema attributes = as_published_attributes_schema();
-    return weights.features.name == attributes.name ? attributes : as_published_position_schema();
+constexpr const char* net_name = "graphsage";
+constexpr const char* trees_name = "gradient_boosting";
+
+/// Whether a vehicle is past the end of its route where exits are not known: its twin, or the rule where it
+/// has none.
+bool has_left(const Scene& scene, const MotionContext& ahead) {
+    if (!ahead.drives) return ahead.has_left;
+    return !scene.tracks.exits_known && scene.twins->at_end(ahead.row);
 }
 
-class GraphSageAsPublished final : public PairwisePredictor {
+/// Standard deviation of the place of a twin, or of the route rule's where there is none.
+float believed_sigma_m(const Tracks& tracks, const MotionContext& ahead) {
+    const float age_s = tracks.age_s[ahead.row];
+    if (!ahead.drives) return route_rule_sigma_m(ahead.sigma_m, age_s, RouteRuleConfig{});
+    return std::hypot(ahead.sigma_m, deviation_of_spread * twin_spread_m(age_s, 0.0F, CarFollowingConfig{}));
+}
+
+class LearnedPredictor : public PairwisePredictor {
   public:
-    GraphSageAsPublished(const PredictorContext& context, const Weights& weights)
-        : PairwisePredictor(context), schema_(published_schema_of(weights)), net_(weights, schema_) {}
-    std::string_view name() const override { return "graphsage_as_published"; }
+    explicit LearnedPredictor(const PredictorContext& context)
+        : PairwisePredictor(context, Needs::twins), builder_(context.network, context.rules) {}
+
+  protected:
+    const RepairInputs& inputs() const { return inputs_; }
 
   private:
-    void score(const Scene& scene, const std::vector<RowBelief>&,
-               std::vector<float>& probabilities) override {
-        if (scene.candidates.size() == 0) return;
-        as_published_features(scene.tracks, schema_, network(), features_);
-        sources_.clear();
-        targets_.clear();
-        for (const RowPair pair : scene.candidates.rows) {
-            sources_.push_back(pair.left);
-            targets_.push_back(pair.right);
-        }
-        message_graph_from(sources_, targets_, scene.tracks.size(), messages_);
-        net_.logits(features_, messages_, scene.candidates.rows, logits_);
-        for (std::size_t at = 0; at < probabilities.size(); ++at) {
-            probabilities[at] = probability_from_logit(logits_[at]);
-        }
+    /// Called once a scene that has vehicles which are not known.
+    virtual void run() {}
+    /// Where entry `at` of the vehicles that are not known is believed to be; whether it has left is not
+    /// asked.
+    virtual Moved moved(const Tracks& tracks, const MotionContext& ahead, std::size_t at) const = 0;
+
+    void believe(const Scene& scene, std::vector<RowBelief>& beliefs) final {
+        builder_.build(observation(), scene, inputs_);
+        if (!builder_.ahead().empty()) run();
+        std::size_t at = 0;
+        believe_ahead(scene.tracks, builder_.ahead(), beliefs, [&](const MotionContext& ahead) {
+            Moved to = moved(scene.tracks, ahead, at++);
+            to.has_left = has_left(scene, ahead);
+            return to;
+        });
     }
 
-    FeatureSchema schema_;
-    GraphSageNet net_;
-    MessageGraph messages_;
-    std::vector<std::uint32_t> sources_, targets_;
-    std::vector<float> features_, logits_;
+    RepairInputBuilder builder_;
+    RepairInputs inputs_;
 };
 
-/// A net on the corrected features whose messages take observed links.
-template <class Net>
-class CorrectedNet final : public PairwisePredictor {
+class GraphSage final : public LearnedPredictor {
   public:
-    CorrectedNet(const PredictorContext& context, std::string_view name, Net net)
-        : PairwisePredictor(context), name_(name), net_(std::move(net)) {}
-    std::string_view name() const override { return name_; }
+    GraphSage(const PredictorContext& context, const Weights& weights)
+        : LearnedPredictor(context), net_(weights) {}
+    std::string_view name() const override { return net_name; }
 
   private:
-    void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
-        detail::believe_dead_reckoned(scene.tracks, beliefs);
+    void run() override { net_.run(inputs(), logits_, motions_); }
+
+    Moved moved(const Tracks&, const MotionContext&, std::size_t at) const override {
+        // The standard deviation of a Laplace density is this times its mean absolute error.
+        constexpr float root_two = 1.41421356F;
+        return {motions_[at].displacement_m, root_two * motions_[at].sigma_m};
     }
+
     void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
                std::vector<float>& probabilities) override {
-        if (scene.candidates.size() == 0) return;
-        corrected_features(scene.tracks, features_);
-        observed_messages_.build(scene, rules(), messages_);
-        net_.logits(features_, messages_, scene.candidates.rows, logits_);
-        for (std::size_t at = 0; at < probabilities.size(); ++at) {
-            const RowPair pair = scene.candidates.rows[at];
-            const bool in_reach = scene.candidates.dead_reckoned_m[at] < corrected_reach_m;
-            const bool present = beliefs[pair.left].present && beliefs[pair.right].present;
-            probabilities[at] = in_reach && present ? probability_from_logit(logits_[at]) : 0.0F;
-        }
+        score_present(scene, beliefs, probabilities,
+                      [&](std::size_t at) { return probability_from_logit(logits_[at]); });
     }
 
-    std::string_view name_;
-    Net net_;
-    ObservedMessages observed_messages_;
-    MessageGraph messages_;
-    std::vector<float> features_, logits_;
+    RepairNet net_;
+    std::vector<float> logits_;
+    std::vector<BelievedMotion> motions_;
 };
 
-template <class Net>
-std::unique_ptr<Predictor> corrected(const PredictorContext& context, std::string_view name, Net net) {
-    return std::make_unique<CorrectedNet<Net>>(context, name, std::move(net));
-}
+class GradientBoosting final : public LearnedPredictor {
+  public:
+    GradientBoosting(const PredictorContext& context, const Weights& weights)
+        : LearnedPredictor(context), trees_(weights, tree_schema()) {}
+    std::string_view name() const override { return trees_name; }
 
-ConvolutionNet convolution_net(GraphConvolution convolution, const Weights& weights) {
-    return {convolution, weights, corrected_schema()};
-}
+  private:
+    Moved moved(const Tracks& tracks, const MotionContext& ahead, std::size_t) const override {
+        return {ahead.believed_m(), believed_sigma_m(tracks, ahead)};
+    }
+
+    void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
+               std::vector<float>& probabilities) override {
+        score_present(scene, beliefs, probabilities, [&](std::size_t at) {
+            write_tree_inputs(inputs(), at, row_);
+            return probability_from_logit(trees_.sum(row_));
+        });
+    }
+
+    BoostedTrees trees_;
+    std::array<float, tree_width> row_{};
+};
 
 }  // namespace
 
-std::unique_ptr<Predictor> make_graphsage_as_published(const PredictorContext& context) {
-    return std::make_unique<GraphSageAsPublished>(
-        context, model_of("graphsage_as_published", context.model_file, context.rules.radius_m));
+std::unique_ptr<Predictor> make_graphsage(const PredictorContext& context) {
+    return std::make_unique<GraphSage>(context,
+                                       model_of(net_name, context.model_file, context.rules.radius_m));
 }
-void check_graphsage_as_published(const Weights& weights) {
-    const GraphSageNet net(weights, published_schema_of(weights));
-}
-std::unique_ptr<Predictor> make_graphsage_corrected(const PredictorContext& context) {
-    constexpr const char* name = "graphsage_corrected";
-    return corrected(
-        context, name,
-        GraphSageNet(model_of(name, context.model_file, context.rules.radius_m), corrected_schema()));
-}
-void check_graphsage_corrected(const Weights& weights) {
-    const GraphSageNet net(weights, corrected_schema());
+void check_graphsage(const Weights& weights) {
+    const RepairNet net(weights);
 }
 
-std::unique_ptr<Predictor> make_gcn(const PredictorContext& context) {
-    return corrected(
-        context, "gcn",
-        convolution_net(GraphConvolution::gcn, model_of("gcn", context.model_file, context.rules.radius_m)));
+std::unique_ptr<Predictor> make_gradient_boosting(const PredictorContext& context) {
+    return std::make_unique<GradientBoosting>(
+        context, model_of(trees_name, context.model_file, context.rules.radius_m));
 }
-void check_gcn(const Weights& weights) {
-    convolution_net(GraphConvolution::gcn, weights);
-}
-std::unique_ptr<Predictor> make_gat(const PredictorContext& context) {
-    return corrected(
-        context, "gat",
-        convolution_net(GraphConvolution::gat, model_of("gat", context.model_file, context.rules.radius_m)));
-}
-void check_gat(const Weights& weights) {
-    convolution_net(GraphConvolution::gat, weights);
+void check_gradient_boosting(const Weights& weights) {
+    const BoostedTrees trees(weights, tree_schema());
+    weights.require_inputs(tree_input_names());
 }
 
 }  // namespace clearway::prediction

@@ -2,88 +2,38 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "prediction/convolution_net.hpp"
-#include "prediction/features.hpp"
-#include "prediction/graphsage.hpp"
+#include "prediction/comparison/dissertation_net.hpp"
+#include "prediction/comparison/features.hpp"
 #include "prediction/state_dict.hpp"
 
 namespace clearway::prediction {
 namespace {
 
-constexpr ParameterName graphsage_names[] = {{"conv1.lin_l.weight", "graphsage.conv1.lin_l.weight"},
-                                             {"conv1.lin_l.bias", "graphsage.conv1.lin_l.bias"},
-                                             {"conv1.lin_r.weight", "graphsage.conv1.lin_r.weight"},
-                                             {"conv2.lin_l.weight", "graphsage.conv2.lin_l.weight"},
-                                             {"conv2.lin_l.bias", "graphsage.conv2.lin_l.bias"},
-                                             {"conv2.lin_r.weight", "graphsage.conv2.lin_r.weight"},
-                                             {"fc1.weight", "nn.fc1.weight"},
-                                             {"fc1.bias", "nn.fc1.bias"},
-                                             {"fc2.weight", "nn.fc2.weight"},
-                                             {"fc2.bias", "nn.fc2.bias"}};
-constexpr ParameterName gcn_names[] = {{"conv1.lin.weight", "gcn.conv1.lin.weight"},
-                                       {"conv1.bias", "gcn.conv1.bias"},
-                                       {"conv2.lin.weight", "gcn.conv2.lin.weight"},
-                                       {"conv2.bias", "gcn.conv2.bias"},
-                                       {"fc1.weight", "nn.fc1.weight"},
-                                       {"fc1.bias", "nn.fc1.bias"},
-                                       {"fc2.weight", "nn.fc2.weight"},
-                                       {"fc2.bias", "nn.fc2.bias"}};
-constexpr ParameterName gat_names[] = {{"conv1.lin.weight", "gat.conv1.lin.weight"},
-                                       {"conv1.att_src", "gat.conv1.att_src"},
-                                       {"conv1.att_dst", "gat.conv1.att_dst"},
-                                       {"conv1.bias", "gat.conv1.bias"},
-                                       {"conv2.lin.weight", "gat.conv2.lin.weight"},
-                                       {"conv2.att_src", "gat.conv2.att_src"},
-                                       {"conv2.att_dst", "gat.conv2.att_dst"},
-                                       {"conv2.bias", "gat.conv2.bias"},
-                                       {"fc1.weight", "nn.fc1.weight"},
-                                       {"fc1.bias", "nn.fc1.bias"},
-                                       {"fc2.weight", "nn.fc2.weight"},
-                                       {"fc2.bias", "nn.fc2.bias"}};
-
-/// What a state dict is taken for. The first name is that of the matrix {hidden, inputs}.
+/// What a state dict is taken for.
 struct StateDictKind {
     std::string_view predictor;
     std::string_view net;
-    const char* architecture = nullptr;
-    std::span<const ParameterName> names;
-    std::string_view second;  ///< Name of the matrix {output, hidden}.
+    Convolution convolution = Convolution::sage;
     std::vector<FeatureSchema> features;
 };
 
 const std::vector<StateDictKind>& state_dict_kinds() {
+    constexpr const char* published = "the dissertation's GraphSAGENet";
     static const std::vector<StateDictKind> kinds = {
         {"graphsage_as_published",
-         "the dissertation's GraphSAGENet",
-         GraphSageNet::architecture,
-         graphsage_names,
-         "graphsage.conv2.lin_l.weight",
+         published,
+         Convolution::sage,
          {as_published_position_schema(), as_published_attributes_schema()}},
-        {"graphsage_corrected",
-         "the dissertation's GraphSAGENet",
-         GraphSageNet::architecture,
-         graphsage_names,
-         "graphsage.conv2.lin_l.weight",
-         {corrected_schema()}},
-        {"gcn",
-         "GraphSAGENet with GCNConv",
-         ConvolutionNet::architecture(GraphConvolution::gcn),
-         gcn_names,
-         "gcn.conv2.lin.weight",
-         {corrected_schema()}},
-        {"gat",
-         "GraphSAGENet with GATConv of one head",
-         ConvolutionNet::architecture(GraphConvolution::gat),
-         gat_names,
-         "gat.conv2.lin.weight",
-         {corrected_schema()}}};
+        {"graphsage_corrected", published, Convolution::sage, {corrected_schema()}},
+        {"gcn", "GraphSAGENet with GCNConv", Convolution::gcn, {corrected_schema()}},
+        {"gat", "GraphSAGENet with GATConv of one head", Convolution::gat, {corrected_schema()}}};
     return kinds;
 }
 
@@ -113,15 +63,16 @@ Weights weights_from_pth(const std::string& predictor, std::string_view bytes, c
                                 fmt::format("a .weights file of clearway train; files of torch.save for {}",
                                             fmt::join(pth_predictors(), ", ")),
                                 "Choose the predictor that the net is for"});
-    Weights weights;
+    const std::vector<std::string> names = parameter_names(kind->convolution);
+    std::vector<Tensor> tensors =
+        renamed_parameters(parse_pth(bytes, source), names, std::string(kind->net), source);
+    // The matrices {hidden, inputs} and {output, hidden} of both convolutions, before the four of the
+    // decoder.
+    const std::vector<std::uint32_t> first = matrix(tensors, names.front(), source).shape;
+    const std::vector<std::uint32_t> second = matrix(tensors, names[(names.size() - 4) / 2], source).shape;
+    Weights weights = net_weights(kind->convolution, features_of(*kind, first[1], source),
+                                  {first[1], first[0], second[0]}, std::move(tensors));
     weights.source = source;
-    weights.tensors =
-        renamed_parameters(parse_pth(bytes, source), kind->names, std::string(kind->net), source);
-    const std::vector<std::uint32_t>& first = matrix(weights.tensors, kind->names.front().name, source).shape;
-    const std::vector<std::uint32_t>& second = matrix(weights.tensors, kind->second, source).shape;
-    weights.architecture = kind->architecture;
-    weights.features = features_of(*kind, first[1], source);
-    weights.dimensions = {{"input", first[1]}, {"hidden", first[0]}, {"output", second[0]}};
     weights.notes = {"read from a file of torch.save"};
     return weights;
 }

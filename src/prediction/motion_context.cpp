@@ -112,12 +112,6 @@ void MotionContextBuilder::build(const traffic::Observation& observation, const 
     places_before_sorted_ = false;
 }
 
-std::uint32_t MotionContextBuilder::row_of(const Tracks& tracks, core::VehicleKey key) const {
-    const auto found = std::ranges::lower_bound(tracks.key, key);
-    return found != tracks.key.end() && *found == key ? static_cast<std::uint32_t>(found - tracks.key.begin())
-                                                      : static_cast<std::uint32_t>(tracks.size());
-}
-
 /// Both lists are ordered by key.
 void MotionContextBuilder::remember(const traffic::Observation& observation, const Tracks& tracks) {
     std::swap(memories_, old_memories_);
@@ -368,7 +362,7 @@ VehicleOnWay MotionContextBuilder::on_way(const Tracks& tracks, const std::vecto
                                           core::VehicleKey key,
                                           std::span<const roads::RouteStep> steps) const {
     if (key.value == 0) return {};
-    const std::uint32_t row = row_of(tracks, key);
+    const std::uint32_t row = tracks.row_of(key);
     if (row == tracks.size() || !place_of_row_[row].lane.exists()) return {};
     const std::uint32_t entry = ahead_of_row_[row];
     if (entry < ahead.size() && ahead[entry].has_left) return {};

@@ -164,7 +164,6 @@ class MotionContextBuilder {
     void measure_lane_speeds(const Tracks& tracks);
     VehicleOnWay on_way(const Tracks& tracks, const std::vector<MotionContext>& ahead, core::VehicleKey key,
                         std::span<const roads::RouteStep> steps) const;
-    std::uint32_t row_of(const Tracks& tracks, core::VehicleKey key) const;
 
     const roads::Network& network_;
     graph::LinkRules rules_;

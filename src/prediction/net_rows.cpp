@@ -1,6 +1,7 @@
 #include "prediction/net_rows.hpp"
 
 #include <cassert>
+#include <cmath>
 
 namespace clearway::prediction {
 
@@ -24,6 +25,10 @@ void message_graph_from(std::span<const std::uint32_t> sources, std::span<const 
         graph.first[row] = graph.first[row - 1];
     }
     graph.first[0] = 0;
+}
+
+float probability_from_logit(float logit) {
+    return 1.0F / (1.0F + std::exp(-logit));
 }
 
 Kernel best_kernel() {

@@ -29,6 +29,9 @@ struct RowPair {
     auto operator<=>(const RowPair&) const = default;
 };
 
+/// The logistic function: the probability for a logit.
+float probability_from_logit(float logit);
+
 /// Which machine code runs. Both give the same bits: they add in one order and round after every operation.
 enum class Kernel { scalar, avx2 };
 /// The fastest that this processor has.

@@ -44,7 +44,7 @@ class HeadingReckoning final : public PairwisePredictor {
     }
     void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
                std::vector<float>& probabilities) override {
-        detail::score_by_place(scene.candidates, beliefs, rules().radius_m, probabilities);
+        score_by_place(scene, beliefs, probabilities);
     }
 
     DeadReckoningConfig config_;
@@ -126,18 +126,16 @@ class Kalman final : public PairwisePredictor {
 
     void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
                std::vector<float>& probabilities) override {
-        for (std::size_t at = 0; at < scene.candidates.size(); ++at) {
+        score_present(scene, beliefs, probabilities, [&](std::size_t at) {
             const RowPair pair = scene.candidates.rows[at];
-            if (!beliefs[pair.left].present || !beliefs[pair.right].present) continue;
             const MotionFilter& left = now_[pair.left].motion;
             const MotionFilter& right = now_[pair.right].motion;
-            probabilities[at] =
-                probability_in_disc(static_cast<float>(rules().radius_m),
-                                    {right.mean[0] - left.mean[0], right.mean[1] - left.mean[1],
-                                     left.covariance[0][0] + right.covariance[0][0],
-                                     left.covariance[0][1] + right.covariance[0][1],
-                                     left.covariance[1][1] + right.covariance[1][1]});
-        }
+            return probability_in_disc(static_cast<float>(rules().radius_m),
+                                       {right.mean[0] - left.mean[0], right.mean[1] - left.mean[1],
+                                        left.covariance[0][0] + right.covariance[0][0],
+                                        left.covariance[0][1] + right.covariance[0][1],
+                                        left.covariance[1][1] + right.covariance[1][1]});
+        });
     }
 
     FilterNoise noise_;

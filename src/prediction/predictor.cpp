@@ -8,11 +8,11 @@
 
 #include "core/settings.hpp"
 #include "prediction/car_following.hpp"
-#include "prediction/common_neighbours.hpp"
-#include "prediction/gradient_boosting.hpp"
+#include "prediction/comparison/common_neighbours.hpp"
+#include "prediction/comparison/logistic.hpp"
+#include "prediction/comparison/published_nets.hpp"
 #include "prediction/kinematic.hpp"
 #include "prediction/learned.hpp"
-#include "prediction/logistic.hpp"
 #include "prediction/model_file.hpp"
 #include "prediction/oracle.hpp"
 #include "prediction/planar.hpp"
@@ -28,6 +28,7 @@ struct Registration {
     const char* name = nullptr;
     const char* title = nullptr;
     const char* summary = nullptr;
+    PredictorRole role = PredictorRole::repair;
     core::SettingsTable (*table)() = nullptr;
     std::unique_ptr<Predictor> (*make)(PredictorContext, const core::Settings&) = nullptr;
     void (*check_model)(const Weights&) = nullptr;  ///< Of learned predictors.
@@ -40,10 +41,11 @@ struct NoSettings {
 /// A predictor whose own settings are a `Config`.
 template <auto make, class Config = NoSettings>
 constexpr Registration registered(const char* name, const char* title, const char* summary,
-                                  void (*check_model)(const Weights&) = nullptr) {
+                                  PredictorRole role, void (*check_model)(const Weights&) = nullptr) {
     return {name,
             title,
             summary,
+            role,
             core::settings_table<PredictionConfig, Config>,
             [](PredictorContext context, const core::Settings& settings) {
                 Config own;
@@ -58,49 +60,57 @@ constexpr Registration registered(const char* name, const char* title, const cha
 }
 
 constexpr Registration registry[] = {
-    registered<make_no_repair>("none", "no repair", "no repair: only vehicles whose newest report arrived"),
-    registered<make_last_seen, LastSeenConfig>("last_seen", "last seen",
-                                               "vehicles stay where they were last seen"),
+    registered<make_no_repair>("none", "no repair", "no repair: only vehicles whose newest report arrived",
+                               PredictorRole::repair),
+    registered<make_last_seen, LastSeenConfig>(
+        "last_seen", "last seen", "vehicles stay where they were last seen", PredictorRole::repair),
     registered<make_dead_reckoning, DeadReckoningConfig>(
-        "dead_reckoning", "dead reckoning", "vehicles go on at their reported speed along their route"),
+        "dead_reckoning", "dead reckoning", "vehicles go on at their reported speed along their route",
+        PredictorRole::repair),
     registered<make_dead_reckoning_heading, DeadReckoningConfig>(
-        "dead_reckoning_heading", "dead reckoning by heading",
-        "vehicles go straight on by heading and speed"),
+        "dead_reckoning_heading", "dead reckoning by heading", "vehicles go straight on by heading and speed",
+        PredictorRole::repair),
     registered<make_kalman, KalmanConfig>(
         "kalman", "Kalman filter",
-        "a constant-velocity Kalman filter per vehicle, P(d < r) from both covariances"),
+        "a constant-velocity Kalman filter per vehicle, P(d < r) from both covariances",
+        PredictorRole::repair),
     registered<make_route_rule, RouteRuleConfig>(
         "route_rule", "route rule",
-        "dead reckoning held by red lights and leaders, drawn to where surviving links can be"),
+        "dead reckoning held by red lights and leaders, drawn to where surviving links can be",
+        PredictorRole::repair),
     registered<make_car_following, CarFollowingConfig>(
         "car_following", "car-following twin",
-        "vehicles drive on by the Intelligent Driver Model: behind leaders, before red, along their route"),
+        "vehicles drive on by the Intelligent Driver Model: behind leaders, before red, along their route",
+        PredictorRole::repair),
     registered<make_common_neighbours, CommonNeighboursConfig>(
-        "common_neighbours", "common neighbours", "links by the number of vehicles near both when last seen"),
+        "common_neighbours", "common neighbours", "links by the number of vehicles near both when last seen",
+        PredictorRole::comparison),
     registered<make_logistic>("logistic", "logistic regression",
-                              "logistic regression on distances, ages and speeds of a pair", check_logistic),
+                              "logistic regression on distances, ages and speeds of a pair",
+                              PredictorRole::comparison, check_logistic),
     registered<make_gradient_boosting>(
         "gradient_boosting", "gradient boosting",
         "boosted trees on what graphsage is given of a pair, of both ends and, summed, of their neighbours",
-        check_gradient_boosting),
+        PredictorRole::repair, check_gradient_boosting),
     registered<make_graphsage_as_published>("graphsage_as_published", "GraphSAGE, as published",
                                             "the dissertation's net on raw coordinates",
-                                            check_graphsage_as_published),
+                                            PredictorRole::dissertation, check_graphsage_as_published),
     registered<make_graphsage_corrected>("graphsage_corrected", "GraphSAGE, corrected inputs",
                                          "the same architecture on inputs that carry distance and age",
-                                         check_graphsage_corrected),
+                                         PredictorRole::comparison, check_graphsage_corrected),
     registered<make_gcn>("gcn", "GCN, corrected inputs",
                          "the corrected net with graph convolutions (Kipf and Welling) for GraphSAGE's",
-                         check_gcn),
+                         PredictorRole::comparison, check_gcn),
     registered<make_gat>("gat", "GAT, corrected inputs",
                          "the corrected net with graph attention (Velickovic et al.) for GraphSAGE's",
-                         check_gat),
+                         PredictorRole::comparison, check_gat),
     registered<make_graphsage>("graphsage", "GraphSAGE, improved",
                                "the improved net: messages in route frames, motion head, calibrated links",
-                               check_graphsage),
+                               PredictorRole::repair, check_graphsage),
     registered<make_oracle, OracleConfig>(
         oracle_name, "oracle, which knows the truth",
-        "knows the truth, spoiled by settings: the ceiling of every repair, and none itself"),
+        "knows the truth, spoiled by settings: the ceiling of every repair, and none itself",
+        PredictorRole::ceiling),
 };
 
 const Registration& registration_of(const std::string& name) {
@@ -119,7 +129,8 @@ const Registration& registration_of(const std::string& name) {
 std::vector<PredictorEntry> predictors() {
     std::vector<PredictorEntry> entries;
     for (const Registration& registration : registry) {
-        entries.push_back({registration.name, registration.title, registration.summary});
+        entries.push_back({registration.name, registration.title, registration.summary, registration.role,
+                           registration.check_model != nullptr});
     }
     return entries;
 }
@@ -138,7 +149,9 @@ std::string title_of(const std::string& name) {
 }
 
 bool knows_truth(const std::string& name) {
-    return name == oracle_name;
+    return std::ranges::any_of(registry, [&](const Registration& registration) {
+        return name == registration.name && registration.role == PredictorRole::ceiling;
+    });
 }
 
 std::vector<std::string> learned_predictor_names() {

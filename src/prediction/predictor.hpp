@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/settings.hpp"
+#include "core/spellings.hpp"
 #include "graph/proximity.hpp"
 #include "prediction/candidates.hpp"
 #include "roads/network.hpp"
@@ -73,11 +75,27 @@ struct PredictorContext {
     core::KeyedRandom random{core::StudySeed{}, core::Replication{}};
 };
 
+/// What a predictor is for.
+enum class PredictorRole : std::uint8_t {
+    repair,        ///< To be used, with or without learning.
+    comparison,    ///< Only compares (prediction/comparison/).
+    dissertation,  ///< Repeats the dissertation.
+    ceiling,       ///< Is given the truth instead of reports: no repair, but a ceiling for them (oracle.hpp).
+};
+constexpr core::Spellings<PredictorRole, 4> spellings(PredictorRole) {
+    return {{{PredictorRole::repair, "repair"},
+             {PredictorRole::comparison, "comparison"},
+             {PredictorRole::dissertation, "dissertation"},
+             {PredictorRole::ceiling, "ceiling"}}};
+}
+
 /// A predictor that can be asked for by name.
 struct PredictorEntry {
     std::string name;
     std::string title;    ///< What tables call it, as in mid-sentence: `GraphSAGE, corrected inputs`.
     std::string summary;  ///< A line for listings.
+    PredictorRole role = PredictorRole::repair;
+    bool is_learned = false;  ///< It takes a model.
 };
 /// In the order of the documentation.
 std::vector<PredictorEntry> predictors();
@@ -86,8 +104,7 @@ std::vector<std::string> predictor_names();
 /// The title of the predictor `name`; throws core::InputError for an unknown name.
 std::string title_of(const std::string& name);
 
-/// Whether the predictor `name` is given the truth instead of reports: no repair, but a ceiling for them
-/// (oracle.hpp). False for unknown names.
+/// Whether the predictor `name` is a ceiling. False for unknown names.
 bool knows_truth(const std::string& name);
 
 /// Names of those that take a model.

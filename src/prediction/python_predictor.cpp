@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -13,33 +15,7 @@ namespace {
 
 using python::Sheet;
 
-namespace column {
-enum Number : std::size_t {
-    time,
-    key,
-    vehicle_class,
-    age,
-    known,
-    sensor_sigma,
-    x,
-    y,
-    heading,
-    speed,
-    lane,
-    lane_position,
-    last_x,
-    last_y,
-    link_left,
-    link_right,
-    pair_left,
-    pair_right,
-    pair_last_seen,
-    pair_dead_reckoned,
-    count,
-};
-}  // namespace column
-
-constexpr std::array<python::Column, column::count> columns = {{
+constexpr std::array columns = std::to_array<python::Column>({
     {"time_s", "f8", "s", "Simulation time of the observation"},
     {"key", "u8", "", "Identity of each observed vehicle during the run; rows are ordered by it"},
     {"vehicle_class", "u1", "", "0 human, 1 automated, 2 emergency"},
@@ -60,11 +36,19 @@ constexpr std::array<python::Column, column::count> columns = {{
     {"pair_right", "u4", "", "Row of the other end"},
     {"pair_last_seen_m", "f4", "m", "Distance of the places last reported"},
     {"pair_dead_reckoned_m", "f4", "m", "Distance of the dead-reckoned places"},
-}};
+});
 
 constexpr std::array<python::Column, 1> answer_columns = {{
     {"probability", "f4", "1", "That a candidate is nearer than the link radius, 0 to 1"},
 }};
+
+/// Place of a column, at compile time: a name that the table lacks does not compile.
+consteval std::size_t column(std::string_view name) {
+    for (std::size_t at = 0; at < columns.size(); ++at) {
+        if (columns[at].name == name) return at;
+    }
+    throw std::logic_error("no column of this name");
+}
 
 template <class Value, class Rows, class Member>
 void fill(Sheet& sheet, std::size_t number, const Rows& rows, const Member& member) {
@@ -73,22 +57,23 @@ void fill(Sheet& sheet, std::size_t number, const Rows& rows, const Member& memb
 
 void write_tracks(const Tracks& tracks, Sheet& sheet) {
     using State = traffic::MotionState;
-    fill<std::uint64_t>(sheet, column::key, tracks.key, [](core::VehicleKey key) { return key.value; });
-    fill<std::uint8_t>(sheet, column::vehicle_class, tracks.vehicle_class,
+    fill<std::uint64_t>(sheet, column("key"), tracks.key, [](core::VehicleKey key) { return key.value; });
+    fill<std::uint8_t>(sheet, column("vehicle_class"), tracks.vehicle_class,
                        [](traffic::VehicleClass one) { return static_cast<std::uint8_t>(one); });
-    sheet.put(column::age, tracks.age_s);
-    sheet.put(column::known, tracks.known);
-    sheet.put(column::sensor_sigma, tracks.sensor_sigma_m);
-    sheet.put(column::x, tracks.x_m);
-    sheet.put(column::y, tracks.y_m);
-    fill<float>(sheet, column::heading, tracks.state, [](const State& state) { return state.heading_rad; });
-    fill<float>(sheet, column::speed, tracks.state, [](const State& state) { return state.speed_mps; });
-    fill<std::uint32_t>(sheet, column::lane, tracks.state,
+    sheet.put(column("age_s"), tracks.age_s);
+    sheet.put(column("known"), tracks.known);
+    sheet.put(column("sensor_sigma_m"), tracks.sensor_sigma_m);
+    sheet.put(column("x_m"), tracks.x_m);
+    sheet.put(column("y_m"), tracks.y_m);
+    fill<float>(sheet, column("heading_rad"), tracks.state,
+                [](const State& state) { return state.heading_rad; });
+    fill<float>(sheet, column("speed_mps"), tracks.state, [](const State& state) { return state.speed_mps; });
+    fill<std::uint32_t>(sheet, column("lane"), tracks.state,
                         [](const State& state) { return state.lane.value; });
-    fill<float>(sheet, column::lane_position, tracks.state,
+    fill<float>(sheet, column("lane_position_m"), tracks.state,
                 [](const State& state) { return state.lane_position_m; });
-    sheet.put(column::last_x, tracks.last_x_m);
-    sheet.put(column::last_y, tracks.last_y_m);
+    sheet.put(column("last_x_m"), tracks.last_x_m);
+    sheet.put(column("last_y_m"), tracks.last_y_m);
 }
 
 class PythonPredictor final : public detail::PairwisePredictor {
@@ -126,18 +111,18 @@ class PythonPredictor final : public detail::PairwisePredictor {
     void write(const Scene& scene) {
         Sheet& sheet = process_.question();
         sheet.clear();
-        sheet.room<double>(column::time, 1)[0] = scene.tracks.time_s;
+        sheet.room<double>(column("time_s"), 1)[0] = scene.tracks.time_s;
         write_tracks(scene.tracks, sheet);
         std::vector<RowPair> links = scene.known.rows;
         links.insert(links.end(), scene.detected.rows.begin(), scene.detected.rows.end());
         const auto left = [](RowPair pair) { return pair.left; };
         const auto right = [](RowPair pair) { return pair.right; };
-        fill<std::uint32_t>(sheet, column::link_left, links, left);
-        fill<std::uint32_t>(sheet, column::link_right, links, right);
-        fill<std::uint32_t>(sheet, column::pair_left, scene.candidates.rows, left);
-        fill<std::uint32_t>(sheet, column::pair_right, scene.candidates.rows, right);
-        sheet.put(column::pair_last_seen, scene.candidates.last_seen_m);
-        sheet.put(column::pair_dead_reckoned, scene.candidates.dead_reckoned_m);
+        fill<std::uint32_t>(sheet, column("link_left"), links, left);
+        fill<std::uint32_t>(sheet, column("link_right"), links, right);
+        fill<std::uint32_t>(sheet, column("pair_left"), scene.candidates.rows, left);
+        fill<std::uint32_t>(sheet, column("pair_right"), scene.candidates.rows, right);
+        sheet.put(column("pair_last_seen_m"), scene.candidates.last_seen_m);
+        sheet.put(column("pair_dead_reckoned_m"), scene.candidates.dead_reckoned_m);
     }
 
     std::string name_;

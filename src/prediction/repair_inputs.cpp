@@ -41,6 +41,16 @@ constexpr VehicleInputs follower_inputs = {node_input("follower"), node_input("f
                                            node_input("follower_distance"), node_input("follower_gap"),
                                            node_input("follower_speed")};
 
+/// Indices of the inputs about a vehicle before or behind the twin.
+struct TwinInputs {
+    std::size_t exists, age, gap, speed;
+};
+constexpr TwinInputs twin_leader_inputs = {node_input("twin_leader"), node_input("twin_leader_age"),
+                                           node_input("twin_leader_gap"), node_input("twin_leader_speed")};
+constexpr TwinInputs twin_follower_inputs = {node_input("twin_follower"), node_input("twin_follower_age"),
+                                             node_input("twin_follower_gap"),
+                                             node_input("twin_follower_speed")};
+
 void write_vehicle(const VehicleOnWay& vehicle, float displacement_m, const VehicleInputs& inputs,
                    NetInputRow& row) {
     if (!vehicle.exists) return;
@@ -240,18 +250,15 @@ void RepairInputBuilder::write_twin(const Scene& scene, std::size_t entry, NetIn
         row.set(node_input("twin_line_distance"), around.line.distance_m);
         row.set(node_input("twin_line_green"), traffic::is_green(around.line.state));
     }
-    if (around.leader.exists) {
-        row.set(node_input("twin_leader"), true);
-        row.set(node_input("twin_leader_age"), scene.tracks.age_s[around.leader.row]);
-        row.set(node_input("twin_leader_gap"), around.leader.gap_m);
-        row.set(node_input("twin_leader_speed"), around.leader.speed_mps);
-    }
-    if (around.follower.exists) {
-        row.set(node_input("twin_follower"), true);
-        row.set(node_input("twin_follower_age"), scene.tracks.age_s[around.follower.row]);
-        row.set(node_input("twin_follower_gap"), around.follower.gap_m);
-        row.set(node_input("twin_follower_speed"), around.follower.speed_mps);
-    }
+    const auto write = [&](const TwinTraffic::Neighbour& neighbour, const TwinInputs& inputs) {
+        if (!neighbour.exists) return;
+        row.set(inputs.exists, true);
+        row.set(inputs.age, scene.tracks.age_s[neighbour.row]);
+        row.set(inputs.gap, neighbour.gap_m);
+        row.set(inputs.speed, neighbour.speed_mps);
+    };
+    write(around.leader, twin_leader_inputs);
+    write(around.follower, twin_follower_inputs);
 }
 
 /// A receiver hears those near it, those that detect it, and those before and behind it: when it was last

@@ -102,7 +102,6 @@ class RepairInputBuilder {
     std::vector<core::LaneIndex> lane_;
     std::vector<float> rule_x_m_, rule_y_m_;
     std::vector<float> heading_cosine_, heading_sine_;  ///< Of each row, as reported.
-    std::vector<detail::Detection> detectors_;
     struct Near {
         float distance_m = 0.0F;
         std::uint32_t row = 0;

@@ -6,10 +6,14 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "prediction/detail/repair_kernel.hpp"
+#include "prediction/detail/net_kernel.hpp"
 
 namespace clearway::prediction {
 namespace {
+
+using detail::Activation;
+using detail::Linear;
+using detail::Rows;
 
 /// Pairs that are decoded together: their inputs stay in the processor's cache.
 constexpr std::size_t block_pairs = 48;
@@ -17,6 +21,10 @@ constexpr float root_half = 0.70710678F;
 
 float softplus(float x) {
     return x > 20.0F ? x : std::log1p(std::exp(x));
+}
+
+Rows rows_in(const std::vector<std::uint32_t>& numbers) {
+    return {numbers.data(), numbers.size()};
 }
 
 void require_size(const Weights& weights, const char* name, std::uint32_t wanted) {
@@ -29,77 +37,38 @@ void require_size(const Weights& weights, const char* name, std::uint32_t wanted
 
 }  // namespace
 
-std::size_t RepairNet::Linear::stride() const {
-    return detail::padded(outputs);
-}
-
-RepairNet::Linear RepairNet::linear_from(const Weights& weights, const std::string& name,
-                                         std::uint32_t inputs, std::uint32_t outputs, Bias bias) {
-    Linear linear;
-    linear.inputs = inputs;
-    linear.outputs = outputs;
-    const std::size_t stride = linear.stride();
-    const Tensor& tensor = weights.tensor(name + ".weight", {outputs, inputs});
-    linear.weight.assign(inputs * stride, 0.0F);
-    for (std::size_t output = 0; output < outputs; ++output) {
-        for (std::size_t input = 0; input < inputs; ++input) {
-            linear.weight[input * stride + output] = tensor.values[output * inputs + input];
-        }
-    }
-    linear.bias.assign(stride, 0.0F);
-    if (bias == Bias::with) {
-        std::ranges::copy(weights.tensor(name + ".bias", {outputs}).values, linear.bias.begin());
-    }
-    return linear;
-}
-
 RepairNet::RepairNet(const Weights& weights, Kernel kernel) : source_(weights.source), kernel_(kernel) {
     weights.require(repair_architecture, repair_schema());
     require_size(weights, "edge", edge_width);
     require_size(weights, "pair", pair_width);
-    weights.require_inputs("node", node_inputs);
-    weights.require_inputs("edge", edge_inputs);
-    weights.require_inputs("pair", pair_inputs);
+    weights.require_inputs(repair_input_names());
     dimensions_ = {weights.dimension("hidden"),    weights.dimension("layers"),  weights.dimension("motion"),
                    weights.dimension("embedding"), weights.dimension("decoder"), weights.dimension("last")};
     const std::uint32_t hidden = dimensions_.hidden;
-    encoder_ = linear_from(weights, "encoder", std::uint32_t{node_width}, hidden, Bias::with);
+    const auto linear = [&](const std::string& name, std::uint32_t inputs, std::uint32_t outputs,
+                            Linear::Bias bias = Linear::Bias::own) {
+        return Linear(weights, name, inputs, outputs, bias);
+    };
+    encoder_ = linear("encoder", std::uint32_t{node_width}, hidden);
     for (std::uint32_t number = 1; number <= dimensions_.layers; ++number) {
         const std::string layer = fmt::format("layer{}.", number);
         layers_.push_back(
-            {linear_from(weights, layer + "gate_own", hidden, hidden, Bias::with),
-             linear_from(weights, layer + "gate_source", hidden, hidden, Bias::without),
-             linear_from(weights, layer + "gate_edge", std::uint32_t{edge_width}, hidden, Bias::without),
-             linear_from(weights, layer + "value_source", hidden, hidden, Bias::with),
-             linear_from(weights, layer + "value_edge", std::uint32_t{edge_width}, hidden, Bias::without),
-             linear_from(weights, layer + "out_message", hidden, hidden, Bias::with),
-             linear_from(weights, layer + "out_own", hidden, hidden, Bias::without)});
+            {linear(layer + "gate_own", hidden, hidden),
+             linear(layer + "gate_source", hidden, hidden, Linear::Bias::zero),
+             linear(layer + "gate_edge", std::uint32_t{edge_width}, hidden, Linear::Bias::none),
+             linear(layer + "value_source", hidden, hidden),
+             linear(layer + "value_edge", std::uint32_t{edge_width}, hidden, Linear::Bias::none),
+             linear(layer + "out_message", hidden, hidden),
+             linear(layer + "out_own", hidden, hidden, Linear::Bias::none)});
     }
-    motion1_ = linear_from(weights, "motion1", hidden, dimensions_.motion, Bias::with);
-    motion2_ = linear_from(weights, "motion2", dimensions_.motion, 2, Bias::with);
-    embedding_ = linear_from(weights, "embedding", hidden, dimensions_.embedding, Bias::with);
-    decoder1_ = linear_from(weights, "decoder1", decoder_width(dimensions_), dimensions_.decoder, Bias::with);
-    decoder2_ = linear_from(weights, "decoder2", dimensions_.decoder, dimensions_.last, Bias::with);
-    decoder3_ = linear_from(weights, "decoder3", dimensions_.last, 1, Bias::with);
+    motion1_ = linear("motion1", hidden, dimensions_.motion);
+    motion2_ = linear("motion2", dimensions_.motion, 2);
+    embedding_ = linear("embedding", hidden, dimensions_.embedding);
+    decoder1_ = linear("decoder1", decoder_width(dimensions_), dimensions_.decoder);
+    decoder2_ = linear("decoder2", dimensions_.decoder, dimensions_.last);
+    decoder3_ = linear("decoder3", dimensions_.last, 1);
     skip_ = weights.tensor("skip", {1}).values.front();
     weights.require_tensors(15 + 10 * std::size_t{dimensions_.layers});
-}
-
-// NOLINTNEXTLINE(readability-function-size): a matrix, what goes in, and where it comes out
-void RepairNet::apply(const Linear& linear, const float* input, std::size_t input_stride, Rows rows,
-                      Activation activation, std::vector<float>& result) const {
-    detail::DenseTask task;
-    task.input = input;
-    task.input_stride = input_stride;
-    task.inputs = linear.inputs;
-    task.rows = rows.numbers;
-    task.row_count = rows.count;
-    task.weight = linear.weight.data();
-    task.bias = linear.bias.data();
-    task.rectified = activation == Activation::rectified;
-    task.result = result.data();
-    task.result_stride = linear.stride();
-    kernel_ == Kernel::avx2 ? detail::dense_avx2(task) : detail::dense_scalar(task);
 }
 
 void RepairNet::run(const RepairInputs& inputs, std::vector<float>& logits,
@@ -111,8 +80,8 @@ void RepairNet::run(const RepairInputs& inputs, std::vector<float>& logits,
     }
     move(inputs, motions);
     embeddings_.resize(inputs.rows * embedding_.stride());
-    apply(embedding_, hidden_.data(), encoder_.stride(), {pair_rows_.data(), pair_rows_.size()},
-          Activation::none, embeddings_);
+    apply(kernel_, embedding_, {hidden_.data(), encoder_.stride()}, rows_in(pair_rows_), Activation::none,
+          embeddings_);
     decode(inputs, logits);
 }
 
@@ -150,38 +119,28 @@ void RepairNet::sort_rows(const RepairInputs& inputs) {
 
 void RepairNet::encode(const RepairInputs& inputs) {
     hidden_.resize(inputs.rows * encoder_.stride());
-    apply(encoder_, inputs.nodes.data(), node_width, {receiver_rows_.data(), receiver_rows_.size()},
+    apply(kernel_, encoder_, {inputs.nodes.data(), node_width}, rows_in(receiver_rows_),
           Activation::rectified, hidden_);
-    detail::DenseTask task;
-    task.input = inputs.nodes.data();
-    task.input_stride = node_width;
-    task.inputs = common_width;
-    task.rows = known_rows_.data();
-    task.row_count = known_rows_.size();
-    task.weight = encoder_.weight.data();
-    task.bias = encoder_.bias.data();
-    task.rectified = true;
-    task.result = hidden_.data();
-    task.result_stride = encoder_.stride();
-    kernel_ == Kernel::avx2 ? detail::dense_avx2(task) : detail::dense_scalar(task);
+    apply(kernel_, encoder_, {inputs.nodes.data(), node_width, common_width}, rows_in(known_rows_),
+          Activation::rectified, hidden_);
 }
 
 void RepairNet::exchange(const Layer& layer, const RepairInputs& inputs) {
     const std::size_t width = encoder_.stride();
     const std::size_t receivers = receiver_rows_.size();
-    const Rows sources{source_rows_.data(), source_rows_.size()};
+    const Rows sources = rows_in(source_rows_);
     const Rows all{nullptr, receivers};
     source_gate_.resize(inputs.rows * width);
     source_value_.resize(inputs.rows * width);
-    apply(layer.gate_source, hidden_.data(), width, sources, Activation::none, source_gate_);
-    apply(layer.value_source, hidden_.data(), width, sources, Activation::none, source_value_);
+    apply(kernel_, layer.gate_source, {hidden_.data(), width}, sources, Activation::none, source_gate_);
+    apply(kernel_, layer.value_source, {hidden_.data(), width}, sources, Activation::none, source_value_);
 
     own_hidden_.resize(receivers * width);
     for (std::size_t i = 0; i < receivers; ++i) {
         std::copy_n(&hidden_[receiver_rows_[i] * width], width, &own_hidden_[i * width]);
     }
     own_gate_.resize(receivers * width);
-    apply(layer.gate_own, own_hidden_.data(), width, all, Activation::none, own_gate_);
+    apply(kernel_, layer.gate_own, {own_hidden_.data(), width}, all, Activation::none, own_gate_);
 
     message_.resize(receivers * width);
     detail::MessageTask task;
@@ -200,28 +159,21 @@ void RepairNet::exchange(const Layer& layer, const RepairInputs& inputs) {
     kernel_ == Kernel::avx2 ? detail::gather_messages_avx2(task) : detail::gather_messages_scalar(task);
 
     renewed_.resize(receivers * width);
-    apply(layer.out_message, message_.data(), width, all, Activation::none, renewed_);
-    detail::DenseTask own;
-    own.input = own_hidden_.data();
-    own.input_stride = width;
-    own.inputs = layer.out_own.inputs;
-    own.row_count = receivers;
-    own.weight = layer.out_own.weight.data();
-    own.rectified = true;
-    own.result = renewed_.data();
-    own.result_stride = width;
-    kernel_ == Kernel::avx2 ? detail::dense_avx2(own) : detail::dense_scalar(own);
+    apply(kernel_, layer.out_message, {message_.data(), width}, all, Activation::none, renewed_);
+    apply(kernel_, layer.out_own, {own_hidden_.data(), width}, all, Activation::rectified, renewed_);
     for (std::size_t i = 0; i < receivers; ++i) {
         std::copy_n(&renewed_[i * width], width, &hidden_[receiver_rows_[i] * width]);
     }
 }
 
 void RepairNet::move(const RepairInputs& inputs, std::vector<BelievedMotion>& motions) {
-    const Rows receivers{receiver_rows_.data(), receiver_rows_.size()};
+    const Rows receivers = rows_in(receiver_rows_);
     motion_hidden_.resize(inputs.rows * motion1_.stride());
     motion_out_.resize(inputs.rows * motion2_.stride());
-    apply(motion1_, hidden_.data(), encoder_.stride(), receivers, Activation::rectified, motion_hidden_);
-    apply(motion2_, motion_hidden_.data(), motion1_.stride(), receivers, Activation::none, motion_out_);
+    apply(kernel_, motion1_, {hidden_.data(), encoder_.stride()}, receivers, Activation::rectified,
+          motion_hidden_);
+    apply(kernel_, motion2_, {motion_hidden_.data(), motion1_.stride()}, receivers, Activation::none,
+          motion_out_);
 
     place_x_m_ = inputs.x_m;
     place_y_m_ = inputs.y_m;
@@ -295,9 +247,9 @@ void RepairNet::decode(const RepairInputs& inputs, std::vector<float>& logits) {
             scores[i] = distance_facts(inputs, pair, row + 2 * embedding + pair_width);
         }
         const Rows all{nullptr, count};
-        apply(decoder1_, block_.data(), width, all, Activation::rectified, block1_);
-        apply(decoder2_, block1_.data(), decoder1_.stride(), all, Activation::rectified, block2_);
-        apply(decoder3_, block2_.data(), decoder2_.stride(), all, Activation::none, block3_);
+        apply(kernel_, decoder1_, {block_.data(), width}, all, Activation::rectified, block1_);
+        apply(kernel_, decoder2_, {block1_.data(), decoder1_.stride()}, all, Activation::rectified, block2_);
+        apply(kernel_, decoder3_, {block2_.data(), decoder2_.stride()}, all, Activation::none, block3_);
         for (std::size_t i = 0; i < count; ++i) {
             logits[first + i] = block3_[i * decoder3_.stride()] + skip_ * scores[i];
         }

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "prediction/graphsage.hpp"
+#include "prediction/detail/linear.hpp"
+#include "prediction/net_rows.hpp"
 #include "prediction/repair_inputs.hpp"
 #include "prediction/weights.hpp"
 
@@ -76,27 +77,9 @@ class RepairNet {
     void run(const RepairInputs& inputs, std::vector<float>& logits, std::vector<BelievedMotion>& motions);
 
   private:
-    /// A matrix as [inputs][padded outputs], and a bias that may be absent.
-    struct Linear {
-        std::vector<float> weight, bias;
-        std::uint32_t inputs = 0;
-        std::uint32_t outputs = 0;
-        std::size_t stride() const;
-    };
     struct Layer {
-        Linear gate_own, gate_source, gate_edge, value_source, value_edge, out_message, out_own;
+        detail::Linear gate_own, gate_source, gate_edge, value_source, value_edge, out_message, out_own;
     };
-    enum class Bias : std::uint8_t { without, with };
-    static Linear linear_from(const Weights& weights, const std::string& name, std::uint32_t inputs,
-                              std::uint32_t outputs, Bias bias);
-    /// Numbers of the rows to compute; null: rows 0 to `count` - 1.
-    struct Rows {
-        const std::uint32_t* numbers = nullptr;
-        std::size_t count = 0;
-    };
-    enum class Activation : std::uint8_t { none, rectified };
-    void apply(const Linear& linear, const float* input, std::size_t input_stride, Rows rows,
-               Activation activation, std::vector<float>& result) const;
     void sort_rows(const RepairInputs& inputs);
     void encode(const RepairInputs& inputs);
     void exchange(const Layer& layer, const RepairInputs& inputs);
@@ -109,7 +92,7 @@ class RepairNet {
     std::string source_;
     RepairDimensions dimensions_;
     Kernel kernel_;
-    Linear encoder_, motion1_, motion2_, embedding_, decoder1_, decoder2_, decoder3_;
+    detail::Linear encoder_, motion1_, motion2_, embedding_, decoder1_, decoder2_, decoder3_;
     std::vector<Layer> layers_;
     float skip_ = 0.0F;
 

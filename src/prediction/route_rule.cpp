@@ -27,26 +27,17 @@ class RouteRule final : public PairwisePredictor {
 
   private:
     void believe(const Scene& scene, std::vector<RowBelief>& beliefs) override {
-        const Tracks& tracks = scene.tracks;
         roads_.build(observation(), scene, ahead_);
-        for (std::size_t row = 0; row < tracks.size(); ++row) {
-            beliefs[row] = {tracks.state[row], tracks.sensor_sigma_m[row], true};
-        }
-        for (const MotionContext& ahead : ahead_) {
-            beliefs[ahead.row] = belief_of(scene.tracks, ahead);
-        }
-    }
-
-    RowBelief belief_of(const Tracks& tracks, const MotionContext& ahead) const {
-        const std::uint32_t row = ahead.row;
-        const float sigma_m = route_rule_sigma_m(ahead.sigma_m, tracks.age_s[row], config_);
-        return {detail::state_after(network(), observation(), tracks, ahead, ahead.displacement_m), sigma_m,
-                !ahead.has_left};
+        believe_ahead(scene.tracks, ahead_, beliefs, [&](const MotionContext& ahead) {
+            return Moved{ahead.displacement_m,
+                         route_rule_sigma_m(ahead.sigma_m, scene.tracks.age_s[ahead.row], config_),
+                         ahead.has_left};
+        });
     }
 
     void score(const Scene& scene, const std::vector<RowBelief>& beliefs,
                std::vector<float>& probabilities) override {
-        detail::score_by_place(scene.candidates, beliefs, rules().radius_m, probabilities);
+        score_by_place(scene, beliefs, probabilities);
     }
 
     RouteRuleConfig config_;

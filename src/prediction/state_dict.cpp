@@ -9,9 +9,10 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
-#include "prediction/detail/byte_reader.hpp"
-#include "prediction/detail/pickle_reader.hpp"
-#include "prediction/detail/zip_reader.hpp"
+#include "core/files.hpp"
+#include "prediction/detail/bytes.hpp"
+#include "prediction/detail/pickle.hpp"
+#include "prediction/detail/zip.hpp"
 
 namespace clearway::prediction {
 namespace {
@@ -177,7 +178,7 @@ bool is_pth(std::string_view bytes) {
 std::vector<Tensor> parse_pth(std::string_view bytes, const std::string& source) {
     const Archive archive = opened(bytes, source);
     const PickleDocument document = detail::read_pickle(archive.find("data.pkl")->content, source);
-    const PickleValue::Dict* const dict = detail::dict_in(document.at(document.top));
+    const auto* const dict = std::get_if<PickleValue::Dict>(&document.at(document.top).content);
     if (dict == nullptr) refuse(source, "holds no dict", "a state dict: tensors by name");
     if (dict->items.empty() || dict->items.size() > most_tensors)
         refuse(source, fmt::format("holds {} tensors", dict->items.size()),
@@ -203,42 +204,58 @@ std::vector<Tensor> parse_pth(std::string_view bytes, const std::string& source)
     return tensors;
 }
 
-std::vector<Tensor> renamed_parameters(std::vector<Tensor> tensors, std::span<const ParameterName> names,
+std::string format_pth(const std::vector<Tensor>& tensors, const std::string& stem) {
+    detail::ZipArchive archive;
+    archive.add(stem + "/data.pkl", detail::format_pickle(tensors));
+    for (std::size_t storage = 0; storage < tensors.size(); ++storage) {
+        const std::vector<float>& values = tensors[storage].values;
+        archive.add(fmt::format("{}/data/{}", stem, storage),
+                    {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
+    }
+    archive.add(stem + "/version", "3\n");
+    return std::move(archive).finish();
+}
+
+void write_pth(const std::filesystem::path& file, const std::vector<Tensor>& tensors) {
+    core::write_atomically(file, format_pth(tensors, file.stem().string()));
+}
+
+std::vector<Tensor> renamed_parameters(std::vector<Tensor> tensors, std::span<const std::string> names,
                                        const std::string& net, const std::string& source) {
-    std::vector<std::string> unknown;
+    const auto ending_of = [](const std::string& name) { return name.substr(name.find('.') + 1); };
+    std::vector<std::string> unknown, missing, allowed;
     std::vector<Tensor> renamed;
     for (Tensor& tensor : tensors) {
-        const auto found = std::ranges::find_if(names, [&](const ParameterName& name) {
-            return tensor.name == name.ending || tensor.name.ends_with(fmt::format(".{}", name.ending));
+        const auto found = std::ranges::find_if(names, [&](const std::string& name) {
+            const std::string ending = ending_of(name);
+            return tensor.name == ending || tensor.name.ends_with("." + ending);
         });
         const bool is_new =
-            found != names.end() && std::ranges::find(renamed, found->name, &Tensor::name) == renamed.end();
+            found != names.end() && std::ranges::find(renamed, *found, &Tensor::name) == renamed.end();
         if (!is_new) {
             unknown.push_back(tensor.name);
             continue;
         }
-        tensor.name = found->name;
+        tensor.name = *found;
         renamed.push_back(std::move(tensor));
     }
-    std::vector<std::string> missing;
-    for (const ParameterName& name : names) {
-        if (std::ranges::find(renamed, name.name, &Tensor::name) == renamed.end())
-            missing.emplace_back(name.ending);
+    for (const std::string& name : names) {
+        allowed.push_back(ending_of(name));
+        if (std::ranges::find(renamed, name, &Tensor::name) == renamed.end())
+            missing.push_back(allowed.back());
     }
     if (missing.empty() && unknown.empty()) return renamed;
-    constexpr std::size_t most_named = 12;
-    const auto listed = [](std::vector<std::string>& all) {
-        const std::size_t more = all.size() > most_named ? all.size() - most_named : 0;
-        all.resize(all.size() - more);
-        return fmt::format("{}{}", fmt::join(all, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+    const auto listed = [](const std::vector<std::string>& all) {
+        constexpr std::size_t most_named = 12;
+        const std::string more =
+            all.size() > most_named ? fmt::format(" and {} more", all.size() - most_named) : "";
+        return fmt::format("{}{}", fmt::join(std::span(all).first(std::min(all.size(), most_named)), ", "),
+                           more);
     };
     std::string what = fmt::format("is no state dict of {}: ", net);
     if (!missing.empty()) what += fmt::format("it lacks {}", listed(missing));
     if (!missing.empty() && !unknown.empty()) what += "; ";
     if (!unknown.empty()) what += fmt::format("it has {} beside", listed(unknown));
-    std::vector<std::string_view> allowed;
-    for (const ParameterName& name : names)
-        allowed.push_back(name.ending);
     throw core::InputError({source, what, fmt::format("{}, with any prefix", fmt::join(allowed, ", ")),
                             "Save a net of that class, or choose the predictor that the net is for"});
 }

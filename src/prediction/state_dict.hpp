@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,8 +10,7 @@
 
 namespace clearway::prediction {
 
-// Nets that were trained with PyTorch in Python, without PyTorch: a file of
-// `torch.save(model.state_dict(), file)` becomes a model file.
+// Parameters of nets as PyTorch keeps them in files, without PyTorch.
 
 /// Whether `bytes` start as files of `torch.save` do, of this format or the one before torch 1.6.
 bool is_pth(std::string_view bytes);
@@ -21,16 +21,23 @@ bool is_pth(std::string_view bytes);
 /// are not finite or whole numbers, or places them out of their storage.
 std::vector<Tensor> parse_pth(std::string_view bytes, const std::string& source);
 
-/// A parameter of a net by the end of its name, and what it is called in a model file.
-struct ParameterName {
-    std::string_view ending;  ///< `conv1.lin_l.weight`.
-    std::string_view name;    ///< `graphsage.conv1.lin_l.weight`.
-};
+/// Bytes of a file that Python's `torch.load` turns into a state dict, as
+/// `torch.save(dict(model.state_dict()), file)` would write it: an uncompressed zip archive with a pickle of
+/// protocol 2 (a dict of tensors) and one member per tensor. Only names that `torch.load` allows with
+/// `weights_only=True` occur in it. Equal tensors give equal bytes: the times in the archive are constant.
+///
+/// libtorch's own ways are no substitute: `torch::save` writes a TorchScript archive, from which `torch.load`
+/// makes a module, and `torch::pickle_save` marks its dict with a function that newer versions of
+/// `torch.load` refuse. A dict and not an OrderedDict, because libtorch reads an OrderedDict as None.
+std::string format_pth(const std::vector<Tensor>& tensors, const std::string& stem);
+/// Whole or not at all. Throws core::EnvironmentError.
+void write_pth(const std::filesystem::path& file, const std::vector<Tensor>& tensors);
 
-/// The tensors under the names of model files. What stands before an ending is up to the author of the class
-/// (`graphsage.`, `encoder.`, `module.`), a dot between. Throws core::InputError naming what is missing and
-/// what is no parameter of the net; `net` names it (`GraphSAGENet`).
-std::vector<Tensor> renamed_parameters(std::vector<Tensor> tensors, std::span<const ParameterName> names,
+/// The tensors under `names`, those of model files (`graphsage.conv1.lin_l.weight`), in the file's order.
+/// What stands in a file before `conv1.lin_l.weight` is up to the author of the class (`graphsage.`,
+/// `encoder.`, `module.`), a dot between. Throws core::InputError naming what is missing and what is no
+/// parameter of the net; `net` names it (`GraphSAGENet`).
+std::vector<Tensor> renamed_parameters(std::vector<Tensor> tensors, std::span<const std::string> names,
                                        const std::string& net, const std::string& source);
 
 }  // namespace clearway::prediction

@@ -1,6 +1,8 @@
 #include "prediction/tracks.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "roads/route.hpp"
 
@@ -34,6 +36,12 @@ void move_on(const traffic::Observation& observation, const roads::Network& netw
 }
 
 }  // namespace
+
+std::uint32_t Tracks::row_of(core::VehicleKey vehicle) const {
+    const auto found = std::ranges::lower_bound(key, vehicle);
+    return static_cast<std::uint32_t>(found != key.end() && *found == vehicle ? found - key.begin()
+                                                                              : std::ssize(key));
+}
 
 void Tracks::resize(std::size_t rows) {
     key.resize(rows);

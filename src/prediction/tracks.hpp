@@ -37,6 +37,8 @@ struct Tracks {
     std::size_t size() const { return key.size(); }
     /// Whether dead reckoning says that the vehicle left; never where exits are known and it is still listed.
     bool has_left(std::size_t row) const { return !exits_known && past_end_m[row] > 0.0F; }
+    /// Row of a vehicle, or the number of rows. O(log rows).
+    std::uint32_t row_of(core::VehicleKey vehicle) const;
     void resize(std::size_t rows);
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -75,20 +76,16 @@ std::string_view next_word(std::string_view& line) {
     return word;
 }
 
-std::uint32_t parse_count(std::string_view word, const Reader& reader) {
-    std::uint32_t value = 0;
+template <class Number>
+Number parse_number(std::string_view word, const Reader& reader) {
+    Number value{};
     const auto end = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (word.empty() || end.ec != std::errc{} || end.ptr != word.data() + word.size()) {
-        reader.fail(fmt::format("'{}' is not a number", word), "a whole number, 0 or more");
-    }
-    return value;
-}
-
-float parse_value(std::string_view word, const Reader& reader) {
-    float value = 0.0F;
-    const auto end = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (end.ec != std::errc{} || end.ptr != word.data() + word.size() || !std::isfinite(value)) {
-        reader.fail(fmt::format("'{}' is not a finite number", word), "a decimal number");
+    const bool fits = !word.empty() && end.ec == std::errc{} && end.ptr == word.data() + word.size();
+    if constexpr (std::is_integral_v<Number>) {
+        if (!fits) reader.fail(fmt::format("'{}' is not a number", word), "a whole number, 0 or more");
+    } else {
+        if (!fits || !std::isfinite(value))
+            reader.fail(fmt::format("'{}' is not a finite number", word), "a decimal number");
     }
     return value;
 }
@@ -97,7 +94,7 @@ Tensor parse_tensor(std::string_view rest, Reader& reader) {
     Tensor tensor;
     tensor.name = next_word(rest);
     for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
-        tensor.shape.push_back(parse_count(word, reader));
+        tensor.shape.push_back(parse_number<std::uint32_t>(word, reader));
     }
     const std::size_t count = value_count(tensor.shape);
     if (tensor.name.empty() || tensor.shape.empty() || count == 0 || count > value_limit) {
@@ -110,7 +107,7 @@ Tensor parse_tensor(std::string_view rest, Reader& reader) {
         if (!line) reader.fail(fmt::format("the file ends inside tensor {}", tensor.name));
         const std::size_t before = tensor.values.size();
         for (std::string_view word = next_word(*line); !word.empty(); word = next_word(*line)) {
-            tensor.values.push_back(parse_value(word, reader));
+            tensor.values.push_back(parse_number<float>(word, reader));
         }
         if (tensor.values.size() - before != row) {
             reader.fail(
@@ -143,8 +140,8 @@ void refuse_twice(const Items& items, const Reader& reader) {
 
 RadiusRange parse_radii(std::string_view line, const Reader& reader) {
     RadiusRange range;
-    range.least_m = parse_value(next_word(line), reader);
-    range.most_m = parse_value(next_word(line), reader);
+    range.least_m = parse_number<float>(next_word(line), reader);
+    range.most_m = parse_number<float>(next_word(line), reader);
     if (range.least_m <= 0.0 || range.most_m < range.least_m)
         reader.fail(fmt::format("link radii from {} to {} m", range.least_m, range.most_m),
                     "link_radius LEAST MOST, above 0 and ascending");
@@ -159,11 +156,11 @@ bool parse_item(std::string_view line, Reader& reader, Weights& weights) {
         weights.architecture = next_word(line);
     } else if (word == "features") {
         weights.features.name = next_word(line);
-        weights.features.version = parse_count(next_word(line), reader);
-        weights.features.width = parse_count(next_word(line), reader);
+        weights.features.version = parse_number<std::uint32_t>(next_word(line), reader);
+        weights.features.width = parse_number<std::uint32_t>(next_word(line), reader);
     } else if (word == "dimension") {
         const std::string name(next_word(line));
-        weights.dimensions.push_back({name, parse_count(next_word(line), reader)});
+        weights.dimensions.push_back({name, parse_number<std::uint32_t>(next_word(line), reader)});
         refuse_twice(weights.dimensions, reader);
     } else if (word == "inputs") {
         weights.inputs.push_back({std::string(next_word(line)), {}});
@@ -233,20 +230,19 @@ void Weights::require(std::string_view wanted_architecture, const FeatureSchema&
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }
 
-void Weights::require_inputs(std::string_view kind, std::span<const NetInput> wanted) const {
-    const auto found = std::ranges::find(inputs, kind, &InputNames::name);
-    if (found == inputs.end()) return;
-    const std::size_t count = std::min(found->inputs.size(), wanted.size());
-    for (std::size_t at = 0; at < count; ++at) {
-        if (found->inputs[at] == wanted[at].name) continue;
+void Weights::require_inputs(std::span<const InputNames> wanted) const {
+    constexpr const char* cure = "train it again, or use a model file of this version";
+    for (const auto& [kind, names] : wanted) {
+        const auto found = std::ranges::find(inputs, kind, &InputNames::name);
+        if (found == inputs.end() || found->inputs == names) continue;
+        const auto [own, other] = std::ranges::mismatch(found->inputs, names);
+        if (own == found->inputs.end() || other == names.end())
+            throw core::InputError({source, fmt::format("{} inputs of a {}", found->inputs.size(), kind),
+                                    fmt::format("{}", names.size()), cure});
         throw core::InputError(
-            {source, fmt::format("input {} of a {} is {}", at + 1, kind, found->inputs[at]),
-             std::string(wanted[at].name), "train it again, or use a model file of this version"});
+            {source, fmt::format("input {} of a {} is {}", own - found->inputs.begin() + 1, kind, *own),
+             *other, cure});
     }
-    if (found->inputs.size() == wanted.size()) return;
-    throw core::InputError({source, fmt::format("{} inputs of a {}", found->inputs.size(), kind),
-                            fmt::format("{}", wanted.size()),
-                            "train it again, or use a model file of this version"});
 }
 
 void Weights::require_link_radius(double radius_m) const {

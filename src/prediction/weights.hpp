@@ -7,8 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "prediction/net_input.hpp"
-
 namespace clearway::prediction {
 
 /// Which function made the inputs of a net (prediction/features.hpp): a name, a version that grows when the
@@ -73,7 +71,7 @@ struct Weights {
     std::string architecture;
     FeatureSchema features;
     std::vector<Dimension> dimensions;
-    std::vector<InputNames> inputs;  ///< Files written before names were kept have none.
+    std::vector<InputNames> inputs;  ///< May be absent.
     RadiusRange link_radius;
     std::vector<std::string> notes;  ///< Where the net comes from; one line each, without line breaks.
     std::vector<Tensor> tensors;
@@ -87,9 +85,9 @@ struct Weights {
     /// features.
     void require(std::string_view wanted_architecture, const FeatureSchema& wanted_features) const;
 
-    /// Throws core::InputError, naming the first input that differs, when the file names other inputs of this
-    /// kind, or the same in another order. Passes files without names.
-    void require_inputs(std::string_view kind, std::span<const NetInput> wanted) const;
+    /// Throws core::InputError, naming the first input that differs, when the file names other inputs, or the
+    /// same in another order. Passes files without names.
+    void require_inputs(std::span<const InputNames> wanted) const;
 
     /// Throws core::InputError when the model was not trained for links of this radius.
     void require_link_radius(double radius_m) const;

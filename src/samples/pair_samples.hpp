@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "prediction/pair_features.hpp"
+#include "prediction/comparison/pair_features.hpp"
 #include "samples/sample_origin.hpp"
 
 namespace clearway::samples {

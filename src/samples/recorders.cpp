@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/match_rows.hpp"
-#include "prediction/features.hpp"
-#include "prediction/pair_features.hpp"
+#include "prediction/comparison/features.hpp"
+#include "prediction/comparison/pair_features.hpp"
 #include "prediction/predictor.hpp"
 #include "prediction/repair_inputs.hpp"
 #include "roads/route.hpp"

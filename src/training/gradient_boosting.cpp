@@ -4,7 +4,7 @@
 
 #include "prediction/boosted_trees.hpp"
 #include "prediction/tree_inputs.hpp"
-#include "training/detail/sample_parts.hpp"
+#include "training/detail/figures.hpp"
 #include "training/detail/xgboost.hpp"
 #include "training/repair_batch.hpp"
 
@@ -20,7 +20,7 @@ detail::BoostingData data_of(const std::vector<RepairSampleFile>& files, const s
                              const BoostingConfig& config) {
     std::vector<float> inputs, labels, weights;
     for (const RepairSampleFile& file : files) {
-        if (!detail::is_of(file, seeds)) continue;
+        if (!is_of(file.origin, seeds)) continue;
         // Keyed by the run as well, so that runs with equal times draw apart.
         const PairSampling sampling{
             config.easy_share,
@@ -48,46 +48,11 @@ std::vector<detail::Booster::Parameter> parameters_of(const BoostingConfig& conf
             {"seed", fmt::format("{}", config.seed)}};
 }
 
-/// The pairs of two parts of the split.
-struct Parts {
-    detail::BoostingData train;
-    detail::BoostingData validation;
-};
-
-/// Grows trees until the validation loss has not improved for `patience` of them.
-void grow(detail::Booster& booster, const Parts& parts, const BoostingConfig& config,
-          const TrainingHooks& hooks, BoostingResult& result) {
-    for (std::uint32_t tree = 0; tree < config.trees; ++tree) {
-        if (hooks.should_stop && hooks.should_stop()) {
-            result.outcome = Outcome::interrupted;
-            return;
-        }
-        booster.grow();
-        result.losses.push_back({booster.loss(parts.train), booster.loss(parts.validation)});
-        if (hooks.on_epoch) hooks.on_epoch(tree, result.losses.back());
-        if (result.losses.back().held_out < result.losses[result.best_tree].held_out) {
-            result.best_tree = tree;
-        } else if (tree - result.best_tree >= config.patience) {
-            result.outcome = Outcome::stopped_early;
-            return;
-        }
-    }
-}
-
-prediction::Weights weights_of(const detail::Booster& booster, std::size_t trees) {
-    prediction::Weights weights;
-    weights.architecture = prediction::boosted_trees_architecture;
-    weights.features = prediction::tree_schema();
-    weights.inputs = prediction::tree_input_names();
-    weights.tensors = booster.tensors(trees);
-    return weights;
-}
-
 /// Measures by the program's own inference.
 void measure_trees(const std::vector<RepairSampleFile>& files, BoostingResult& result) {
-    const prediction::BoostedTrees trees(result.weights, prediction::tree_schema());
+    const prediction::BoostedTrees trees(result.weights(), prediction::tree_schema());
     std::vector<float> row(tree_width);
-    const auto score = [&](const RepairSampleFile& file, RepairScores& scores) {
+    const auto score = [&](const RepairSampleFile& file, Scores& scores) {
         for (const RepairSample& sample : file.samples) {
             for (std::size_t at = 0; at < sample.linked.size(); ++at) {
                 prediction::write_tree_inputs(sample.inputs, at, row);
@@ -100,21 +65,43 @@ void measure_trees(const std::vector<RepairSampleFile>& files, BoostingResult& r
 
 }  // namespace
 
+nlohmann::ordered_json BoostingResult::facts() const {
+    return {{"trees_kept", losses.empty() ? detail::Json(nullptr) : detail::Json(best_round + 1)}};
+}
+
+prediction::Weights BoostingResult::weights() const {
+    prediction::Weights weights;
+    weights.architecture = prediction::boosted_trees_architecture;
+    weights.features = prediction::tree_schema();
+    weights.inputs = prediction::tree_input_names();
+    weights.tensors = state;
+    return weights;
+}
+
+Identity identity_of(const BoostingConfig& config, const std::string& data_hash) {
+    return {{"mode", "gradient_boosting"},
+            {"data_hash", data_hash},
+            {"configuration", detail::json_from(config)}};
+}
+
 BoostingResult train_gradient_boosting(const std::vector<RepairSampleFile>& files,
                                        const BoostingConfig& config, const TrainingHooks& hooks) {
     BoostingResult result;
     result.seeds = split_repair_files(files, {config.split_seed, config.validation_share, config.test_share},
                                       "the trees are");
-    require_both_classes(samples_of(files, result.seeds.train), "training");
-    require_both_classes(samples_of(files, result.seeds.validation), "validation");
-    require_both_classes(samples_of(files, result.seeds.test), "test");
-    const Parts parts{data_of(files, result.seeds.train, config),
-                      data_of(files, result.seeds.validation, config)};
-    result.train_pairs = parts.train.labels().size();
-    detail::Booster booster(parts.train, parts.validation, parameters_of(config));
-    grow(booster, parts, config, hooks, result);
+    result.link_radius = link_radii(origins_of(files));
+    const detail::BoostingData train = data_of(files, result.seeds.train, config);
+    const detail::BoostingData validation = data_of(files, result.seeds.validation, config);
+    result.train_pairs = train.labels().size();
+    detail::Booster booster(train, validation, parameters_of(config));
+    const auto grow = [&](std::uint32_t) {
+        booster.grow();
+        return EpochLoss{booster.loss(train), booster.loss(validation)};
+    };
+    run_rounds(
+        {config.trees, config.patience}, hooks, grow, [](bool) {}, result);
     if (result.losses.empty()) return result;
-    result.weights = weights_of(booster, result.best_tree + 1);
+    result.state = booster.tensors(result.best_round + 1);
     if (result.outcome != Outcome::interrupted) measure_trees(files, result);
     return result;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -10,7 +9,7 @@
 #include "prediction/weights.hpp"
 #include "samples/repair_sample.hpp"
 #include "training/output_folder.hpp"
-#include "training/repair_scores.hpp"
+#include "training/repair_samples.hpp"
 
 namespace clearway::training {
 
@@ -61,9 +60,14 @@ struct BoostingConfig {
     }
 };
 
-struct BoostingResult : RepairTraining {
-    std::uint32_t best_tree = 0;  ///< The last that is kept, from 0.
-    prediction::Weights weights;  ///< As prediction::BoostedTrees takes them.
+/// `state` are the tensors of prediction::BoostedTrees, `best_round` the last tree that is kept, from 0.
+struct BoostingResult : TrainingResult {
+    BoostingResult() {
+        round = "tree";
+        reference = "route_rule";
+    }
+    nlohmann::ordered_json facts() const override;
+    prediction::Weights weights() const override;
 };
 
 /// Grows trees by XGBoost (Chen and Guestrin 2016) on the samples of the improved net, with its split by
@@ -74,14 +78,5 @@ BoostingResult train_gradient_boosting(const std::vector<samples::RepairSampleFi
 
 /// Identifies a training.
 Identity identity_of(const BoostingConfig& config, const std::string& data_hash);
-
-/// What `--json` prints and `summary.json` holds.
-nlohmann::ordered_json summary_of(const BoostingResult& result, const BoostingConfig& config,
-                                  const std::filesystem::path& data, const std::string& data_hash);
-
-/// Writes losses.csv, train_test_curve.svg, summary.json, metrics.csv and gradient_boosting.weights, each
-/// whole or not at all. Throws core::EnvironmentError.
-void write_outputs(const std::filesystem::path& folder, const BoostingResult& result,
-                   const nlohmann::ordered_json& summary);
 
 }  // namespace clearway::training

@@ -1,122 +1,93 @@
 #include "training/outputs.hpp"
 
+#include <initializer_list>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "prediction/state_dict.hpp"
 #include "training/detail/figures.hpp"
 #include "training/loss_curve.hpp"
-#include "training/state_dict.hpp"
 
 namespace clearway::training {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-using detail::csv_group;
 using detail::csv_value;
 using detail::field_name;
+using detail::Json;
 using detail::json_from;
-using detail::json_value;
 
-Json last_loss(const std::vector<EpochLoss>& losses, double EpochLoss::*member) {
-    // A loss that is not finite becomes null: JSON cannot write it.
-    return losses.empty() ? Json(nullptr) : Json(losses.back().*member);
+/// Which pairs a figure is about: their scenario or their failure, by name.
+std::string group_name(const std::string& name) {
+    return name.empty() ? "all" : name;
 }
 
-std::string note_of(const Json& summary) {
-    return fmt::format("trained by clearway train, {}, seed {}, data {}", summary["mode"].get<std::string>(),
-                       summary["configuration"]["seed"].get<std::uint64_t>(),
-                       summary["data_hash"].get<std::string>());
+Json json_of(const SeedSplit& split) {
+    Json json = Json::object();
+    const std::initializer_list<std::pair<const char*, const std::vector<DataSeed>*>> parts = {
+        {"train", &split.train}, {"validation", &split.validation}, {"test", &split.test}};
+    for (const auto& [name, seeds] : parts) {
+        Json& list = json[name] = Json::array();
+        for (const DataSeed& seed : *seeds)
+            list.push_back({{"study_seed", seed.study_seed}, {"replication", seed.replication}});
+    }
+    return json;
 }
 
-// NOLINTNEXTLINE(readability-function-size): every argument is a file or what goes into it
-void write_model(const std::filesystem::path& folder, const std::string& model, const StateDict& state,
-                 const prediction::FeatureSchema& features, const TrainingConfig& config, const Json& summary,
-                 Convolution convolution, double link_radius_m) {
-    prediction::Weights weights =
-        weights_from(state, features, {features.width, config.hidden, config.output}, convolution);
-    weights.link_radius = {link_radius_m, link_radius_m};
-    weights.notes.push_back(note_of(summary));
-    prediction::write_weights(folder / (model + ".weights"), weights);
-    const std::string net = convolution == Convolution::sage ? "GraphSAGENet" : model;
-    write_pth(folder / (net + ".pth"), state);
+Json json_of(const std::vector<GroupQuality>& groups, const char* reference) {
+    Json list = Json::array();
+    for (const GroupQuality& group : groups) {
+        list.push_back({{"scenario", group_name(group.scenario)},
+                        {"failure", group_name(group.failure)},
+                        {"model", json_from(group.model)}});
+        if (group.reference) list.back()[reference] = json_from(*group.reference);
+        if (!group.displacement_error_m) continue;
+        list.back()["displacement_error_m"] = *group.displacement_error_m;
+        list.back()[fmt::format("{}_displacement_error_m", reference)] =
+            group.reference_displacement_error_m.value();
+    }
+    return list;
 }
 
-/// What a training on many snapshots is called.
-std::string mode_of(Convolution convolution) {
-    return convolution == Convolution::sage ? "corrected" : std::string(name(convolution));
+/// What a model says of its training.
+std::vector<std::string> notes_of(const TrainingResult& result, const Json& summary) {
+    std::vector<std::string> notes = {fmt::format(
+        "trained by clearway train {}, seed {}, data {}", summary["mode"].get<std::string>(),
+        summary["configuration"]["seed"].get<std::uint64_t>(), summary["data_hash"].get<std::string>())};
+    if (!result.groups.empty()) {
+        notes.push_back(fmt::format("threshold of greatest F1 on validation seeds {:.4f}", result.threshold));
+    } else if (result.outcome == Outcome::interrupted) {
+        notes.push_back(
+            fmt::format("interrupted after {} {}, not measured", result.round, result.losses.size()));
+    }
+    return notes;
 }
 
 }  // namespace
 
-Identity identity_of(PairChoice pairs, const RunDescription& run) {
-    return {{"mode", "as_published"},
-            {"data_hash", run.data_hash},
-            {"configuration", json_from(run.training)},
-            {"pairs", pairs == PairChoice::true_only ? "true-links" : "candidates"}};
-}
-
-Identity identity_of(const CorrectedConfig& config, const RunDescription& run) {
-    Json configuration = json_from(run.training);
-    configuration.update(json_from(config));
-    // The mode says it; trainings of before there was a choice go on.
-    configuration.erase("convolution");
-    return {{"mode", mode_of(config.convolution)},
-            {"data_hash", run.data_hash},
-            {"configuration", configuration}};
-}
-
-Json summary_of(const AsPublishedResult& result, PairChoice pairs, const RunDescription& run) {
-    Json summary = detail::summary_start(identity_of(pairs, run), name(result.outcome), run.data);
-    summary["arithmetic"] = detail::json_from(arithmetic());
-    summary["epochs_run"] = result.losses.size();
-    summary["vehicle_count"] = result.dataset.vehicle_count();
-    summary["feature_count"] = result.dataset.feature_count;
-    summary["pair_count"] = result.dataset.pair_count();
-    summary["train_pair_count"] = result.split.train;
-    summary["test_pair_count"] = result.split.test;
-    summary["final_train_loss_nat"] = last_loss(result.losses, &EpochLoss::train);
-    summary["final_test_loss_nat"] = last_loss(result.losses, &EpochLoss::held_out);
-    summary["constant_test_loss_nat"] = result.constant_test_loss;
-    if (!result.state.empty()) {
-        summary["train"] = json_from(result.train_quality);
-        summary["test"] = json_from(result.test_quality);
+Json summary_of(const TrainingResult& result, const Identity& identity, const std::filesystem::path& data) {
+    Json summary = {{"format", "clearway training summary 2"},
+                    {"mode", identity.at("mode")},
+                    {"outcome", name(result.outcome)},
+                    {"data", data.string()}};
+    summary.update(identity);
+    if (!result.losses.empty()) {
+        summary[fmt::format("{}s_run", result.round)] = result.losses.size();
+        summary[fmt::format("best_{}", result.round)] =
+            result.state.empty() ? Json(nullptr) : Json(result.best_round);
+        // A loss that is not finite becomes null: JSON cannot write it.
+        summary["final_train_loss_nat"] = result.losses.back().train;
+        summary[fmt::format("final_{}_loss_nat", result.held_out)] = result.losses.back().held_out;
     }
-    for (const UnseenQuality& unseen : result.unseen) {
-        summary["unseen"].push_back({{"data", unseen.data},
-                                     {"messages_listed", json_from(unseen.listed)},
-                                     {"messages_true_links", json_from(unseen.true_links)},
-                                     {"messages_none", json_from(unseen.no_messages)}});
-    }
-    summary["warnings"] = result.warnings;
-    return summary;
-}
-
-Json summary_of(const CorrectedResult& result, const CorrectedConfig& config, const RunDescription& run) {
-    Json summary = detail::summary_start(identity_of(config, run), name(result.outcome), run.data);
-    summary["arithmetic"] = detail::json_from(arithmetic());
-    summary["epochs_run"] = result.losses.size();
-    summary["seeds"] = json_from(result.seeds);
-    summary["train_snapshot_count"] = result.train_snapshots;
     summary["train_pair_count"] = result.train_pairs;
-    summary["final_train_loss_nat"] = last_loss(result.losses, &EpochLoss::train);
-    summary["final_validation_loss_nat"] = last_loss(result.losses, &EpochLoss::held_out);
-    summary["best_epoch"] = result.state.empty() ? Json(nullptr) : Json(result.best_epoch);
-    summary["test"] = Json::array();
-    for (const GroupQuality& group : result.groups) {
-        summary["test"].push_back({{"scenario", group.scenario.empty() ? Json("all") : Json(group.scenario)},
-                                   {"failure", group.failure.empty() ? Json("all") : Json(group.failure)},
-                                   {"net", json_from(group.net)},
-                                   {"dead_reckoning",
-                                    {{"auc", json_value(group.dead_reckoning.auc)},
-                                     {"ap", json_value(group.dead_reckoning.ap)},
-                                     {"f1", json_value(group.dead_reckoning.f1)}}}});
-    }
+    if (!result.seeds.train.empty()) summary["seeds"] = json_of(result.seeds);
+    summary["test"] = json_of(result.groups, result.reference);
+    summary.update(result.facts());
     return summary;
 }
 
@@ -129,61 +100,47 @@ std::string losses_csv(const std::vector<EpochLoss>& losses, const std::string& 
     return text;
 }
 
-std::string predictions_csv(const AsPublishedResult& result) {
-    std::string text = "pair,source,target,label,split,logit,probability\n";
-    const std::vector<double> probability = probabilities(result.logits);
-    for (std::size_t pair = 0; pair < result.logits.size(); ++pair) {
-        text +=
-            fmt::format("{},{},{},{},{},{},{}\n", pair, result.dataset.source[pair],
-                        result.dataset.target[pair], result.dataset.label[pair],
-                        pair < result.split.train ? "train" : "test", result.logits[pair], probability[pair]);
-    }
-    return text;
-}
-
-std::string metrics_csv(const CorrectedResult& result) {
-    std::string text = "scenario,failure";
+std::string metrics_csv(const std::vector<GroupQuality>& groups, const std::string& model,
+                        const std::string& reference) {
+    std::string text = "scenario,failure,predictor";
     core::for_each_field<metrics::LinkQuality>(
         [&](const auto& field) { text += "," + field_name(field.name, field.unit); });
-    text += ",dead_reckoning_auc,dead_reckoning_ap,dead_reckoning_f1\n";
-    for (const GroupQuality& group : result.groups) {
-        text += csv_group(group.scenario) + "," + csv_group(group.failure);
+    const bool moves = groups.front().displacement_error_m.has_value();
+    text += moves ? ",displacement_error_m\n" : "\n";
+    const auto row = [&](const GroupQuality& group, const std::string& predictor,
+                         const metrics::LinkQuality& quality, const std::optional<double>& error_m) {
+        text += fmt::format("{},{},{}", core::csv_text(group_name(group.scenario)),
+                            core::csv_text(group_name(group.failure)), predictor);
         core::for_each_field<metrics::LinkQuality>(
-            [&](const auto& field) { text += "," + csv_value(group.net.*field.member); });
-        text += fmt::format(",{},{},{}\n", csv_value(group.dead_reckoning.auc),
-                            csv_value(group.dead_reckoning.ap), csv_value(group.dead_reckoning.f1));
+            [&](const auto& field) { text += "," + csv_value(quality.*field.member); });
+        text += moves ? "," + csv_value(error_m) + "\n" : "\n";
+    };
+    for (const GroupQuality& group : groups) {
+        row(group, model, group.model, group.displacement_error_m);
+        if (group.reference) row(group, reference, *group.reference, group.reference_displacement_error_m);
     }
     return text;
 }
 
-void write_common(const std::filesystem::path& folder, const std::vector<EpochLoss>& losses,
-                  const std::string& held_out, const std::string& label, const Json& summary) {
+void write_outputs(const std::filesystem::path& folder, const TrainingResult& result, const Json& summary) {
     core::make_folder(folder);
-    core::write_atomically(folder / "losses.csv", losses_csv(losses, held_out));
-    core::write_atomically(folder / "train_test_curve.svg", loss_curve_svg(losses, label));
+    if (!result.losses.empty()) {
+        const std::string label = result.held_out == std::string("test") ? "Test Loss" : "Validation Loss";
+        core::write_atomically(folder / "losses.csv", losses_csv(result.losses, result.held_out));
+        core::write_atomically(folder / "train_test_curve.svg", loss_curve_svg(result.losses, label));
+    }
     core::write_atomically(folder / "summary.json",
                            summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-}
-
-void write_outputs(const std::filesystem::path& folder, const AsPublishedResult& result, const Json& summary,
-                   const TrainingConfig& config) {
-    write_common(folder, result.losses, "test", "Test Loss", summary);
-    if (result.state.empty()) return;
-    core::write_atomically(folder / "predictions.csv", predictions_csv(result));
-    write_model(folder, "graphsage_as_published", result.state,
-                as_published_schema(result.dataset.feature_count), config, summary, Convolution::sage,
-                prediction::RadiusRange{}.least_m);  // The data do not say which.
-}
-
-void write_outputs(const std::filesystem::path& folder, const CorrectedResult& result, const Json& summary,
-                   const TrainingConfig& config, const prediction::FeatureSchema& features) {
-    write_common(folder, result.losses, "validation", "Validation Loss", summary);
-    if (result.state.empty()) return;
-    core::write_atomically(folder / "metrics.csv", metrics_csv(result));
-    const bool is_sage = result.convolution == Convolution::sage;
-    const std::string model = is_sage ? "graphsage_corrected" : std::string(name(result.convolution));
-    write_model(folder, model, result.state, features, config, summary, result.convolution,
-                result.link_radius_m);
+    const auto model = summary["mode"].get<std::string>();
+    if (!result.groups.empty())
+        core::write_atomically(folder / "metrics.csv", metrics_csv(result.groups, model, result.reference));
+    prediction::Weights weights = result.weights();
+    if (weights.tensors.empty()) return;
+    weights.link_radius = result.link_radius;
+    weights.notes = notes_of(result, summary);
+    prediction::write_weights(folder / (model + ".weights"), weights);
+    if (!result.pth.empty()) prediction::write_pth(folder / (result.pth + ".pth"), weights.tensors);
+    result.write_more(folder);
 }
 
 std::string hash_of_files(const std::vector<std::filesystem::path>& files) {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/random.hpp"
-#include "training/detail/sample_parts.hpp"
+#include "training/detail/figures.hpp"
 #include "training/repair_checkpoint.hpp"
 
 namespace clearway::training {
@@ -56,33 +56,28 @@ class Training {
           checkpoint_(checkpoint),
           train_(std::move(train)),
           validation_(std::move(validation)),
-          net_(config.net()) {
-        if (read_checkpoint(checkpoint_, config_, progress_)) {
-            net_.load(progress_.net);
-            net_.load_optimizer(progress_.optimizer);
-        }
-    }
+          net_(config.net()) {}
 
     void run(const TrainingHooks& hooks, RepairResult& result) {
-        for (auto epoch = static_cast<std::uint32_t>(progress_.losses.size());
-             epoch < config_.epochs && !progress_.stopped_early; ++epoch) {
-            if (hooks.should_stop && hooks.should_stop()) {
-                result.outcome = Outcome::interrupted;
-                break;
-            }
-            const EpochLoss loss = run_epoch(epoch);
-            if (!std::isfinite(loss.train) || !std::isfinite(loss.held_out)) {
-                result.outcome = Outcome::diverged;
-                progress_.losses.push_back(loss);
-                break;
-            }
-            take(epoch, loss);
-            if (hooks.on_epoch) hooks.on_epoch(epoch, loss);
+        RepairProgress progress;
+        if (read_checkpoint(checkpoint_, config_, progress)) {
+            net_.load(progress.net);
+            net_.load_optimizer(progress.optimizer);
+            result.losses = progress.losses;
+            result.best_round = progress.best_epoch;
+            result.state = progress.best;
+            if (progress.stopped_early) result.outcome = Outcome::stopped_early;
         }
-        if (progress_.stopped_early) result.outcome = Outcome::stopped_early;
-        result.losses = progress_.losses;
-        result.best_epoch = progress_.best_epoch;
-        result.state = progress_.best;
+        const auto keep = [&](bool is_best) {
+            const StateDict state = net_.state();
+            if (is_best) result.state = state;
+            write_checkpoint(checkpoint_, config_,
+                             {result.losses, result.best_round, result.outcome == Outcome::stopped_early,
+                              state, result.state, net_.optimizer_state()});
+        };
+        run_rounds(
+            {config_.epochs, config_.patience}, hooks, [&](std::uint32_t epoch) { return run_epoch(epoch); },
+            keep, result);
         result.parameter_count = net_.parameter_count();
         if (!result.state.empty()) net_.load(result.state);
     }
@@ -96,7 +91,7 @@ class Training {
         const PairSampling sampling{
             config_.easy_share, core::KeyedRandom(core::StudySeed{config_.seed}, core::Replication{epoch})};
         RepairSamples order = train_;
-        detail::shuffle(order, config_.seed, epoch);
+        shuffle(order, config_.seed, epoch);
         MeanLoss loss;
         bool finite = true;
         for_each_batch(order, config_.batch_snapshots, [&](const auto& part) {
@@ -119,30 +114,13 @@ class Training {
         return loss.value();
     }
 
-    void take(std::uint32_t epoch, const EpochLoss& loss) {
-        const double best = progress_.best.empty() ? std::numeric_limits<double>::infinity()
-                                                   : progress_.losses[progress_.best_epoch].held_out;
-        progress_.losses.push_back(loss);
-        progress_.net = net_.state();
-        progress_.optimizer = net_.optimizer_state();
-        if (loss.held_out < best) {
-            progress_.best_epoch = epoch;
-            progress_.best = progress_.net;
-        } else if (epoch - progress_.best_epoch >= config_.patience) {
-            progress_.stopped_early = true;
-        }
-        write_checkpoint(checkpoint_, config_, progress_);
-    }
-
     const RepairConfig& config_;
     const Checkpoint& checkpoint_;
     RepairSamples train_, validation_;
     TorchRepairNet net_;
-    RepairProgress progress_;
 };
 
-void score(const TorchRepairNet& net, MessageEdges edges, const RepairSampleFile& file,
-           RepairScores& scores) {
+void score(const TorchRepairNet& net, MessageEdges edges, const RepairSampleFile& file, Scores& scores) {
     DisplacementErrors& errors = scores.displacements.emplace();
     for (const RepairSample& sample : file.samples) {
         const RepairSample* const one = &sample;
@@ -153,7 +131,7 @@ void score(const TorchRepairNet& net, MessageEdges edges, const RepairSampleFile
             const float truth = batch.true_displacement_m[i];
             if (truth < 0.0F) continue;
             errors.model_m += std::abs(std::clamp(output.displacement_m[i], 0.0F, batch.reach_m[i]) - truth);
-            errors.rule_m += std::abs(batch.displacement_m[i] - truth);
+            errors.reference_m += std::abs(batch.displacement_m[i] - truth);
             ++errors.count;
         }
     }
@@ -178,24 +156,48 @@ bool RepairConfig::is_whole() const {
            motion_head && pair_features;
 }
 
+nlohmann::ordered_json RepairResult::facts() const {
+    return {{"arithmetic", detail::json_from(arithmetic())},
+            {"parameter_count", parameter_count},
+            {"train_snapshot_count", train_snapshots}};
+}
+
+prediction::Weights RepairResult::weights() const {
+    return repair_weights(config.is_whole() ? state : StateDict{}, config.net().dimensions);
+}
+
+prediction::Weights repair_weights(const StateDict& state, const prediction::RepairDimensions& dimensions) {
+    prediction::Weights weights;
+    weights.architecture = prediction::repair_architecture;
+    weights.features = prediction::repair_schema();
+    weights.dimensions = {{"hidden", dimensions.hidden},    {"layers", dimensions.layers},
+                          {"motion", dimensions.motion},    {"embedding", dimensions.embedding},
+                          {"decoder", dimensions.decoder},  {"last", dimensions.last},
+                          {"edge", prediction::edge_width}, {"pair", prediction::pair_width}};
+    weights.inputs = prediction::repair_input_names();
+    weights.tensors = state;
+    return weights;
+}
+
+Identity identity_of(const RepairConfig& config, const std::string& data_hash) {
+    return {{"mode", "graphsage"}, {"data_hash", data_hash}, {"configuration", detail::json_from(config)}};
+}
+
 RepairResult train_repair(const std::vector<RepairSampleFile>& files, const RepairConfig& config,
                           const Checkpoint& checkpoint, const TrainingHooks& hooks) {
     RepairResult result;
+    result.config = config;
     result.seeds = split_repair_files(files, {config.split_seed, config.validation_share, config.test_share},
                                       "the net is");
+    result.link_radius = link_radii(origins_of(files));
     const RepairSamples train = thinned(samples_of(files, result.seeds.train), config.most_snapshots);
-    const RepairSamples validation = samples_of(files, result.seeds.validation);
-    require_both_classes(train, "training");
-    require_both_classes(validation, "validation");
-    require_both_classes(samples_of(files, result.seeds.test), "test");
     result.train_snapshots = train.size();
     for (const RepairSample* const sample : train)
         result.train_pairs += sample->linked.size();
-
-    Training training(config, checkpoint, train, validation);
+    Training training(config, checkpoint, train, samples_of(files, result.seeds.validation));
     training.run(hooks, result);
     if (!result.state.empty() && result.outcome != Outcome::interrupted) {
-        const auto by_net = [&](const RepairSampleFile& file, RepairScores& scores) {
+        const auto by_net = [&](const RepairSampleFile& file, Scores& scores) {
             score(training.net(), config.edges, file, scores);
         };
         measure(files, by_net, result);

@@ -10,7 +10,8 @@
 #include "core/fields.hpp"
 #include "core/spellings.hpp"
 #include "samples/repair_sample.hpp"
-#include "training/repair_scores.hpp"
+#include "training/output_folder.hpp"
+#include "training/repair_samples.hpp"
 #include "training/torch_repair_net.hpp"
 
 namespace clearway::training {
@@ -83,9 +84,12 @@ constexpr core::Spellings<MessageEdges, 2> spellings(MessageEdges) {
     return {{{MessageEdges::believed, "believed"}, {MessageEdges::observed, "observed"}}};
 }
 
-struct RepairResult : RepairTraining {
-    std::uint32_t best_epoch = 0;
-    StateDict state;  ///< Of the best epoch; none when no epoch had finite losses.
+struct RepairResult : TrainingResult {
+    RepairResult() { reference = "route_rule"; }
+    nlohmann::ordered_json facts() const override;
+    prediction::Weights weights() const override;
+
+    RepairConfig config;
     std::uint64_t train_snapshots = 0;
     std::size_t parameter_count = 0;
 };
@@ -104,5 +108,10 @@ struct Checkpoint {
 /// checkpoint of another configuration or data set (naming the difference).
 RepairResult train_repair(const std::vector<samples::RepairSampleFile>& files, const RepairConfig& config,
                           const Checkpoint& checkpoint, const TrainingHooks& hooks = {});
+
+/// A net as a model file for prediction::RepairNet. `state` is one of a whole net (RepairConfig::is_whole).
+prediction::Weights repair_weights(const StateDict& state, const prediction::RepairDimensions& dimensions);
+/// Identifies a training.
+Identity identity_of(const RepairConfig& config, const std::string& data_hash);
 
 }  // namespace clearway::training

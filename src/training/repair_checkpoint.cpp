@@ -8,9 +8,8 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "prediction/state_dict.hpp"
 #include "training/output_folder.hpp"
-#include "training/repair_outputs.hpp"
-#include "training/state_dict.hpp"
 
 namespace clearway::training {
 namespace {
@@ -98,7 +97,7 @@ void write_checkpoint(const Checkpoint& checkpoint, const RepairConfig& config,
     all.push_back(
         {"best_epoch", {2}, {static_cast<float>(progress.best_epoch), progress.stopped_early ? 1.0F : 0.0F}});
     core::make_folder(checkpoint.folder);
-    const std::string tensors = format_pth(all, tensors_of(checkpoint).stem().string());
+    const std::string tensors = prediction::format_pth(all, tensors_of(checkpoint).stem().string());
     Json head = {{"format", format}, {"content_hashes", {core::content_hash(tensors)}}};
     // Two files cannot be replaced at once, so until the second is replaced, the first also lists the hash of
     // its previous content.
@@ -111,7 +110,8 @@ void write_checkpoint(const Checkpoint& checkpoint, const RepairConfig& config,
 
 bool read_checkpoint(const Checkpoint& checkpoint, const RepairConfig& config, RepairProgress& progress) {
     if (checkpoint.folder.empty() || !exists(checkpoint, config)) return false;
-    const StateDict all = read_pth(tensors_of(checkpoint).string());
+    const std::string file = tensors_of(checkpoint).string();
+    const StateDict all = prediction::parse_pth(core::read_file(file), file);
     progress.net = part_of(all, net_prefix);
     progress.best = part_of(all, best_prefix);
     progress.optimizer = part_of(all, adam_prefix);

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/random.hpp"
 
 namespace clearway::training {
 
@@ -44,6 +43,54 @@ SeedSplit split_seeds(std::vector<DataSeed> seeds, const SplitShares& shares) {
     for (auto* seeds_of_part : {&split.train, &split.validation, &split.test})
         std::ranges::sort(*seeds_of_part);
     return split;
+}
+
+SeedSplit split_files(const Origins& origins, const SplitShares& shares, const std::string& recording) {
+    if (origins.empty())
+        throw core::InputError(
+            {"--data", "no samples", "", "Record some with clearway dataset " + recording});
+    std::vector<DataSeed> seeds;
+    for (const samples::SampleOrigin* const origin : origins)
+        seeds.push_back({origin->study_seed, origin->replication});
+    return split_seeds(std::move(seeds), shares);
+}
+
+bool is_of(const samples::SampleOrigin& origin, const std::vector<DataSeed>& seeds) {
+    return std::ranges::binary_search(seeds, DataSeed{origin.study_seed, origin.replication});
+}
+
+prediction::RadiusRange link_radii(const Origins& origins) {
+    const auto [least, most] =
+        std::ranges::minmax_element(origins, {}, &samples::SampleOrigin::link_radius_m);
+    return {(*least)->link_radius_m, (*most)->link_radius_m};
+}
+
+void require_alike(const Origins& origins) {
+    const auto text = [](const samples::SampleOrigin& origin) {
+        return fmt::format("features {} {} ({} inputs), links below {} m", origin.features.name,
+                           origin.features.version, origin.features.width, origin.link_radius_m);
+    };
+    for (const samples::SampleOrigin* const origin : origins) {
+        const samples::SampleOrigin& first = *origins.front();
+        if (origin->features == first.features && origin->link_radius_m == first.link_radius_m) continue;
+        throw core::InputError({where_of(*origin), text(*origin), text(first) + ", as in the other files",
+                                "Record all files with one version of the program and one link radius"});
+    }
+}
+
+std::string where_of(const samples::SampleOrigin& origin) {
+    return fmt::format("--data: {}, {}, replication {}", origin.scenario, origin.failure, origin.replication);
+}
+
+void require_both_classes(const LabelCounts& counts, const char* part) {
+    if (counts.linked > 0 && counts.unlinked > 0) return;
+    const bool empty = counts.linked + counts.unlinked == 0;
+    throw core::InputError({"--data",
+                            empty ? fmt::format("the {} seeds hold no candidate pair", part)
+                                  : fmt::format("the {} seeds hold only pairs that are {}linked", part,
+                                                counts.linked > 0 ? "" : "not "),
+                            "linked and unlinked pairs in each part",
+                            "Record denser traffic, a sensor failure, or more seeds"});
 }
 
 }  // namespace clearway::training

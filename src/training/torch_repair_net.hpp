@@ -9,7 +9,7 @@
 #include "core/spellings.hpp"
 #include "prediction/repair_net.hpp"
 #include "training/repair_batch.hpp"
-#include "training/torch_net.hpp"
+#include "training/trainer.hpp"
 
 namespace clearway::training {
 

@@ -136,8 +136,8 @@ TEST_F(DatasetTest, overwrites_no_other_recording) {
 TEST_F(DatasetTest, train_takes_what_dataset_wrote) {
     if (!has_trainer()) GTEST_SKIP() << "clearway-train is not built, or libtorch is not installed";
     ASSERT_EQ(clearway({"dataset", "line", "--out", "data"}).code, 0);
-    const Ended ended =
-        clearway({"train", "--as-published", "--data", "data", "--out", "model", "--epochs", "3", "--json"});
+    const Ended ended = clearway(
+        {"train", "graphsage_as_published", "--data", "data", "--out", "model", "--epochs", "3", "--json"});
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_EQ(nlohmann::json::parse(ended.out).at("epochs_run"), 3);
     EXPECT_TRUE(std::filesystem::exists(folder() / "model" / "GraphSAGENet.pth"));
@@ -148,7 +148,7 @@ TEST_F(DatasetTest, both_readings_of_the_list_have_one_name_in_dataset_and_train
     for (const char* const pairs : {"candidates", "true-links"}) {
         ASSERT_EQ(clearway({"dataset", "line", "--out", pairs, "--pairs", pairs}).code, 0);
         const Ended ended =
-            clearway({"train", "--as-published", "--data", "candidates", "--out",
+            clearway({"train", "graphsage_as_published", "--data", "candidates", "--out",
                       std::string("model-") + pairs, "--pairs", pairs, "--epochs", "2", "--json"});
         ASSERT_EQ(ended.code, 0) << ended.err;
         EXPECT_EQ(nlohmann::json::parse(ended.out).at("pairs"), pairs);

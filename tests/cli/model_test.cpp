@@ -58,8 +58,8 @@ class ModelTest : public UserTest {
 TEST_F(ModelTest, a_net_drives_run_replay_and_links_from_either_file) {
     if (!has_trainer()) GTEST_SKIP() << "clearway-train is not built, or libtorch is not installed";
     ASSERT_EQ(clearway({"dataset", "line", "--out", "data"}).code, 0);
-    const Ended trained =
-        clearway({"train", "--as-published", "--data", "data", "--out", "m", "--epochs", "30", "--quiet"});
+    const Ended trained = clearway(
+        {"train", "graphsage_as_published", "--data", "data", "--out", "m", "--epochs", "30", "--quiet"});
     ASSERT_EQ(trained.code, 0) << trained.err;
     for (const auto& [file, out] : {std::pair("m/GraphSAGENet.pth", "by_pth"),
                                     std::pair("m/graphsage_as_published.weights", "by_weights")}) {

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "prediction/gradient_boosting.hpp"
+#include "prediction/learned.hpp"
 #include "prediction/tree_inputs.hpp"
 #include "support/message_of.hpp"
 

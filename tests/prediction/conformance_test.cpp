@@ -28,8 +28,8 @@ std::string model_of(const std::string& predictor) {
     static const std::map<std::string, Weights> nets = {
         {"graphsage_as_published", testing::random_net(as_published_attributes_schema(), 10, 5, 0.2)},
         {"graphsage_corrected", testing::kernel_net()},
-        {"gcn", testing::kernel_net(GraphConvolution::gcn)},
-        {"gat", testing::kernel_net(GraphConvolution::gat)}};
+        {"gcn", testing::kernel_net(Convolution::gcn)},
+        {"gat", testing::kernel_net(Convolution::gat)}};
     const auto net = nets.find(predictor);
     if (net == nets.end()) return "";
     const auto file = folder.path() / (predictor + ".weights");
@@ -208,6 +208,22 @@ TEST(Predictors, AreListedWithASummaryAndATitleOfTheirOwn) {
         EXPECT_TRUE(titles.insert(entry.title).second) << entry.title;
     }
     EXPECT_THROW(title_of("graphsag"), core::InputError);
+}
+
+TEST(Predictors, SayWhatTheyAreFor) {
+    std::map<PredictorRole, std::vector<std::string>> by_role;
+    for (const PredictorEntry& entry : predictors()) {
+        by_role[entry.role].push_back(entry.name);
+        EXPECT_EQ(knows_truth(entry.name), entry.role == PredictorRole::ceiling);
+    }
+    using ::testing::ElementsAre;
+    EXPECT_THAT(by_role[PredictorRole::comparison],
+                ElementsAre("common_neighbours", "logistic", "graphsage_corrected", "gcn", "gat"));
+    EXPECT_THAT(by_role[PredictorRole::dissertation], ElementsAre("graphsage_as_published"));
+    EXPECT_THAT(by_role[PredictorRole::ceiling], ElementsAre("oracle"));
+    EXPECT_THAT(learned_predictor_names(),
+                ElementsAre("logistic", "gradient_boosting", "graphsage_as_published", "graphsage_corrected",
+                            "gcn", "gat", "graphsage"));
 }
 
 TEST(Predictors, NameTheNearestOfAnUnknownOne) {

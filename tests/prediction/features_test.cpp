@@ -1,4 +1,4 @@
-#include "prediction/features.hpp"
+#include "prediction/comparison/features.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,9 +1,8 @@
-#include "prediction/learned.hpp"
-
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "prediction/comparison/published_nets.hpp"
 #include "prediction/darkness.hpp"
 #include "prediction/nets.hpp"
 #include "prediction/shipped_models.hpp"
@@ -98,7 +97,7 @@ TEST(GraphSageAsPublished, SendsItsMessagesAlongTheListedPairs) {
     std::vector<float> features;
     as_published_features(found.tracks, as_published_position_schema(), scene.network(), features);
     std::vector<float> logits;
-    GraphSageNet(weights, as_published_position_schema())
+    DissertationNet(Convolution::sage, weights, as_published_position_schema())
         .logits(features, graph, found.candidates.rows, logits);
     for (std::size_t at = 0; at < logits.size(); ++at) {
         EXPECT_EQ(predictor->scores().probability[at], probability_from_logit(logits[at]));

@@ -12,8 +12,8 @@ namespace {
 /// What the builder says of `dark` after an outage that it saw begin.
 class Outage {
   public:
-    explicit Outage(const char* drawing)
-        : scene_(drawing), scenes_(scene_.network(), {}), builder_(scene_.network(), {}) {}
+    explicit Outage(const char* road)
+        : scene_(road), scenes_(scene_.network(), {}), builder_(scene_.network(), {}) {}
 
     support::Scene& scene() { return scene_; }
 
@@ -142,13 +142,13 @@ TEST(MotionContext, ReachesNoFurtherThanTheEndOfTheRoute) {
 }
 
 TEST(RouteRule, HoldsAtRedWhereDeadReckoningDrivesThrough) {
-    const char* const drawing = R"(
+    const char* const road = R"(
         10 m per cell, limit 20 m/s, speed 20 m/s
         a.......|r..........
         ......e.|r..........
     )";
     for (const char* const name : {"route_rule", "dead_reckoning"}) {
-        support::Scene scene(drawing);
+        support::Scene scene(road);
         scene.set_speed("e1", core::MetresPerSecond(0.0));
         const auto predictor = make_predictor(name, {scene.network(), {}, "", {}});
         traffic::BelievedGraph belief;

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "prediction/convolution_net.hpp"
-#include "prediction/features.hpp"
-#include "prediction/graphsage.hpp"
+#include "prediction/comparison/dissertation_net.hpp"
+#include "prediction/comparison/features.hpp"
+#include "prediction/net_rows.hpp"
 #include "prediction/weights.hpp"
 
 namespace clearway::prediction::testing {
@@ -15,7 +15,7 @@ namespace clearway::prediction::testing {
 /// A net of the published architecture with all parameters 0.
 inline Weights zero_net(const FeatureSchema& features, std::uint32_t hidden, std::uint32_t output) {
     Weights weights;
-    weights.architecture = GraphSageNet::architecture;
+    weights.architecture = "graphsage_net";
     weights.features = features;
     weights.dimensions = {{"input", features.width}, {"hidden", hidden}, {"output", output}};
     const auto add = [&](const std::string& name, std::vector<std::uint32_t> shape) {
@@ -39,11 +39,11 @@ inline Weights zero_net(const FeatureSchema& features, std::uint32_t hidden, std
 }
 
 /// A net with GCN or GAT, all parameters 0.
-inline Weights zero_net(GraphConvolution convolution, const FeatureSchema& features, std::uint32_t hidden,
+inline Weights zero_net(Convolution convolution, const FeatureSchema& features, std::uint32_t hidden,
                         std::uint32_t output) {
     Weights weights = zero_net(features, hidden, output);
-    weights.architecture = ConvolutionNet::architecture(convolution);
-    const bool is_gat = convolution == GraphConvolution::gat;
+    const bool is_gat = convolution == Convolution::gat;
+    weights.architecture = is_gat ? "gat_net" : "gcn_net";
     const std::string prefix = is_gat ? "gat." : "gcn.";
     std::vector<Tensor> decoder(weights.tensors.end() - 4, weights.tensors.end());
     weights.tensors.clear();
@@ -103,10 +103,10 @@ inline Weights kernel_net() {
 }
 
 /// The same by another convolution. A vehicle that hears nobody passes its own inputs on.
-inline Weights kernel_net(GraphConvolution convolution) {
+inline Weights kernel_net(Convolution convolution) {
     const Weights kernel = kernel_net();
     Weights weights = zero_net(convolution, corrected_schema(), 10, 5);
-    const std::string prefix = convolution == GraphConvolution::gat ? "gat." : "gcn.";
+    const std::string prefix = convolution == Convolution::gat ? "gat." : "gcn.";
     for (std::size_t at = 0; at < 5; ++at) {
         values(weights, prefix + "conv1.lin.weight")[at * 5 + at] = 1.0F;
         values(weights, prefix + "conv2.lin.weight")[at * 10 + at] = 1.0F;

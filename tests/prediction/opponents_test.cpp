@@ -8,11 +8,11 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
-#include "prediction/common_neighbours.hpp"
+#include "prediction/comparison/common_neighbours.hpp"
+#include "prediction/comparison/logistic.hpp"
+#include "prediction/comparison/pair_features.hpp"
 #include "prediction/darkness.hpp"
 #include "prediction/disc_probability.hpp"
-#include "prediction/logistic.hpp"
-#include "prediction/pair_features.hpp"
 #include "prediction/planar.hpp"
 #include "support/temporary_folder.hpp"
 

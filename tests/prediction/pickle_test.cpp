@@ -1,8 +1,9 @@
 // Pickles by hand: each opcode, and what no writer of state dicts would write.
+#include "prediction/detail/pickle.hpp"
+
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
-#include "prediction/detail/pickle_reader.hpp"
 
 namespace clearway::prediction::detail {
 namespace {

@@ -87,13 +87,12 @@ TEST(RepairSchema, is_what_the_model_card_lists) {
 TEST(RepairSchema, refuses_weights_that_name_other_inputs) {
     Weights weights;
     weights.source = "net.weights";
-    EXPECT_NO_THROW(weights.require_inputs("node", node_inputs)) << "files without names pass";
+    EXPECT_NO_THROW(weights.require_inputs(repair_input_names())) << "files without names pass";
     weights.inputs = repair_input_names();
-    EXPECT_NO_THROW(weights.require_inputs("node", node_inputs));
-    EXPECT_NO_THROW(weights.require_inputs("pair", pair_inputs));
+    EXPECT_NO_THROW(weights.require_inputs(repair_input_names()));
     const auto message = [&] {
         try {
-            weights.require_inputs("node", node_inputs);
+            weights.require_inputs(repair_input_names());
         } catch (const core::InputError& error) {
             return std::string(error.what());
         }

@@ -1,4 +1,4 @@
-#include "training/as_published.hpp"
+#include "training/comparison/as_published.hpp"
 
 #include <array>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "training/state_dict.hpp"
+#include "prediction/state_dict.hpp"
 
 namespace clearway::training {
 namespace {
@@ -96,7 +96,7 @@ TEST(TrainAsPublished, losses_are_those_before_the_step_and_logits_those_after_t
     std::vector<float> logits = net.logits(train);
     for (const float logit : net.logits(test))
         logits.push_back(logit);
-    EXPECT_EQ(result.logits, logits);
+    EXPECT_EQ(result.logits, std::vector<double>(logits.begin(), logits.end()));
 }
 
 TEST(TrainAsPublished, same_seed_same_bytes_other_seed_other_bytes) {
@@ -105,7 +105,8 @@ TEST(TrainAsPublished, same_seed_same_bytes_other_seed_other_bytes) {
         TrainingConfig config;
         config.epochs = 20;
         config.seed = seed;
-        return format_pth(train_as_published(dataset, PairChoice::candidates, config).state, "net");
+        return prediction::format_pth(train_as_published(dataset, PairChoice::candidates, config).state,
+                                      "net");
     };
     EXPECT_EQ(bytes(1), bytes(1));
     EXPECT_NE(bytes(1), bytes(2));
@@ -152,8 +153,8 @@ TEST(TrainAsPublished, divergence_keeps_the_last_parameters_with_finite_losses) 
     ASSERT_EQ(result.losses.size(), 2U);
     EXPECT_TRUE(std::isfinite(result.losses[0].train));
     EXPECT_FALSE(std::isfinite(result.losses[1].train) && std::isfinite(result.losses[1].held_out));
-    EXPECT_EQ(format_pth(result.state, "net"),
-              format_pth(TorchNet({{2, 10, 5}, config.seed, 0.01}).state(), "net"));
+    EXPECT_EQ(prediction::format_pth(result.state, "net"),
+              prediction::format_pth(TorchNet({{2, 10, 5}, config.seed, 0.01}).state(), "net"));
 }
 
 TEST(TrainAsPublished, divergence_in_the_last_step_is_noticed) {
@@ -178,7 +179,7 @@ TEST(TrainAsPublished, data_that_diverge_at_once_leave_no_parameters) {
 }
 
 TEST(QualityOfLogits, ranks_logits_whose_probabilities_round_to_one) {
-    const metrics::LinkQuality quality = quality_of_logits({100.0F, 90.0F, 80.0F}, {1, 0, 0});
+    const metrics::LinkQuality quality = quality_of_logits({100.0, 90.0, 80.0}, {1, 0, 0});
     EXPECT_EQ(quality.auc, 1.0);
     EXPECT_EQ(quality.ap, 1.0);
     EXPECT_EQ(quality.f1, 0.5);
@@ -200,7 +201,8 @@ TEST(ScoreUnseen, messages_are_listed_pairs_true_links_or_none) {
             batch.message_source.push_back(unseen.source[pair]);
             batch.message_target.push_back(unseen.target[pair]);
         }
-        return quality_of_logits(net.logits(batch), link_flags(batch.label)).auc;
+        const std::vector<float> logits = net.logits(batch);
+        return quality_of_logits({logits.begin(), logits.end()}, link_flags(batch.label)).auc;
     };
     EXPECT_EQ(quality.listed.auc, auc([](std::size_t) { return true; }));
     EXPECT_EQ(quality.true_links.auc, auc([&](std::size_t pair) { return unseen.label[pair] == 1.0F; }));

@@ -1,4 +1,4 @@
-#include "training/corrected.hpp"
+#include "training/comparison/corrected.hpp"
 
 #include <cmath>
 #include <set>
@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "prediction/state_dict.hpp"
 #include "support/message_of.hpp"
 #include "synthetic_samples.hpp"
-#include "training/state_dict.hpp"
 
 namespace clearway::training {
 namespace {
@@ -128,16 +128,16 @@ TEST(TrainCorrected, learns_links_of_unseen_seeds) {
     CorrectedConfig config;
     config.training.epochs = 30;
     const CorrectedResult result = train_corrected(synthetic_files(10, 40), config);
-    ASSERT_EQ(result.groups.size(), 2U);
-    const metrics::LinkQuality& quality = result.groups[0].net;
+    ASSERT_EQ(result.groups.size(), 3U) << "all, by failure, by scenario and failure";
+    const metrics::LinkQuality& quality = result.groups[0].model;
     EXPECT_GT(quality.pairs, 1000U);
     EXPECT_GT(*quality.auc, 0.9);
     EXPECT_GT(*quality.f1, 0.75);
     EXPECT_LT(*quality.log_loss, 0.45);
     EXPECT_LT(*quality.ece, 0.1);
-    EXPECT_EQ(result.groups[1].scenario, "line");
-    EXPECT_EQ(result.groups[1].net.pairs, quality.pairs);
-    EXPECT_GT(*result.groups[0].dead_reckoning.auc, 0.9);
+    EXPECT_EQ(result.groups[2].scenario, "line");
+    EXPECT_EQ(result.groups[2].model.pairs, quality.pairs);
+    EXPECT_GT(*result.groups[0].reference->auc, 0.9);
 }
 
 TEST(TrainCorrected, shuffled_labels_teach_nothing) {
@@ -151,7 +151,7 @@ TEST(TrainCorrected, shuffled_labels_teach_nothing) {
     }
     CorrectedConfig config;
     config.training.epochs = 10;
-    EXPECT_NEAR(*train_corrected(files, config).groups[0].net.auc, 0.5, 0.06);
+    EXPECT_NEAR(*train_corrected(files, config).groups[0].model.auc, 0.5, 0.06);
 }
 
 TEST(TrainCorrected, keeps_the_epoch_that_validates_best_and_stops_early) {
@@ -162,19 +162,19 @@ TEST(TrainCorrected, keeps_the_epoch_that_validates_best_and_stops_early) {
     const CorrectedResult result = train_corrected(synthetic_files(5, 10), config);
     EXPECT_EQ(result.outcome, Outcome::stopped_early);
     ASSERT_LT(result.losses.size(), 1000U);
-    EXPECT_EQ(result.best_epoch + 2, result.losses.size() - 1);
+    EXPECT_EQ(result.best_round + 2, result.losses.size() - 1);
     for (const EpochLoss& loss : result.losses)
-        EXPECT_GE(loss.held_out, result.losses[result.best_epoch].held_out);
+        EXPECT_GE(loss.held_out, result.losses[result.best_round].held_out);
 }
 
 TEST(TrainCorrected, same_seed_same_bytes) {
     CorrectedConfig config;
     config.training.epochs = 3;
     const auto files = synthetic_files(4, 10);
-    const std::string first = format_pth(train_corrected(files, config).state, "net");
-    EXPECT_EQ(format_pth(train_corrected(files, config).state, "net"), first);
+    const std::string first = prediction::format_pth(train_corrected(files, config).state, "net");
+    EXPECT_EQ(prediction::format_pth(train_corrected(files, config).state, "net"), first);
     config.training.seed = 2;
-    EXPECT_NE(format_pth(train_corrected(files, config).state, "net"), first);
+    EXPECT_NE(prediction::format_pth(train_corrected(files, config).state, "net"), first);
 }
 
 TEST(TrainCorrected, candidates_out_of_reach_count_as_predicted_unlinked) {
@@ -182,13 +182,13 @@ TEST(TrainCorrected, candidates_out_of_reach_count_as_predicted_unlinked) {
     std::uint64_t within = 0;
     CorrectedConfig config;
     config.training.epochs = 2;
-    within = train_corrected(files, config).groups[0].net.pairs;
+    within = train_corrected(files, config).groups[0].model.pairs;
     for (samples::GraphSampleFile& file : files)
         file.samples[0].candidates.push_back({0, 1, 500.0F, 1});
     const CorrectedResult result = train_corrected(files, config);
-    EXPECT_EQ(result.groups[0].net.pairs, within + 1);
+    EXPECT_EQ(result.groups[0].model.pairs, within + 1);
     // A true link with probability 0 costs 15 ln 10 at the clamp.
-    EXPECT_GT(*result.groups[0].net.log_loss * static_cast<double>(within + 1), 15 * std::log(10.0));
+    EXPECT_GT(*result.groups[0].model.log_loss * static_cast<double>(within + 1), 15 * std::log(10.0));
 }
 
 TEST(TrainCorrected, divergence_keeps_the_best_epoch) {
@@ -205,7 +205,7 @@ TEST(TrainCorrected, files_of_different_features_are_refused) {
     files[1].origin.features.version = 99;
     EXPECT_THAT(message_of([&] { train_corrected(files, {}); }),
                 testing::AllOf(HasSubstr("line, B10, replication 1"), HasSubstr("corrected 99")));
-    EXPECT_THAT(message_of([] { train_corrected({}, {}); }), HasSubstr("no graph samples"));
+    EXPECT_THAT(message_of([] { train_corrected({}, {}); }), HasSubstr("no samples"));
 }
 
 TEST(TrainCorrected, a_part_without_pairs_is_said) {

@@ -11,6 +11,7 @@
 #include "support/temporary_folder.hpp"
 #include "synthetic_repair.hpp"
 #include "training/detail/xgboost.hpp"
+#include "training/outputs.hpp"
 
 namespace clearway::training {
 namespace {
@@ -19,7 +20,7 @@ using samples::RepairSampleFile;
 using support::message_of;
 using ::testing::HasSubstr;
 
-BoostingConfig short_training() {
+BoostingConfig few_trees() {
     BoostingConfig config;
     config.trees = 40;
     config.max_depth = 4;
@@ -27,38 +28,38 @@ BoostingConfig short_training() {
 }
 
 TEST(TrainGradientBoosting, BeatsTheRuleWhereThereIsSomethingToLearn) {
-    const BoostingResult result = train_gradient_boosting(runs(10, 30), short_training());
+    const BoostingResult result = train_gradient_boosting(runs(10, 30), few_trees());
     ASSERT_FALSE(result.groups.empty());
-    EXPECT_GT(result.groups.front().model.ap.value(), result.groups.front().rule.ap.value() + 0.005);
+    EXPECT_GT(result.groups.front().model.ap.value(), result.groups.front().reference->ap.value() + 0.005);
     EXPECT_LT(result.losses.back().train, 0.5 * result.losses.front().train);
     EXPECT_EQ(result.groups.size(), 1u + 2u + 2u) << "all, by failure, by scenario and failure";
     EXPECT_EQ(result.seeds.train.size(), 6u);
 }
 
 TEST(TrainGradientBoosting, KeepsTheTreesUntilTheBest) {
-    BoostingConfig config = short_training();
+    BoostingConfig config = few_trees();
     config.trees = 300;
     config.patience = 5;
     config.min_child_weight = 0.0;
     config.max_depth = 8;
     const BoostingResult result = train_gradient_boosting(runs(6, 6), config);
     ASSERT_EQ(result.outcome, Outcome::stopped_early);
-    EXPECT_EQ(result.losses.size(), result.best_tree + 1 + config.patience);
-    const prediction::BoostedTrees trees(result.weights, prediction::tree_schema());
-    EXPECT_EQ(trees.tree_count(), result.best_tree + 1);
+    EXPECT_EQ(result.losses.size(), result.best_round + 1 + config.patience);
+    const prediction::BoostedTrees trees(result.weights(), prediction::tree_schema());
+    EXPECT_EQ(trees.tree_count(), result.best_round + 1);
     for (const EpochLoss& loss : result.losses)
-        EXPECT_GE(loss.held_out, result.losses[result.best_tree].held_out);
+        EXPECT_GE(loss.held_out, result.losses[result.best_round].held_out);
 }
 
 TEST(TrainGradientBoosting, GivesTheSameTreesAgain) {
     const std::vector<RepairSampleFile> files = runs(6);
-    const BoostingResult one = train_gradient_boosting(files, short_training());
-    const BoostingResult again = train_gradient_boosting(files, short_training());
-    EXPECT_EQ(prediction::format_weights(one.weights), prediction::format_weights(again.weights));
-    BoostingConfig other = short_training();
+    const BoostingResult one = train_gradient_boosting(files, few_trees());
+    const BoostingResult again = train_gradient_boosting(files, few_trees());
+    EXPECT_EQ(prediction::format_weights(one.weights()), prediction::format_weights(again.weights()));
+    BoostingConfig other = few_trees();
     other.seed = 2;
-    EXPECT_NE(prediction::format_weights(train_gradient_boosting(files, other).weights),
-              prediction::format_weights(one.weights));
+    EXPECT_NE(prediction::format_weights(train_gradient_boosting(files, other).weights()),
+              prediction::format_weights(one.weights()));
 }
 
 /// The program's own inference against XGBoost's.
@@ -113,23 +114,23 @@ TEST(TrainGradientBoosting, AnInterruptedTrainingKeepsWhatItHas) {
     int asked = 0;
     TrainingHooks hooks;
     hooks.should_stop = [&] { return ++asked > 3; };
-    const BoostingResult result = train_gradient_boosting(runs(4, 4), short_training(), hooks);
+    const BoostingResult result = train_gradient_boosting(runs(4, 4), few_trees(), hooks);
     EXPECT_EQ(result.outcome, Outcome::interrupted);
     EXPECT_EQ(result.losses.size(), 3u);
     EXPECT_TRUE(result.groups.empty()) << "not measured";
-    EXPECT_NO_THROW(prediction::BoostedTrees(result.weights, prediction::tree_schema()));
+    EXPECT_NO_THROW(prediction::BoostedTrees(result.weights(), prediction::tree_schema()));
 }
 
 TEST(TrainGradientBoosting, WritesAModelThatThePredictorTakes) {
     const support::TemporaryFolder folder;
-    const BoostingConfig config = short_training();
+    const BoostingConfig config = few_trees();
     const BoostingResult result = train_gradient_boosting(runs(4, 4), config);
-    const auto summary = summary_of(result, config, "data", "0123");
+    const auto summary = summary_of(result, identity_of(config, "0123"), "data");
     write_outputs(folder.path() / "out", result, summary);
     EXPECT_NO_THROW(prediction::check_model("gradient_boosting",
                                             (folder.path() / "out" / "gradient_boosting.weights").string()));
     EXPECT_EQ(summary["mode"], "gradient_boosting");
-    EXPECT_EQ(summary["trees_kept"], result.best_tree + 1);
+    EXPECT_EQ(summary["trees_kept"], result.best_round + 1);
     EXPECT_THAT(core::read_file(folder.path() / "out" / "metrics.csv"),
                 HasSubstr("all,all,gradient_boosting"));
     EXPECT_THAT(core::read_file(folder.path() / "out" / "losses.csv"), HasSubstr("validation"));

@@ -1,4 +1,4 @@
-#include "training/logistic.hpp"
+#include "training/comparison/logistic.hpp"
 
 #include <cmath>
 
@@ -11,6 +11,7 @@
 #include "prediction/predictor.hpp"
 #include "prediction/weights.hpp"
 #include "support/temporary_folder.hpp"
+#include "training/outputs.hpp"
 
 namespace clearway::training {
 namespace {
@@ -68,8 +69,8 @@ TEST(TrainLogistic, FindsTheModelThatMadeTheData) {
         EXPECT_NEAR(result.weight[i], true_weight[i], 0.1) << i;
     }
     EXPECT_NEAR(result.bias, true_bias, 0.1);
-    EXPECT_LT(*result.groups[0].quality.ece, 0.02);
-    EXPECT_EQ(result.groups[1].scenario, "drawn");
+    EXPECT_LT(*result.groups[0].model.ece, 0.02);
+    EXPECT_EQ(result.groups[2].scenario, "drawn");
 }
 
 TEST(TrainLogistic, ReachesAMinimumOfTheLoss) {
@@ -137,7 +138,7 @@ TEST(TrainLogistic, RefusesDataThatTeachNothing) {
 TEST(TrainLogistic, WritesAModelThatThePredictorTakes) {
     const support::TemporaryFolder folder;
     const LogisticResult result = train_logistic(drawn_files(3), {});
-    const auto summary = summary_of(result, {}, "data", "0123");
+    const auto summary = summary_of(result, identity_of(LogisticConfig{}, "0123"), "data");
     write_outputs(folder.path(), result, summary);
     const prediction::Weights weights = prediction::read_weights(folder.path() / "logistic.weights");
     EXPECT_NO_THROW(weights.require("logistic_pairs", prediction::pair_feature_schema()));

@@ -9,9 +9,10 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "prediction/weights.hpp"
 #include "support/temporary_folder.hpp"
+#include "training/comparison/as_published.hpp"
 #include "training/loss_curve.hpp"
-#include "training/state_dict.hpp"
 
 namespace clearway::training {
 namespace {
@@ -20,45 +21,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-TEST(Pth, libtorch_reads_names_shapes_and_values) {
-    const support::TemporaryFolder folder;
-    const StateDict written = TorchNet({{2, 10, 5}, 3, 0.01}).state();
-    write_pth(folder.path() / "GraphSAGENet.pth", written);
-    const StateDict read = read_pth(folder.path() / "GraphSAGENet.pth");
-    std::vector<std::string> names;
-    for (std::size_t at = 0; at < read.size(); ++at) {
-        names.push_back(read[at].name);
-        EXPECT_EQ(read[at].shape, written[at].shape) << read[at].name;
-        EXPECT_EQ(read[at].values, written[at].values) << read[at].name;
-    }
-    EXPECT_THAT(names, ElementsAre("graphsage.conv1.lin_l.weight", "graphsage.conv1.lin_l.bias",
-                                   "graphsage.conv1.lin_r.weight", "graphsage.conv2.lin_l.weight",
-                                   "graphsage.conv2.lin_l.bias", "graphsage.conv2.lin_r.weight",
-                                   "nn.fc1.weight", "nn.fc1.bias", "nn.fc2.weight", "nn.fc2.bias"));
-    EXPECT_THAT(read[0].shape, ElementsAre(10, 2));
-    EXPECT_THAT(read[2].shape, ElementsAre(10, 2));
-    EXPECT_THAT(read[3].shape, ElementsAre(5, 10));
-    EXPECT_THAT(read[6].shape, ElementsAre(10, 5));
-    EXPECT_THAT(read[8].shape, ElementsAre(1, 10));
-    EXPECT_THAT(read[9].shape, ElementsAre(1));
-}
-
-TEST(Pth, data_start_at_multiples_of_64) {
-    const std::string bytes = format_pth(TorchNet({{2, 10, 5}, 3, 0.01}).state(), "net");
-    const std::size_t member = bytes.find("net/data/0");
-    ASSERT_NE(member, std::string::npos);
-    const auto extra =
-        static_cast<unsigned char>(bytes[member - 2]) + 256 * static_cast<unsigned char>(bytes[member - 1]);
-    EXPECT_EQ((member + 10 + static_cast<std::size_t>(extra)) % 64, 0U);
-}
-
-TEST(Pth, what_is_no_state_dict_is_refused) {
-    const support::TemporaryFolder folder;
-    const std::string file = folder.write("x.pth", "not an archive");
-    EXPECT_THROW(read_pth(file), core::InputError);
-    EXPECT_THROW(read_pth((folder.path() / "missing.pth").string()), core::InputError);
-}
 
 TEST(Losses, csv_counts_epochs_from_zero_and_leaves_cells_empty) {
     EXPECT_EQ(losses_csv({{0.5, 0.25}, {nan, 0.125}}, "test"),
@@ -91,6 +53,10 @@ AsPublishedResult small_result() {
     return train_as_published(dataset, PairChoice::candidates, config);
 }
 
+Identity identity() {
+    return identity_of(PairChoice::candidates, TrainingConfig{}, "abc");
+}
+
 TEST(Outputs, predictions_list_every_pair_in_its_part) {
     const AsPublishedResult result = small_result();
     const std::string csv = predictions_csv(result);
@@ -102,8 +68,8 @@ TEST(Outputs, predictions_list_every_pair_in_its_part) {
 
 TEST(Outputs, the_summary_has_null_where_a_figure_is_undefined) {
     const AsPublishedResult result = small_result();
-    const auto summary = summary_of(result, PairChoice::candidates, {"data", "abc", {}});
-    EXPECT_EQ(summary["mode"], "as_published");
+    const auto summary = summary_of(result, identity(), "data");
+    EXPECT_EQ(summary["mode"], "graphsage_as_published");
     EXPECT_EQ(summary["outcome"], "finished");
     EXPECT_EQ(summary["pairs"], "candidates");
     EXPECT_EQ(summary["pair_count"], 5);
@@ -117,18 +83,17 @@ TEST(Outputs, the_summary_has_null_where_a_figure_is_undefined) {
 TEST(Outputs, the_folder_holds_a_model_that_inference_takes) {
     const support::TemporaryFolder folder;
     const AsPublishedResult result = small_result();
-    TrainingConfig config;
-    write_outputs(folder.path(), result, summary_of(result, PairChoice::candidates, {"data", "abc", config}),
-                  config);
+    write_outputs(folder.path(), result, summary_of(result, identity(), "data"));
     for (const char* name :
          {"losses.csv", "train_test_curve.svg", "summary.json", "predictions.csv", "GraphSAGENet.pth"}) {
         EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
     }
     const prediction::Weights weights =
         prediction::read_weights(folder.path() / "graphsage_as_published.weights");
-    const prediction::GraphSageNet net(weights, as_published_schema(2));
-    EXPECT_EQ(net.dimensions(), (prediction::GraphSageDimensions{2, 10, 5}));
-    EXPECT_THAT(weights.notes, ElementsAre("trained by clearway train, as_published, seed 1, data abc"));
+    const prediction::DissertationNet net(Convolution::sage, weights, as_published_schema(2));
+    EXPECT_EQ(net.dimensions(), (prediction::NetDimensions{2, 10, 5}));
+    EXPECT_THAT(weights.notes,
+                ElementsAre("trained by clearway train graphsage_as_published, seed 1, data abc"));
 }
 
 TEST(Outputs, files_of_one_content_are_named) {
@@ -219,25 +184,25 @@ TEST(Outputs, without_good_parameters_there_is_no_model) {
     AsPublishedResult result = small_result();
     result.state.clear();
     result.outcome = Outcome::diverged;
-    write_outputs(folder.path(), result, summary_of(result, PairChoice::candidates, {"data", "abc", {}}), {});
+    write_outputs(folder.path(), result, summary_of(result, identity(), "data"));
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "losses.csv"));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "GraphSAGENet.pth"));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "graphsage_as_published.weights"));
 }
 
 TEST(Outputs, metrics_of_groups_have_a_column_for_every_figure) {
-    CorrectedResult result;
-    GroupQuality group{"merge", "B10", {}, {}};
-    group.net.pairs = 7;
-    group.net.ap = 0.5;
-    group.dead_reckoning.auc = 0.75;
+    GroupQuality group{"merge", "B10", {}, metrics::LinkQuality{}};
+    group.model.pairs = 7;
+    group.model.ap = 0.5;
+    group.reference->auc = 0.75;
     GroupQuality of_fields = group;
     of_fields.failure = "B10,dark_share=0.5";
-    result.groups = {group, of_fields};
-    EXPECT_EQ(metrics_csv(result),
-              "scenario,failure,pairs,true_links,auc,ap,f1,log_loss_nat,ece,threshold,dead_reckoning_auc,"
-              "dead_reckoning_ap,dead_reckoning_f1\nmerge,B10,7,0,,0.5,,,,0.5,0.75,,\n"
-              "merge,\"B10,dark_share=0.5\",7,0,,0.5,,,,0.5,0.75,,\n");
+    of_fields.reference = std::nullopt;
+    EXPECT_EQ(metrics_csv({group, of_fields}, "gcn", "dead_reckoning"),
+              "scenario,failure,predictor,pairs,true_links,auc,ap,f1,log_loss_nat,ece,threshold\n"
+              "merge,B10,gcn,7,0,,0.5,,,,0.5\n"
+              "merge,B10,dead_reckoning,0,0,0.75,,,,,0.5\n"
+              "merge,\"B10,dark_share=0.5\",gcn,7,0,,0.5,,,,0.5\n");
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "training/graph_batch.hpp"
+#include "training/comparison/graph_batch.hpp"
 
 namespace clearway::training {
 

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "synthetic_repair.hpp"
-#include "training/repair_outputs.hpp"
+#include "training/repair.hpp"
 #include "training/torch_repair_net.hpp"
 
 namespace clearway::training {

@@ -12,7 +12,7 @@
 #include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
 #include "synthetic_repair.hpp"
-#include "training/repair_outputs.hpp"
+#include "training/outputs.hpp"
 
 namespace clearway::training {
 namespace {
@@ -41,9 +41,9 @@ TEST(TrainRepair, beats_the_rule_where_there_is_something_to_learn) {
     config.epochs = 25;
     const RepairResult result = train_repair(runs(10, 30), config, {});
     ASSERT_FALSE(result.groups.empty());
-    const RepairGroup& all = result.groups.front();
-    EXPECT_GT(all.model.ap.value(), all.rule.ap.value());
-    EXPECT_LT(all.displacement_error_m.value(), 0.7 * all.rule_displacement_error_m.value());
+    const GroupQuality& all = result.groups.front();
+    EXPECT_GT(all.model.ap.value(), all.reference->ap.value());
+    EXPECT_LT(all.displacement_error_m.value(), 0.7 * all.reference_displacement_error_m.value());
     EXPECT_EQ(result.groups.size(), 1u + 2u + 2u) << "all, by failure, by scenario and failure";
 }
 
@@ -224,24 +224,27 @@ TEST(RepairOutputs, the_folder_holds_a_model_unless_it_is_an_ablation) {
     RepairConfig config = short_training();
     config.epochs = 1;
     const RepairResult result = train_repair(files, config, {});
-    write_outputs(folder.path() / "whole", result, config, summary_of(result, config, "data", "hash"));
+    const auto summary = summary_of(result, identity_of(config, "hash"), "data");
+    write_outputs(folder.path() / "whole", result, summary);
     const prediction::Weights weights =
         prediction::read_weights(folder.path() / "whole" / "graphsage.weights");
     EXPECT_NO_THROW(
         prediction::check_model("graphsage", (folder.path() / "whole" / "graphsage.weights").string()));
     EXPECT_THAT(weights.notes.front(), HasSubstr("hash"));
     EXPECT_THAT(core::read_file(folder.path() / "whole" / "metrics.csv"), HasSubstr("all,all,route_rule,"));
-    const auto configuration = summary_of(result, config, "data", "hash")["configuration"];
+    const auto& configuration = summary["configuration"];
     EXPECT_EQ(configuration["aggregation"], "gated");
     EXPECT_EQ(configuration["edges"], "believed");
     EXPECT_EQ(configuration["motion_head"], true);
-    config.layers = 0;
-    write_outputs(folder.path() / "ablation", result, config, summary_of(result, config, "data", "hash"));
+    RepairResult ablation = result;
+    ablation.config.layers = 0;
+    write_outputs(folder.path() / "ablation", ablation, summary);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "ablation" / "graphsage.weights"));
 }
 
 TEST(RepairOutputs, every_row_of_the_metrics_has_as_many_cells_as_the_header) {
-    const std::string csv = metrics_csv({{"line", "B10,dark_share=0.5", {}, {}, 0.0, 0.0}}, "graphsage");
+    const std::string csv = metrics_csv(
+        {{"line", "B10,dark_share=0.5", {}, metrics::LinkQuality{}, 0.0, 0.0}}, "graphsage", "route_rule");
     EXPECT_THAT(csv, HasSubstr("\nline,\"B10,dark_share=0.5\",graphsage,"));
     const auto commas = [](const std::string& text) { return std::ranges::count(text, ','); };
     const std::string header = csv.substr(0, csv.find('\n'));
@@ -253,7 +256,7 @@ TEST(RepairOutputs, an_interrupted_training_claims_nothing_measured) {
     const RepairConfig config = short_training();
     int asked = 0;
     const RepairResult result = train_repair(runs(4, 4), config, {}, {{}, [&] { return ++asked > 2; }});
-    write_outputs(folder.path(), result, config, summary_of(result, config, "data", "hash"));
+    write_outputs(folder.path(), result, summary_of(result, identity_of(config, "hash"), "data"));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "metrics.csv"));
     const prediction::Weights weights = prediction::read_weights(folder.path() / "graphsage.weights");
     EXPECT_THAT(weights.notes,

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "prediction/features.hpp"
+#include "prediction/comparison/features.hpp"
 #include "samples/graph_sample.hpp"
 
 namespace clearway::training {

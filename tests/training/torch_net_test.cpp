@@ -1,4 +1,4 @@
-#include "training/torch_net.hpp"
+#include "training/comparison/torch_net.hpp"
 
 #include <cmath>
 #include <stdexcept>
@@ -7,10 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "prediction/convolution_net.hpp"
-#include "prediction/graphsage.hpp"
+#include "prediction/comparison/dissertation_net.hpp"
+#include "prediction/state_dict.hpp"
 #include "random_graph.hpp"
-#include "training/state_dict.hpp"
 
 namespace clearway::training {
 namespace {
@@ -18,10 +17,11 @@ namespace {
 using testing::ElementsAre;
 
 /// The inference without torch on a batch.
-std::vector<float> own_logits(const StateDict& state, const prediction::GraphSageDimensions& dimensions,
+std::vector<float> own_logits(const StateDict& state, const prediction::NetDimensions& dimensions,
                               const GraphBatch& batch) {
     const prediction::FeatureSchema schema{"test", 1, dimensions.input};
-    prediction::GraphSageNet net(weights_from(state, schema, dimensions), schema);
+    prediction::DissertationNet net(
+        Convolution::sage, prediction::net_weights(Convolution::sage, schema, dimensions, state), schema);
     const std::vector<std::uint32_t> sources(batch.message_source.begin(), batch.message_source.end());
     const std::vector<std::uint32_t> targets(batch.message_target.begin(), batch.message_target.end());
     prediction::MessageGraph graph;
@@ -38,11 +38,10 @@ std::vector<float> own_logits(const StateDict& state, const prediction::GraphSag
 
 /// The same for a net with another convolution.
 std::vector<float> own_logits(const TorchNet& net, Convolution convolution,
-                              const prediction::GraphSageDimensions& dimensions, const GraphBatch& batch) {
+                              const prediction::NetDimensions& dimensions, const GraphBatch& batch) {
     const prediction::FeatureSchema schema{"test", 1, dimensions.input};
-    prediction::ConvolutionNet own(convolution == Convolution::gcn ? prediction::GraphConvolution::gcn
-                                                                   : prediction::GraphConvolution::gat,
-                                   weights_from(net.state(), schema, dimensions, convolution), schema);
+    prediction::DissertationNet own(
+        convolution, prediction::net_weights(convolution, schema, dimensions, net.state()), schema);
     prediction::MessageGraph graph;
     prediction::message_graph_from(
         std::vector<std::uint32_t>(batch.message_source.begin(), batch.message_source.end()),
@@ -68,7 +67,7 @@ double cross_entropy(const std::vector<float>& logits, const std::vector<float>&
     return sum / static_cast<double>(logits.size());
 }
 
-StateDict zeros(const prediction::GraphSageDimensions& dimensions) {
+StateDict zeros(const prediction::NetDimensions& dimensions) {
     StateDict state = TorchNet({dimensions, 1, 0.01}).state();
     for (prediction::Tensor& tensor : state)
         std::ranges::fill(tensor.values, 0.0F);
@@ -118,10 +117,9 @@ TEST(TorchNet, three_vehicles_by_hand) {
 
 TEST(TorchNet, own_inference_agrees_within_1e_5) {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
-        const prediction::GraphSageDimensions dimensions =
-            seed % 3 == 0   ? prediction::GraphSageDimensions{5, 10, 5}
-            : seed % 3 == 1 ? prediction::GraphSageDimensions{2, 10, 5}
-                            : prediction::GraphSageDimensions{7, 33, 17};
+        const prediction::NetDimensions dimensions = seed % 3 == 0   ? prediction::NetDimensions{5, 10, 5}
+                                                     : seed % 3 == 1 ? prediction::NetDimensions{2, 10, 5}
+                                                                     : prediction::NetDimensions{7, 33, 17};
         const GraphBatch batch = random_graph(seed, 1 + seed * 7, dimensions.input, 40 * seed);
         const TorchNet net({dimensions, seed, 0.01});
         const std::vector<float> theirs = net.logits(batch);
@@ -136,9 +134,8 @@ TEST(TorchNet, own_inference_agrees_within_1e_5) {
 TEST(TorchNet, own_inference_of_gcn_and_gat_agrees_within_1e_5_before_and_after_training) {
     for (const Convolution convolution : {Convolution::gcn, Convolution::gat}) {
         for (std::uint32_t seed = 1; seed <= 12; ++seed) {
-            const prediction::GraphSageDimensions dimensions =
-                seed % 2 == 0 ? prediction::GraphSageDimensions{5, 10, 5}
-                              : prediction::GraphSageDimensions{7, 33, 17};
+            const prediction::NetDimensions dimensions =
+                seed % 2 == 0 ? prediction::NetDimensions{5, 10, 5} : prediction::NetDimensions{7, 33, 17};
             const GraphBatch batch = random_graph(seed, 1 + seed * 7, dimensions.input, 40 * seed);
             TorchNet net({dimensions, seed, 0.01, convolution});
             EXPECT_THAT(own_logits(net, convolution, dimensions, batch),
@@ -185,7 +182,7 @@ TEST(TorchNet, a_constant_net_has_the_loss_of_its_constant) {
 TEST(TorchNet, the_first_step_of_adam_moves_each_parameter_against_its_gradient) {
     // Adam's first step is the learning rate times the gradient's sign; the gradient here is a difference
     // quotient of the inference without torch.
-    const prediction::GraphSageDimensions dimensions{2, 10, 5};
+    const prediction::NetDimensions dimensions{2, 10, 5};
     const GraphBatch batch = random_graph(9, 12, 2, 60);
     TorchNet net({dimensions, 9, 0.01});
     StateDict state = net.state();
@@ -247,9 +244,9 @@ TEST(TorchNet, the_seed_decides_the_parameters) {
     const TorchNetConfig config{{2, 10, 5}, 11, 0.01};
     TorchNetConfig other = config;
     other.seed = 12;
-    const std::string first = format_pth(TorchNet(config).state(), "net");
-    EXPECT_EQ(format_pth(TorchNet(config).state(), "net"), first);
-    EXPECT_NE(format_pth(TorchNet(other).state(), "net"), first);
+    const std::string first = prediction::format_pth(TorchNet(config).state(), "net");
+    EXPECT_EQ(prediction::format_pth(TorchNet(config).state(), "net"), first);
+    EXPECT_NE(prediction::format_pth(TorchNet(other).state(), "net"), first);
 }
 
 TEST(TorchNet, rows_without_messages_and_graphs_without_links_work) {
@@ -265,9 +262,9 @@ TEST(TorchNet, a_loss_that_is_not_finite_leaves_the_parameters) {
     GraphBatch batch = random_graph(7, 10, 2, 20);
     std::ranges::fill(batch.features, 3e38F);
     TorchNet net({{2, 10, 5}, 7, 0.01});
-    const std::string before = format_pth(net.state(), "net");
+    const std::string before = prediction::format_pth(net.state(), "net");
     EXPECT_FALSE(std::isfinite(net.train_step(batch)));
-    EXPECT_EQ(format_pth(net.state(), "net"), before);
+    EXPECT_EQ(prediction::format_pth(net.state(), "net"), before);
 }
 
 TEST(TorchNet, a_state_of_another_net_is_refused) {

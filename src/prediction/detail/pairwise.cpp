@@ -57,6 +57,28 @@ CandidateScores PairwisePredictor::scores() const {
     return {&scene_, probabilities_};
 }
 
+void PairwisePredictor::score_by_place(const Scene& scene, const std::vector<RowBelief>& beliefs,
+                                       std::vector<float>& probabilities) const {
+    score_present(scene, beliefs, probabilities, [&](std::size_t at) {
+        const RowBelief& left = beliefs[scene.candidates.rows[at].left];
+        const RowBelief& right = beliefs[scene.candidates.rows[at].right];
+        const float distance_m =
+            std::hypot(left.state.x_m - right.state.x_m, left.state.y_m - right.state.y_m);
+        return probability_within(static_cast<float>(rules_.radius_m), distance_m,
+                                  std::hypot(left.sigma_m, right.sigma_m));
+    });
+}
+
+void PairwisePredictor::score_by_distance(const Scene& scene, const std::vector<RowBelief>& beliefs,
+                                          const std::vector<float>& distances_m,
+                                          std::vector<float>& probabilities) const {
+    score_present(scene, beliefs, probabilities, [&](std::size_t at) {
+        const RowPair pair = scene.candidates.rows[at];
+        return probability_within(static_cast<float>(rules_.radius_m), distances_m[at],
+                                  std::hypot(beliefs[pair.left].sigma_m, beliefs[pair.right].sigma_m));
+    });
+}
+
 void PairwisePredictor::place_vehicles(traffic::BelievedGraph& belief) {
     const Tracks& tracks = scene_.tracks;
     belief.vehicles.clear();

@@ -1,38 +1,22 @@
 #pragma once
 
 #include <cmath>
-#include <filesystem>
-#include <initializer_list>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/csv.hpp"
 #include "core/fields.hpp"
 #include "training/arithmetic.hpp"
 #include "training/output_folder.hpp"
-#include "training/seeds.hpp"
 
 namespace clearway::training::detail {
 
 // How summaries and tables write numbers.
 
 using Json = nlohmann::ordered_json;
-
-template <class Value>
-Json json_value(const Value& value) {
-    return value;
-}
-template <class Value>
-Json json_value(const std::optional<Value>& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
 
 /// The name with its unit, if it has one.
 inline std::string field_name(const char* name, const char* unit) {
@@ -49,25 +33,14 @@ Json json_from(const Struct& value) {
         using Member = std::remove_cvref_t<decltype(member)>;
         Json& entry = json[field_name(field.name, field.unit)];
         if constexpr (std::is_enum_v<Member>) {
-            for (const auto& [choice, word] : spellings(Member{})) {
-                if (choice == member) entry = word;
-            }
+            entry = core::name(member);
+        } else if constexpr (requires { member.has_value(); }) {
+            entry = member ? Json(*member) : Json(nullptr);
         } else {
-            entry = json_value(member);
+            entry = member;
         }
     });
     return json;
-}
-
-/// How every summary begins.
-inline Json summary_start(const Identity& identity, std::string_view outcome,
-                          const std::filesystem::path& data) {
-    Json summary = {{"format", "clearway training summary 1"},
-                    {"mode", identity.at("mode")},
-                    {"outcome", outcome},
-                    {"data", data.string()}};
-    summary.update(identity);
-    return summary;
 }
 
 /// What the numbers were computed with; part of no identity, since another machine may go on.
@@ -83,28 +56,12 @@ template <class Value>
 std::string csv_value(const Value& value) {
     return fmt::format("{}", value);
 }
-template <class Value>
-std::string csv_value(const std::optional<Value>& value) {
-    return value ? fmt::format("{}", *value) : std::string();
-}
 inline std::string csv_value(double value) {
     return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
-/// Which pairs a row of a table is about: their scenario or their failure, by name.
-inline std::string csv_group(const std::string& name) {
-    return name.empty() ? "all" : core::csv_text(name);
-}
-
-inline Json json_from(const SeedSplit& split) {
-    Json json = Json::object();
-    const std::initializer_list<std::pair<const char*, const std::vector<DataSeed>*>> parts = {
-        {"train", &split.train}, {"validation", &split.validation}, {"test", &split.test}};
-    for (const auto& [name, seeds] : parts) {
-        Json& list = json[name] = Json::array();
-        for (const DataSeed& seed : *seeds)
-            list.push_back({{"study_seed", seed.study_seed}, {"replication", seed.replication}});
-    }
-    return json;
+template <class Value>
+std::string csv_value(const std::optional<Value>& value) {
+    return value ? fmt::format("{}", *value) : std::string();
 }
 
 }  // namespace clearway::training::detail

@@ -11,7 +11,7 @@
 #include <ATen/Parallel.h>
 #include <torch/types.h>
 
-#include "training/torch_net.hpp"
+#include "training/trainer.hpp"
 
 namespace clearway::training::detail {
 
