@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
-#include "core/files.hpp"
 #include "samples/detail/sample_file.hpp"
 
 namespace clearway::samples {
@@ -16,7 +13,6 @@ namespace {
 
 using detail::append;
 using detail::ByteReader;
-using detail::cure_remake;
 
 constexpr std::string_view graph_first_line = "clearway graph samples 1\n";
 
@@ -76,51 +72,36 @@ GraphSample read_sample(ByteReader& reader, std::uint32_t feature_count) {
 }  // namespace
 
 GraphSampleWriter::GraphSampleWriter(const SampleOrigin& origin)
-    : origin_(origin), bytes_(detail::file_start(graph_first_line, origin)) {}
+    : SampleFileWriter(graph_first_line, origin), feature_count_(origin.features.width) {}
 
 void GraphSampleWriter::add(const GraphSample& sample) {
-    if (const std::string wrong = fault(sample, origin_.features.width); !wrong.empty()) {
-        throw std::logic_error("graph sample: " + wrong);
-    }
-    append(bytes_, sample.time_s);
-    append(bytes_, sample.vehicle_count);
-    append(bytes_, static_cast<std::uint32_t>(sample.observed_edges.size()));
-    append(bytes_, static_cast<std::uint32_t>(sample.candidates.size()));
+    std::string& bytes = bytes_of_sample(fault(sample, feature_count_));
+    append(bytes, sample.time_s);
+    append(bytes, sample.vehicle_count);
+    append(bytes, static_cast<std::uint32_t>(sample.observed_edges.size()));
+    append(bytes, static_cast<std::uint32_t>(sample.candidates.size()));
     for (float value : sample.features)
-        append(bytes_, value);
+        append(bytes, value);
     for (const ObservedEdge& edge : sample.observed_edges) {
-        append(bytes_, edge.left);
-        append(bytes_, edge.right);
+        append(bytes, edge.left);
+        append(bytes, edge.right);
     }
     for (const CandidatePair& pair : sample.candidates) {
-        append(bytes_, pair.left);
-        append(bytes_, pair.right);
-        append(bytes_, pair.dead_reckoned_m);
-        append(bytes_, pair.linked);
+        append(bytes, pair.left);
+        append(bytes, pair.right);
+        append(bytes, pair.dead_reckoned_m);
+        append(bytes, pair.linked);
     }
-    ++sample_count_;
-}
-
-void GraphSampleWriter::write(const std::filesystem::path& file) const {
-    core::write_atomically(file, bytes_ + detail::file_end(bytes_, sample_count_));
 }
 
 GraphSampleFile read_graph_samples(const std::filesystem::path& file) {
     detail::SampleBytes bytes;
     detail::read_sample_bytes(file, graph_first_line, bytes);
+    const std::uint32_t width = bytes.origin.features.width;
     GraphSampleFile result;
-    result.origin = bytes.origin;
-    result.content_hash = bytes.content_hash;
-    ByteReader reader(bytes.samples, file.string());
-    while (!reader.empty()) {
-        result.samples.push_back(read_sample(reader, result.origin.features.width));
-        const std::string wrong = fault(result.samples.back(), result.origin.features.width);
-        if (!wrong.empty()) {
-            throw core::InputError({fmt::format("{}: sample {}", file.string(), result.samples.size() - 1),
-                                    wrong, "", cure_remake});
-        }
-    }
-    detail::check_sample_count(file, result.samples.size(), bytes.sample_count);
+    detail::read_all(
+        file, bytes, [&](ByteReader& reader) { return read_sample(reader, width); },
+        [&](const GraphSample& sample) { return fault(sample, width); }, result);
     return result;
 }
 

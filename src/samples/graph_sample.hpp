@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "samples/detail/sample_file.hpp"
 #include "samples/sample_origin.hpp"
 
 namespace clearway::samples {
@@ -47,26 +48,20 @@ struct GraphSampleFile {
 /// Name ending of sample files: `.samples`.
 inline constexpr const char* graph_sample_extension = ".samples";
 
-/// Collects the samples of one run and writes them as one file. Holds the whole file in memory (about 15
-/// bytes per candidate and 4 per feature). One thread.
+/// Holds the whole file in memory (about 15 bytes per candidate and 4 per feature). One thread.
 ///
 /// Format, version 1: the line `clearway graph samples 1`, a line of JSON with the origin, little-endian
 /// binary samples (time f64, counts of vehicles, edges and candidates u32, features f32, edges 2 u32,
 /// candidates 2 u32 + f32 + u8), and `end <number of samples> <content hash>` as the last line.
-class GraphSampleWriter {
+class GraphSampleWriter : public detail::SampleFileWriter {
   public:
     explicit GraphSampleWriter(const SampleOrigin& origin);
     /// Throws std::logic_error when the sample does not fit the origin or its own counts, or holds a value
     /// that is not finite: a bug in the recorder.
     void add(const GraphSample& sample);
-    std::size_t sample_count() const { return sample_count_; }
-    /// Writes the file atomically. Throws core::EnvironmentError (folder not writable, disk full).
-    void write(const std::filesystem::path& file) const;
 
   private:
-    SampleOrigin origin_;
-    std::string bytes_;
-    std::size_t sample_count_ = 0;
+    std::uint32_t feature_count_;
 };
 
 /// Throws core::InputError for a file that is missing, of another version, cut short, changed since it was

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -15,7 +14,7 @@
 namespace clearway::samples {
 namespace {
 
-constexpr std::string_view first_words = "# clearway pair samples 1 ";
+constexpr std::string_view first_words = "# clearway pair samples 2 ";
 constexpr std::size_t most_pair_problems = 20;
 constexpr const char* cure_record_pairs =
     "Record the pairs again with `clearway dataset SCENARIO --samples --net logistic`";
@@ -24,46 +23,21 @@ std::string header_line() {
     return fmt::format("{},linked", fmt::join(prediction::pair_feature_names, ","));
 }
 
-std::string origin_line(const SampleOrigin& origin) {
-    nlohmann::ordered_json json = {{"scenario", origin.scenario},
-                                   {"failure", origin.failure},
-                                   {"features", prediction::pair_feature_schema().name},
-                                   {"feature_version", prediction::pair_feature_schema().version},
-                                   {"study_seed", origin.study_seed},
-                                   {"replication", origin.replication},
-                                   {"link_radius_m", origin.link_radius_m}};
-    if (!origin.traffic.empty()) json["traffic"] = origin.traffic;
-    return std::string(first_words) + json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-}
-
 SampleOrigin parse_origin(std::string_view line, const std::string& file) {
     if (!line.starts_with(first_words)) {
         throw core::InputError({file + ":1", "not a file of pair samples of this version",
                                 fmt::format("a first line that begins `{}`", first_words),
                                 cure_record_pairs});
     }
-    try {
-        const nlohmann::json json = nlohmann::json::parse(line.substr(first_words.size()));
-        const prediction::FeatureSchema schema = prediction::pair_feature_schema();
-        const auto name = json.at("features").get<std::string>();
-        const auto version = json.at("feature_version").get<std::uint32_t>();
-        if (name != schema.name || version != schema.version) {
-            throw core::InputError({file + ":1", fmt::format("features {} version {}", name, version),
-                                    fmt::format("{} version {}", schema.name, schema.version),
-                                    cure_record_pairs});
-        }
-        SampleOrigin origin;
-        origin.features = schema;
-        json.at("scenario").get_to(origin.scenario);
-        json.at("failure").get_to(origin.failure);
-        json.at("study_seed").get_to(origin.study_seed);
-        json.at("replication").get_to(origin.replication);
-        json.at("link_radius_m").get_to(origin.link_radius_m);
-        origin.traffic = json.value("traffic", "");
-        return origin;
-    } catch (const nlohmann::json::exception& error) {
-        throw core::InputError({file + ":1", error.what(), "", cure_record_pairs});
+    SampleOrigin origin = detail::read_origin(line.substr(first_words.size()), file + ":1");
+    const prediction::FeatureSchema schema = prediction::pair_feature_schema();
+    if (origin.features != schema) {
+        throw core::InputError(
+            {file + ":1",
+             fmt::format("features {} version {}", origin.features.name, origin.features.version),
+             fmt::format("{} version {}", schema.name, schema.version), cure_record_pairs});
     }
+    return origin;
 }
 
 /// Splits off the first line.
@@ -105,7 +79,9 @@ std::string read_row(std::string_view line, PairSampleFile& samples) {
 }  // namespace
 
 void write_pair_samples(const std::filesystem::path& file, const PairSampleFile& samples) {
-    std::string text = origin_line(samples.origin) + "\n" + header_line() + "\n";
+    SampleOrigin origin = samples.origin;
+    origin.features = prediction::pair_feature_schema();
+    std::string text = std::string(first_words) + detail::origin_line(origin) + header_line() + "\n";
     for (std::size_t pair = 0; pair < samples.features.size(); ++pair) {
         fmt::format_to(std::back_inserter(text), "{:.5g},{}\n", fmt::join(samples.features[pair], ","),
                        samples.linked[pair]);

@@ -20,7 +20,7 @@ struct PairSampleFile {
     std::vector<std::uint8_t> linked;  ///< 1: the true distance is below the link radius. One per pair.
 };
 
-/// Writes the file atomically: a first line `# clearway pair samples 1` with the origin as JSON, a header
+/// Writes the file atomically: a first line `# clearway pair samples 2` with the origin as JSON, a header
 /// with the names of the features and `linked`, and a row per pair. Throws core::EnvironmentError.
 void write_pair_samples(const std::filesystem::path& file, const PairSampleFile& samples);
 

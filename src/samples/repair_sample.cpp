@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "samples/detail/sample_file.hpp"
 
 namespace clearway::samples {
@@ -35,7 +33,7 @@ bool all_below(const std::vector<std::uint32_t>& numbers, std::uint32_t end) {
 }
 
 /// What is wrong with a sample, or empty.
-std::string fault(const RepairSample& sample) {
+std::string repair_fault(const RepairSample& sample) {
     const prediction::RepairInputs& inputs = sample.inputs;
     const std::size_t rows = inputs.rows;
     if (inputs.nodes.size() != rows * prediction::node_width || inputs.x_m.size() != rows ||
@@ -76,7 +74,7 @@ std::string fault(const RepairSample& sample) {
     return {};
 }
 
-RepairSample read_sample(ByteReader& reader) {
+RepairSample read_repair_sample(ByteReader& reader) {
     RepairSample sample;
     prediction::RepairInputs& inputs = sample.inputs;
     sample.time_s = reader.next<double>();
@@ -119,48 +117,41 @@ RepairSample read_sample(ByteReader& reader) {
 }  // namespace
 
 RepairSampleWriter::RepairSampleWriter(const SampleOrigin& origin)
-    : bytes_(detail::file_start(repair_first_line, origin)) {}
+    : SampleFileWriter(repair_first_line, origin) {}
 
 void RepairSampleWriter::add(const RepairSample& sample) {
-    if (const std::string wrong = fault(sample); !wrong.empty()) {
-        throw std::logic_error("repair sample: " + wrong);
-    }
+    std::string& bytes = bytes_of_sample(repair_fault(sample));
     const prediction::RepairInputs& inputs = sample.inputs;
-    append(bytes_, sample.time_s);
-    append(bytes_, inputs.radius_m);
-    append(bytes_, inputs.rows);
-    append(bytes_, static_cast<std::uint32_t>(inputs.receivers.size()));
-    append(bytes_, static_cast<std::uint32_t>(inputs.source.size()));
-    append(bytes_, static_cast<std::uint32_t>(inputs.pairs.size()));
+    append(bytes, sample.time_s);
+    append(bytes, inputs.radius_m);
+    append(bytes, inputs.rows);
+    append(bytes, static_cast<std::uint32_t>(inputs.receivers.size()));
+    append(bytes, static_cast<std::uint32_t>(inputs.source.size()));
+    append(bytes, static_cast<std::uint32_t>(inputs.pairs.size()));
     const std::span<const float> nodes = inputs.nodes;
     for (std::size_t row = 0; row < inputs.rows; ++row) {
-        append_all(bytes_, nodes.subspan(row * prediction::node_width, common_width));
+        append_all(bytes, nodes.subspan(row * prediction::node_width, common_width));
     }
-    append_all<float>(bytes_, inputs.x_m);
-    append_all<float>(bytes_, inputs.y_m);
-    append_all<float>(bytes_, inputs.place_sigma_m);
+    append_all<float>(bytes, inputs.x_m);
+    append_all<float>(bytes, inputs.y_m);
+    append_all<float>(bytes, inputs.place_sigma_m);
     for (std::size_t at = 0; at < inputs.receivers.size(); ++at) {
         const prediction::Receiver& receiver = inputs.receivers[at];
-        append(bytes_, receiver.row);
-        append(bytes_, receiver.displacement_m);
-        append(bytes_, receiver.reach_m);
-        append(bytes_, sample.true_displacement_m[at]);
-        append(bytes_, receiver.path);
-        append_all(bytes_,
+        append(bytes, receiver.row);
+        append(bytes, receiver.displacement_m);
+        append(bytes, receiver.reach_m);
+        append(bytes, sample.true_displacement_m[at]);
+        append(bytes, receiver.path);
+        append_all(bytes,
                    nodes.subspan(receiver.row * prediction::node_width + common_width, receiver_width));
     }
-    append_all<std::uint32_t>(bytes_, inputs.first_edge);
-    append_all<std::uint32_t>(bytes_, inputs.source);
-    append_all<float>(bytes_, inputs.edges);
-    append_all<prediction::RowPair>(bytes_, inputs.pairs);
-    append_all<float>(bytes_, inputs.pair_features);
-    append_all<std::uint8_t>(bytes_, sample.linked);
-    append_all<float>(bytes_, sample.rule);
-    ++sample_count_;
-}
-
-void RepairSampleWriter::write(const std::filesystem::path& file) const {
-    core::write_atomically(file, bytes_ + detail::file_end(bytes_, sample_count_));
+    append_all<std::uint32_t>(bytes, inputs.first_edge);
+    append_all<std::uint32_t>(bytes, inputs.source);
+    append_all<float>(bytes, inputs.edges);
+    append_all<prediction::RowPair>(bytes, inputs.pairs);
+    append_all<float>(bytes, inputs.pair_features);
+    append_all<std::uint8_t>(bytes, sample.linked);
+    append_all<float>(bytes, sample.rule);
 }
 
 RepairSampleFile read_repair_samples(const std::filesystem::path& file) {
@@ -175,17 +166,7 @@ RepairSampleFile read_repair_samples(const std::filesystem::path& file) {
              fmt::format("{} {} ({} numbers)", wanted.name, wanted.version, wanted.width), cure_remake});
     }
     RepairSampleFile result;
-    result.origin = bytes.origin;
-    result.content_hash = bytes.content_hash;
-    ByteReader reader(bytes.samples, file.string());
-    while (!reader.empty()) {
-        result.samples.push_back(read_sample(reader));
-        if (const std::string wrong = fault(result.samples.back()); !wrong.empty()) {
-            throw core::InputError({fmt::format("{}: sample {}", file.string(), result.samples.size() - 1),
-                                    wrong, "", cure_remake});
-        }
-    }
-    detail::check_sample_count(file, result.samples.size(), bytes.sample_count);
+    detail::read_all(file, bytes, read_repair_sample, repair_fault, result);
     return result;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "prediction/repair_inputs.hpp"
+#include "samples/detail/sample_file.hpp"
 #include "samples/sample_origin.hpp"
 
 namespace clearway::samples {
@@ -25,21 +26,13 @@ struct RepairSampleFile {
     std::string content_hash;
 };
 
-/// Collects the samples of one run with one failure, as GraphSampleWriter does. The file has the same frame
-/// and the first line `clearway repair samples 2`. Receiver features of vehicles that are not receivers are
-/// zero by construction and left out.
-class RepairSampleWriter {
+/// The file has the frame of graph samples and the first line `clearway repair samples 2`. Receiver features
+/// of vehicles that are not receivers are zero by construction and left out.
+class RepairSampleWriter : public detail::SampleFileWriter {
   public:
     explicit RepairSampleWriter(const SampleOrigin& origin);
     /// Throws std::logic_error when its counts are inconsistent.
     void add(const RepairSample& sample);
-    std::size_t sample_count() const { return sample_count_; }
-    /// Writes the file atomically. Throws core::EnvironmentError.
-    void write(const std::filesystem::path& file) const;
-
-  private:
-    std::string bytes_;
-    std::size_t sample_count_ = 0;
 };
 
 /// Throws core::InputError for a file that is missing, of another version, cut short, changed since it was

@@ -72,7 +72,7 @@ TEST_F(PairSamples, AreRefusedForOtherColumns) {
     EXPECT_THAT(refusal("margin,", "edge,"), HasSubstr("city.pairs.csv:2"));
 }
 TEST_F(PairSamples, AreRefusedForAnotherKindOfFile) {
-    EXPECT_THAT(refusal("# clearway pair samples 1", "# anything"), HasSubstr("city.pairs.csv:1"));
+    EXPECT_THAT(refusal("# clearway pair samples 2", "# anything"), HasSubstr("city.pairs.csv:1"));
 }
 TEST_F(PairSamples, AreFoundByTheirEnding) {
     EXPECT_EQ(find_pair_samples(folder_.path()), std::vector{file_});

@@ -15,43 +15,6 @@ namespace {
 
 constexpr std::uint32_t most_features = 256;
 
-std::string header(const SampleOrigin& origin) {
-    nlohmann::ordered_json json = {{"scenario", origin.scenario},
-                                   {"failure", origin.failure},
-                                   {"feature_name", origin.features.name},
-                                   {"feature_version", origin.features.version},
-                                   {"feature_count", origin.features.width},
-                                   {"study_seed", origin.study_seed},
-                                   {"replication", origin.replication},
-                                   {"link_radius_m", origin.link_radius_m}};
-    if (!origin.traffic.empty()) json["traffic"] = origin.traffic;
-    return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
-}
-
-SampleOrigin read_origin(std::string_view line, const std::string& where) {
-    try {
-        const nlohmann::json json = nlohmann::json::parse(line);
-        SampleOrigin origin;
-        json.at("scenario").get_to(origin.scenario);
-        json.at("failure").get_to(origin.failure);
-        json.at("feature_name").get_to(origin.features.name);
-        json.at("feature_version").get_to(origin.features.version);
-        json.at("feature_count").get_to(origin.features.width);
-        json.at("study_seed").get_to(origin.study_seed);
-        json.at("replication").get_to(origin.replication);
-        json.at("link_radius_m").get_to(origin.link_radius_m);
-        origin.traffic = json.value("traffic", "");
-        if (origin.features.width == 0 || origin.features.width > most_features) {
-            throw core::InputError({where + ":2: feature_count",
-                                    fmt::format("{} features", origin.features.width),
-                                    fmt::format("1 to {}", most_features), cure_remake});
-        }
-        return origin;
-    } catch (const nlohmann::json::exception& error) {
-        throw core::InputError({where + ":2", error.what(), "", cure_remake});
-    }
-}
-
 /// Splits off the last line and checks its hash against the bytes before it. Returns the number of samples.
 std::size_t check_end(std::string_view& bytes, const std::string& where, std::string& hash) {
     const std::size_t start = bytes.empty() ? std::string_view::npos : bytes.rfind('\n', bytes.size() - 2);
@@ -90,15 +53,57 @@ void ByteReader::end_reached() const {
     throw core::InputError({where_, "a sample ends before its data", "", cure_remake});
 }
 
-std::string file_start(std::string_view first_line, const SampleOrigin& origin) {
-    if (origin.features.width == 0 || origin.features.width > most_features) {
-        throw std::logic_error(fmt::format("graph samples of {} features", origin.features.width));
-    }
-    return std::string(first_line) + header(origin);
+std::string origin_line(const SampleOrigin& origin) {
+    if (origin.features.width == 0 || origin.features.width > most_features)
+        throw std::logic_error(fmt::format("samples of {} features", origin.features.width));
+    nlohmann::ordered_json json = {{"scenario", origin.scenario},
+                                   {"failure", origin.failure},
+                                   {"feature_name", origin.features.name},
+                                   {"feature_version", origin.features.version},
+                                   {"feature_count", origin.features.width},
+                                   {"study_seed", origin.study_seed},
+                                   {"replication", origin.replication},
+                                   {"link_radius_m", origin.link_radius_m}};
+    if (!origin.traffic.empty()) json["traffic"] = origin.traffic;
+    return json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string file_end(std::string_view bytes, std::size_t sample_count) {
-    return fmt::format("\nend {} {}\n", sample_count, core::content_hash(bytes));
+SampleOrigin read_origin(std::string_view line, const std::string& where) {
+    try {
+        const nlohmann::json json = nlohmann::json::parse(line);
+        SampleOrigin origin;
+        json.at("scenario").get_to(origin.scenario);
+        json.at("failure").get_to(origin.failure);
+        json.at("feature_name").get_to(origin.features.name);
+        json.at("feature_version").get_to(origin.features.version);
+        json.at("feature_count").get_to(origin.features.width);
+        json.at("study_seed").get_to(origin.study_seed);
+        json.at("replication").get_to(origin.replication);
+        json.at("link_radius_m").get_to(origin.link_radius_m);
+        origin.traffic = json.value("traffic", "");
+        if (origin.features.width == 0 || origin.features.width > most_features) {
+            throw core::InputError({where + ": feature_count",
+                                    fmt::format("{} features", origin.features.width),
+                                    fmt::format("1 to {}", most_features), cure_remake});
+        }
+        return origin;
+    } catch (const nlohmann::json::exception& error) {
+        throw core::InputError({where, error.what(), "", cure_remake});
+    }
+}
+
+SampleFileWriter::SampleFileWriter(std::string_view first_line, const SampleOrigin& origin)
+    : bytes_(std::string(first_line) + origin_line(origin)) {}
+
+std::string& SampleFileWriter::bytes_of_sample(const std::string& fault) {
+    if (!fault.empty()) throw std::logic_error("sample: " + fault);
+    ++sample_count_;
+    return bytes_;
+}
+
+void SampleFileWriter::write(const std::filesystem::path& file) const {
+    core::write_atomically(file,
+                           bytes_ + fmt::format("\nend {} {}\n", sample_count_, core::content_hash(bytes_)));
 }
 
 void read_sample_bytes(const std::filesystem::path& file, std::string_view first_line, SampleBytes& bytes) {
@@ -113,12 +118,15 @@ void read_sample_bytes(const std::filesystem::path& file, std::string_view first
     bytes.sample_count = check_end(bytes.samples, where, bytes.content_hash);
     bytes.samples.remove_prefix(first_line.size());
     const std::size_t line_end = std::min(bytes.samples.find('\n'), bytes.samples.size());
-    bytes.origin = read_origin(bytes.samples.substr(0, line_end), where);
+    bytes.origin = read_origin(bytes.samples.substr(0, line_end), where + ":2");
     bytes.samples.remove_prefix(std::min(line_end + 1, bytes.samples.size()));
 }
 
-void check_sample_count(const std::filesystem::path& file, std::size_t found, std::size_t stated) {
-    if (found == stated) return;
+void refuse_sample(const std::filesystem::path& file, std::size_t number, const std::string& fault) {
+    throw core::InputError({fmt::format("{}: sample {}", file.string(), number), fault, "", cure_remake});
+}
+
+void refuse_count(const std::filesystem::path& file, std::size_t found, std::size_t stated) {
     throw core::InputError({file.string(),
                             fmt::format("{} samples, but its last line says {}", found, stated), "",
                             cure_remake});

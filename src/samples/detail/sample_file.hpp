@@ -60,10 +60,28 @@ class ByteReader {
     std::string where_;
 };
 
-/// The start of a file: first line and origin. Throws std::logic_error for an impossible schema.
-std::string file_start(std::string_view first_line, const SampleOrigin& origin);
-/// The last line of a file.
-std::string file_end(std::string_view bytes, std::size_t sample_count);
+/// The line of JSON that says where samples come from, and the reverse. Throw std::logic_error for an
+/// impossible schema, core::InputError (`where`: file and line) for a damaged line.
+std::string origin_line(const SampleOrigin& origin);
+SampleOrigin read_origin(std::string_view line, const std::string& where);
+
+/// Collects the samples of one run in memory and writes them as one file.
+class SampleFileWriter {
+  public:
+    std::size_t sample_count() const { return sample_count_; }
+    /// Writes the file atomically. Throws core::EnvironmentError (folder not writable, disk full).
+    void write(const std::filesystem::path& file) const;
+
+  protected:
+    SampleFileWriter(std::string_view first_line, const SampleOrigin& origin);
+    /// Where the numbers of a sample are appended. Throws std::logic_error when `fault` says something: a bug
+    /// in the recorder.
+    std::string& bytes_of_sample(const std::string& fault);
+
+  private:
+    std::string bytes_;
+    std::size_t sample_count_ = 0;
+};
 
 /// The content of a file, taken apart.
 struct SampleBytes {
@@ -76,8 +94,28 @@ struct SampleBytes {
 /// Throws core::InputError for a file that is missing, of another kind or version, cut short, or changed
 /// since it was written.
 void read_sample_bytes(const std::filesystem::path& file, std::string_view first_line, SampleBytes& bytes);
-/// Throws core::InputError when the number of samples differs from what the last line says.
-void check_sample_count(const std::filesystem::path& file, std::size_t found, std::size_t stated);
+
+/// What is said of a sample that is damaged, and of a file that holds another number of samples than it says.
+[[noreturn]] void refuse_sample(const std::filesystem::path& file, std::size_t number,
+                                const std::string& fault);
+[[noreturn]] void refuse_count(const std::filesystem::path& file, std::size_t found, std::size_t stated);
+
+/// Samples by `read(reader)`, of which `fault` finds nothing wrong; `result` gets origin, samples and hash.
+/// Throws core::InputError otherwise.
+template <class File, class Read, class Fault>
+void read_all(const std::filesystem::path& file, const SampleBytes& bytes, const Read& read,
+              const Fault& fault, File& result) {
+    result.origin = bytes.origin;
+    result.content_hash = bytes.content_hash;
+    ByteReader reader(bytes.samples, file.string());
+    while (!reader.empty()) {
+        result.samples.push_back(read(reader));
+        if (const std::string wrong = fault(result.samples.back()); !wrong.empty())
+            refuse_sample(file, result.samples.size() - 1, wrong);
+    }
+    if (result.samples.size() != bytes.sample_count)
+        refuse_count(file, result.samples.size(), bytes.sample_count);
+}
 
 /// The files in `folder` and the folders in it whose names end in `ending`, sorted by name. Throws
 /// core::InputError, with `what` they are and the `cure`, when there is none.
