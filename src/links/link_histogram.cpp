@@ -70,6 +70,19 @@ double sum(std::span<const double> values) {
     return total;
 }
 
+/// Calls `visit(threshold, found, predicted)` for the lower edge of each bin, from the highest down.
+template <class Visit>
+void for_each_threshold(const LinkSummary& summary, const Visit& visit) {
+    double found = 0.0;
+    double predicted = 0.0;
+    for (std::size_t at = summary.bins.size(); at-- > 0;) {
+        const LinkSummary::Bin& bin = summary.bins[at];
+        found += static_cast<double>(bin.linked);
+        predicted += static_cast<double>(bin.linked + bin.unlinked);
+        visit(LinkGrid::lower_edge(bin.bin), found, predicted);
+    }
+}
+
 std::optional<double> calibration_error(const LinkSummary& summary) {
     const auto pairs = static_cast<double>(summary.pairs());
     if (pairs == 0.0) return std::nullopt;
@@ -221,19 +234,14 @@ std::optional<double> brier_score(const LinkSummary& summary) {
 
 double best_f1_threshold(const LinkSummary& summary) {
     const auto all = static_cast<double>(summary.true_links());
-    double found = 0.0;
-    double predicted = 0.0;
     double best = 0.0;
     double threshold = 0.5;
-    for (std::size_t at = summary.bins.size(); at-- > 0;) {
-        const LinkSummary::Bin& bin = summary.bins[at];
-        found += static_cast<double>(bin.linked);
-        predicted += static_cast<double>(bin.linked + bin.unlinked);
+    for_each_threshold(summary, [&](double edge, double found, double predicted) {
         const double f1 = all == 0.0 ? 0.0 : 2.0 * found / (predicted + all);
-        if (f1 <= best) continue;
+        if (f1 <= best) return;
         best = f1;
-        threshold = LinkGrid::lower_edge(bin.bin);
-    }
+        threshold = edge;
+    });
     return threshold;
 }
 
@@ -241,14 +249,9 @@ std::vector<PrecisionRecall> precision_recall(const LinkSummary& summary) {
     const auto all = static_cast<double>(summary.true_links());
     std::vector<PrecisionRecall> curve;
     if (all == 0.0) return curve;
-    double found = 0.0;
-    double predicted = 0.0;
-    for (std::size_t at = summary.bins.size(); at-- > 0;) {
-        const LinkSummary::Bin& bin = summary.bins[at];
-        found += static_cast<double>(bin.linked);
-        predicted += static_cast<double>(bin.linked + bin.unlinked);
-        curve.push_back({LinkGrid::lower_edge(bin.bin), found / predicted, found / all});
-    }
+    for_each_threshold(summary, [&](double edge, double found, double predicted) {
+        curve.push_back({edge, found / predicted, found / all});
+    });
     return curve;
 }
 

@@ -27,33 +27,26 @@ LinkMeasures measures_from(const detail::DrawnMeasures& drawn, const analysis::R
 LinkEndToEnd end_to_end(const std::vector<const LinkCase*>& cases,
                         const analysis::RunResampling& resampling) {
     LinkEndToEnd result;
-    const auto column = [&](auto value) {
-        std::vector<double> values;
-        for (const LinkCase* const one : cases)
-            values.push_back(static_cast<double>(value(*one)));
-        return values;
-    };
     for (const LinkCase* const one : cases) {
         add_counts(result.truth, one->truth);
         add_counts(result.belief, one->belief);
     }
-    const auto listed_true = column([](const LinkCase& one) { return one.belief.listed_true; });
-    const auto listed =
-        column([](const LinkCase& one) { return one.belief.listed_true + one.belief.listed_false; });
-    const auto all = column([](const LinkCase& one) { return one.truth.true_links; });
-    const auto twice_true = column([](const LinkCase& one) { return 2 * one.belief.listed_true; });
-    const auto listed_and_all = column([](const LinkCase& one) {
-        return one.belief.listed_true + one.belief.listed_false + one.truth.true_links;
-    });
-    const auto policy_found = column([](const LinkCase& one) { return one.belief.policy_found; });
-    const auto policy_links = column([](const LinkCase& one) { return one.truth.policy_links; });
-    const auto measured = [&](const std::vector<double>& above, const std::vector<double>& below) {
-        return detail::draw_ratio(above, below, resampling).measured(resampling);
+    const auto measured = [&](auto above, auto below) {
+        return detail::draw_ratio(detail::column_of(cases, above), detail::column_of(cases, below),
+                                  resampling)
+            .measured(resampling);
     };
+    const auto listed_true = [](const LinkCase* one) { return one->belief.listed_true; };
+    const auto listed = [](const LinkCase* one) {
+        return one->belief.listed_true + one->belief.listed_false;
+    };
+    const auto all = [](const LinkCase* one) { return one->truth.true_links; };
     result.precision = measured(listed_true, listed);
     result.recall = measured(listed_true, all);
-    result.f1 = measured(twice_true, listed_and_all);
-    result.policy_recall = measured(policy_found, policy_links);
+    result.f1 = measured([&](const LinkCase* one) { return 2 * listed_true(one); },
+                         [&](const LinkCase* one) { return listed(one) + all(one); });
+    result.policy_recall = measured([](const LinkCase* one) { return one->belief.policy_found; },
+                                    [](const LinkCase* one) { return one->truth.policy_links; });
     return result;
 }
 

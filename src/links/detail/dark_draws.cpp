@@ -10,15 +10,6 @@ namespace {
 
 using Column = std::vector<double>;
 
-/// One value per run.
-template <class Value>
-Column column_of(const std::vector<const LinkCase*>& cases, const Value& value) {
-    Column column;
-    for (const LinkCase* const one : cases)
-        column.push_back(static_cast<double>(value(*one)));
-    return column;
-}
-
 Column sum(const Column& one, const Column& other) {
     Column total(one.size());
     std::ranges::transform(one, other, total.begin(), std::plus{});
@@ -38,28 +29,6 @@ Drawn over_all_failed(const Drawn& ap, const Drawn& recall) {
     for (std::size_t i = 0; i < ap.draws.size(); ++i)
         drawn.draws.push_back(product(ap.draws[i], recall.draws[i]));
     return drawn;
-}
-
-struct Counts {
-    Column found;  ///< True links at or above the threshold.
-    Column predicted;
-};
-
-Counts counts_above(const std::vector<LinkSummary>& runs, double threshold) {
-    const std::uint32_t first = LinkGrid::bin_of(static_cast<float>(threshold));
-    Counts counts;
-    for (const LinkSummary& run : runs) {
-        double found = 0.0;
-        double predicted = 0.0;
-        for (const LinkSummary::Bin& bin : run.bins) {
-            if (bin.bin < first) continue;
-            found += static_cast<double>(bin.linked);
-            predicted += static_cast<double>(bin.linked + bin.unlinked);
-        }
-        counts.found.push_back(found);
-        counts.predicted.push_back(predicted);
-    }
-    return counts;
 }
 
 /// Errors by run, on a grid as fine as the sample allows.
@@ -112,14 +81,12 @@ double quantile_of(const GroupedErrors& errors, const Column& counts, double sha
 LinkFailed failed_measures(const std::vector<const LinkCase*>& cases,
                            const std::vector<LinkSummary>& candidates, const DrawnMeasures& drawn,
                            double threshold, const analysis::RunResampling& resampling) {
-    Column in_reach;
-    for (const LinkSummary& run : candidates)
-        in_reach.push_back(static_cast<double>(run.true_links()));
-    const Column outside = column_of(cases, [](const LinkCase& one) { return one.truth.outside; });
-    const Column never_seen = column_of(cases, [](const LinkCase& one) { return one.truth.never_seen; });
+    const Column in_reach = column_of(candidates, [](const LinkSummary& run) { return run.true_links(); });
+    const Column outside = column_of(cases, [](const LinkCase* one) { return one->truth.outside; });
+    const Column never_seen = column_of(cases, [](const LinkCase* one) { return one->truth.never_seen; });
     const Column seen = sum(in_reach, outside);
     const Column failed = sum(seen, never_seen);
-    const Counts above = counts_above(candidates, threshold);
+    const CountsAbove above = counts_above(candidates, threshold);
     const Drawn recall = draw_ratio(in_reach, failed, resampling);
     const Drawn f1 = draw_ratio(sum(above.found, above.found), sum(above.predicted, failed), resampling);
     LinkFailed result;
@@ -144,10 +111,10 @@ LinkDark dark_measures(const std::vector<const LinkCase*>& cases, const analysis
     const auto share = [&](auto above, auto below) {
         return draw_ratio(column_of(cases, above), column_of(cases, below), resampling).measured(resampling);
     };
-    result.believed = share([](const LinkCase& one) { return one.belief.dark_believed; },
-                            [](const LinkCase& one) { return one.truth.dark_vehicles; });
-    result.next_ahead = share([](const LinkCase& one) { return one.belief.next_right; },
-                              [](const LinkCase& one) { return one.belief.next_cases; });
+    result.believed = share([](const LinkCase* one) { return one->belief.dark_believed; },
+                            [](const LinkCase* one) { return one->truth.dark_vehicles; });
+    result.next_ahead = share([](const LinkCase* one) { return one->belief.next_right; },
+                              [](const LinkCase* one) { return one->belief.next_cases; });
     constexpr std::array shares = {0.5, 0.95};
     const std::vector<Drawn> quantiles = draw_quantiles(places, shares, resampling);
     result.place_median_m = quantiles[0].measured(resampling);

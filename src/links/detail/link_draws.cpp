@@ -89,41 +89,29 @@ void draw_rankings(const std::vector<LinkSummary>& runs, const analysis::RunResa
     move_to(measures.auc, exact.auc, area_under_roc(sample));
 }
 
+/// F1 as a ratio of sums over runs: 2 found / (predicted + true).
 Drawn draw_f1(const std::vector<LinkSummary>& runs, double threshold,
               const analysis::RunResampling& resampling) {
-    const std::uint32_t first = LinkGrid::bin_of(static_cast<float>(threshold));
-    std::vector<double> twice_found(runs.size(), 0.0);
-    std::vector<double> predicted_and_true(runs.size(), 0.0);
-    for (std::size_t run = 0; run < runs.size(); ++run) {
-        for (const LinkSummary::Bin& bin : runs[run].bins) {
-            const auto linked = static_cast<double>(bin.linked);
-            predicted_and_true[run] += linked;
-            if (bin.bin < first) continue;
-            twice_found[run] += 2.0 * linked;
-            predicted_and_true[run] += linked + static_cast<double>(bin.unlinked);
-        }
-    }
-    return draw_ratio(twice_found, predicted_and_true, resampling);
+    const CountsAbove above = counts_above(runs, threshold);
+    const auto of_run = [&](auto value) {
+        std::vector<double> column;
+        for (std::size_t run = 0; run < runs.size(); ++run)
+            column.push_back(value(run));
+        return column;
+    };
+    return draw_ratio(of_run([&](std::size_t run) { return 2.0 * above.found[run]; }),
+                      of_run([&](std::size_t run) {
+                          return above.predicted[run] + static_cast<double>(runs[run].true_links());
+                      }),
+                      resampling);
 }
 
-Drawn draw_brier(const std::vector<LinkSummary>& runs, const analysis::RunResampling& resampling) {
-    std::vector<double> sums;
-    std::vector<double> pairs;
-    for (const LinkSummary& run : runs) {
-        sums.push_back(static_cast<double>(run.brier) * LinkSummary::brier_unit);
-        pairs.push_back(static_cast<double>(run.pairs()));
-    }
-    return draw_ratio(sums, pairs, resampling);
-}
-
-Drawn draw_log_loss(const std::vector<LinkSummary>& runs, const analysis::RunResampling& resampling) {
-    std::vector<double> losses;
-    std::vector<double> pairs;
-    for (const LinkSummary& run : runs) {
-        losses.push_back(static_cast<double>(run.log_loss) * LinkSummary::log_loss_unit);
-        pairs.push_back(static_cast<double>(run.pairs()));
-    }
-    return draw_ratio(losses, pairs, resampling);
+/// A mean over pairs from sums over runs, in units.
+Drawn draw_mean(const std::vector<LinkSummary>& runs, std::uint64_t LinkSummary::*sum, double unit,
+                const analysis::RunResampling& resampling) {
+    return draw_ratio(
+        column_of(runs, [&](const LinkSummary& run) { return static_cast<double>(run.*sum) * unit; }),
+        column_of(runs, [](const LinkSummary& run) { return run.pairs(); }), resampling);
 }
 
 Drawn draw_ece(const std::vector<LinkSummary>& runs, const analysis::RunResampling& resampling) {
@@ -164,10 +152,27 @@ DrawnMeasures draw_measures(const std::vector<LinkSummary>& runs, double thresho
     const metrics::LinkQuality exact = link_quality(measures.sum, threshold);
     draw_rankings(runs, resampling, exact, measures);
     measures.f1 = draw_f1(runs, threshold, resampling);
-    measures.log_loss = draw_log_loss(runs, resampling);
+    measures.log_loss = draw_mean(runs, &LinkSummary::log_loss, LinkSummary::log_loss_unit, resampling);
     measures.ece = draw_ece(runs, resampling);
-    measures.brier = draw_brier(runs, resampling);
+    measures.brier = draw_mean(runs, &LinkSummary::brier, LinkSummary::brier_unit, resampling);
     return measures;
+}
+
+CountsAbove counts_above(const std::vector<LinkSummary>& runs, double threshold) {
+    const std::uint32_t first = LinkGrid::bin_of(static_cast<float>(threshold));
+    CountsAbove counts;
+    for (const LinkSummary& run : runs) {
+        double found = 0.0;
+        double predicted = 0.0;
+        for (const LinkSummary::Bin& bin : run.bins) {
+            if (bin.bin < first) continue;
+            found += static_cast<double>(bin.linked);
+            predicted += static_cast<double>(bin.linked + bin.unlinked);
+        }
+        counts.found.push_back(found);
+        counts.predicted.push_back(predicted);
+    }
+    return counts;
 }
 
 Drawn draw_ratio(const std::vector<double>& numerators, const std::vector<double>& denominators,

@@ -29,6 +29,21 @@ struct DrawnMeasures {
 DrawnMeasures draw_measures(const std::vector<LinkSummary>& runs, double threshold,
                             const analysis::RunResampling& resampling);
 
+/// One value per run or case.
+template <class Items, class Value>
+std::vector<double> column_of(const Items& items, const Value& value) {
+    std::vector<double> column;
+    for (const auto& item : items)
+        column.push_back(static_cast<double>(value(item)));
+    return column;
+}
+
+/// By run: true links at or above the threshold, and all pairs there.
+struct CountsAbove {
+    std::vector<double> found, predicted;
+};
+CountsAbove counts_above(const std::vector<LinkSummary>& runs, double threshold);
+
 /// Sum of numerators / sum of denominators, over runs.
 Drawn draw_ratio(const std::vector<double>& numerators, const std::vector<double>& denominators,
                  const analysis::RunResampling& resampling);
