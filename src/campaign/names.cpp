@@ -19,9 +19,8 @@ namespace clearway::campaign {
 
 core::Problem unknown_name(const std::string& where, const std::string& name,
                            const std::vector<std::string>& known) {
-    const std::string near = core::nearest(name, known);
     return {where, fmt::format("`{}` is unknown", name), core::listed(known),
-            near.empty() ? "`clearway list` describes them" : fmt::format("Did you mean '{}'?", near)};
+            core::did_you_mean(name, known, "`clearway list` describes them")};
 }
 
 std::vector<std::string> failure_names() {
@@ -48,14 +47,6 @@ void check_failure(const std::string& where, const std::string& failure,
             problems.push_back(std::move(problem));
         }
     }
-}
-
-std::vector<std::string> policy_names() {
-    std::vector<std::string> names;
-    for (const policy::PolicyEntry& entry : policy::policies()) {
-        names.push_back(entry.name);
-    }
-    return names;
 }
 
 namespace {
@@ -102,9 +93,9 @@ void check_names(const std::vector<experiment::ConditionSpec>& conditions) {
     for (const experiment::ConditionSpec& condition : conditions) {
         const std::string where = fmt::format("condition {}: ", condition.name);
         check_failure(where + "failure", condition.failure, problems);
-        check(where + "predictor", condition.predictor, prediction::predictor_names());
+        check(where + "predictor", condition.predictor, prediction::predictors().names());
         for (const std::string& policy : condition.policies) {
-            check(where + "policy", policy, policy_names());
+            check(where + "policy", policy, policy::policies().names());
         }
         std::vector<std::string> sorted = condition.policies;
         std::ranges::sort(sorted);

@@ -13,7 +13,6 @@ core::Problem unknown_name(const std::string& where, const std::string& name,
                            const std::vector<std::string>& known);
 
 std::vector<std::string> failure_names();
-std::vector<std::string> policy_names();
 
 /// Adds the problems of a failure given at `where`: a preset or fields (failures::failure_from).
 void check_failure(const std::string& where, const std::string& failure,

@@ -120,10 +120,8 @@ std::optional<std::string> verb_problem(int argument_count, const char* const* a
     if (argument_count < 2) return fmt::format("which verb? One of {}", fmt::join(names, ", "));
     const std::string word = arguments[1];
     if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return std::nullopt;
-    const std::string near = core::nearest(word, names);
-    return fmt::format("`{}` is not a verb{}", word,
-                       near.empty() ? fmt::format("; verbs are {}", fmt::join(names, ", "))
-                                    : fmt::format(". Did you mean '{}'?", near));
+    return fmt::format("`{}` is not a verb. {}", word,
+                       core::did_you_mean(word, names, "Verbs are " + core::listed(names)));
 }
 
 void declare(CLI::App& app, Action& action) {

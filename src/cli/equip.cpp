@@ -18,6 +18,7 @@
 #include "core/temporary_folder.hpp"
 #include "experiment/equipped_signals.hpp"
 #include "experiment/settings.hpp"
+#include "policy/policy.hpp"
 #include "python/part_name.hpp"
 #include "report/equipment.hpp"
 #include "scenario/network.hpp"
@@ -43,29 +44,21 @@ struct Arguments {
     scenario::Options options;
 };
 
-/// Policies that ask signals for green.
-const std::vector<std::string>& signal_policies() {
-    static const std::vector<std::string> names = {"preempt_signals", "green_wave", "check_in_out",
-                                                   "line_of_sight"};
-    return names;
-}
-
 /// The condition whose signals are chosen.
 experiment::ConditionSpec base_of(const Arguments& arguments) {
     const experiment::ConditionSpec base = shown_condition(chosen_conditions(arguments.conditions), "equip");
     if (base.settings.contains(experiment::equipped_setting))
         throw core::InputError({experiment::equipped_setting, "is what equip finds out", "",
                                 "Leave it out, or compare sets of your own with clearway run"});
-    const std::vector<std::string> parts = experiment::parts_of(base);
-    const bool has_signals = std::ranges::any_of(parts, [](const std::string& part) {
-        return std::ranges::find(signal_policies(), part) != signal_policies().end();
-    });
+    const bool has_signals = !experiment::policies_with(base, traffic::Trait::asks_signals).empty();
     const bool has_own_code = std::ranges::any_of(
         base.policies, [](const std::string& policy) { return python::part_name_from(policy).has_value(); });
     if (!has_signals && !has_own_code)
-        throw core::InputError({"condition " + base.name, "has no policy that asks signals for green",
-                                fmt::format("one with {}, such as corridor", core::listed(signal_policies())),
-                                "Leave --condition and --policy out for corridor"});
+        throw core::InputError(
+            {"condition " + base.name, "has no policy that asks signals for green",
+             fmt::format("one with {}, such as corridor",
+                         core::listed(policy::policies().names(traffic::Trait::asks_signals))),
+             "Leave --condition and --policy out for corridor"});
     return base;
 }
 

@@ -236,7 +236,7 @@ void check(const links::LinkPlan& plan) {
                                    predictor.settings, "--set " + predictor.name, problems);
         if (!predictor.part.empty() && !predictor.model_file.empty()) {
             problems.push_back({"--model " + predictor.name, "is a predictor in Python, which takes none",
-                                core::listed(prediction::learned_predictor_names()),
+                                core::listed(prediction::predictors().names(traffic::Trait::learned)),
                                 "Its class loads what it needs"});
         } else if (!predictor.model_file.empty() && !fs::is_regular_file(predictor.model_file)) {
             problems.push_back({"--model " + predictor.name,

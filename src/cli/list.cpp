@@ -99,23 +99,16 @@ Section failures() {
     return section;
 }
 
-Section predictors() {
-    Section section{"predictors", "Predictors (run --predictor NAME)", {}};
-    for (const prediction::PredictorEntry& entry : prediction::predictors()) {
-        const std::string role(core::name(entry.role));
-        const bool is_repair = entry.role == prediction::PredictorRole::repair;
+/// The parts of a registry, with what they do for machines.
+template <class Entry>
+Section parts(const char* key, const char* title, const traffic::Registry<Entry>& registry) {
+    Section section{key, title, {}};
+    for (const Entry& entry : registry) {
+        Json traits = Json::array();
+        for (const traffic::Trait trait : entry.traits)
+            traits.push_back(core::name(trait));
         section.entries.push_back(
-            {entry.name,
-             is_repair ? entry.summary : entry.summary + " (" + role + ")",
-             {{"summary", entry.summary}, {"role", role}, {"learned", entry.is_learned}}});
-    }
-    return section;
-}
-
-Section policies() {
-    Section section{"policies", "Policies (run --policy NAME ...)", {}};
-    for (const policy::PolicyEntry& entry : policy::policies()) {
-        section.entries.push_back({entry.name, entry.summary, {{"summary", entry.summary}}});
+            {entry.name, entry.summary, {{"summary", entry.summary}, {"traits", traits}}});
     }
     return section;
 }
@@ -155,11 +148,10 @@ core::InputError unknown_list(const std::string& word, const std::vector<Referen
     std::vector<std::string> known = {"settings"};
     for (const ReferencePage& page : pages)
         known.emplace_back(page.name);
-    const std::string allowed = fmt::format("{}", fmt::join(known, ", "));
+    const std::string allowed = core::listed(known);
     if (word.empty()) return core::InputError({"list", "--markdown needs the name of a page", allowed, ""});
-    const std::string near = core::nearest(word, known);
     return core::InputError({"list", fmt::format("`{}` cannot be listed alone", word), allowed,
-                             near.empty() ? "Say `clearway list`" : fmt::format("Did you mean '{}'?", near)});
+                             core::did_you_mean(word, known, "Say `clearway list`")});
 }
 
 void list_settings(const Arguments& arguments) {
@@ -212,8 +204,10 @@ Action configure_list(CLI::App& app) {
             list_alone(*arguments);
             return core::ExitCode::ok;
         }
-        const std::vector<Section> sections = {scenarios(), conditions(), failures(), predictors(),
-                                               policies()};
+        const std::vector<Section> sections = {
+            scenarios(), conditions(), failures(),
+            parts("predictors", "Predictors (run --predictor NAME)", prediction::predictors()),
+            parts("policies", "Policies (run --policy NAME ...)", policy::policies())};
         arguments->printing == Printing::json ? print_json(sections) : print_text(sections);
         return core::ExitCode::ok;
     };

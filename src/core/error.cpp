@@ -68,4 +68,10 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
     return best;
 }
 
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates,
+                         const std::string& otherwise) {
+    const std::string near = nearest(word, candidates);
+    return near.empty() ? otherwise : fmt::format("Did you mean '{}'?", near);
+}
+
 }  // namespace clearway::core

@@ -83,4 +83,8 @@ std::string listed(const std::vector<std::string>& words);
 /// letters (and in more than two).
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
+/// The cure of an unknown word: `Did you mean 'WORD'?` with the nearest candidate, or `otherwise`.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates,
+                         const std::string& otherwise = "");
+
 }  // namespace clearway::core

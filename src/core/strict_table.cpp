@@ -178,9 +178,7 @@ void StrictTable::finish() {
     for (const auto& [name, node] : table_) {
         const std::string key(name.str());
         if (known_.contains(key)) continue;
-        const std::string near = nearest(key, valid);
-        problem(key, "unknown key", fmt::format("{}", fmt::join(valid, ", ")),
-                near.empty() ? "Remove it" : fmt::format("Did you mean '{}'?", near));
+        problem(key, "unknown key", listed(valid), did_you_mean(key, valid, "Remove it"));
     }
 }
 

@@ -23,12 +23,6 @@ std::vector<std::string> option_names(const CLI::App& app) {
     return names;
 }
 
-/// `--dens` -> `. Did you mean '--dense'?`
-std::string hint(const std::string& word, const std::vector<std::string>& known) {
-    const std::string near = core::nearest(word, known);
-    return near.empty() ? "" : fmt::format(". Did you mean '{}'?", near);
-}
-
 constexpr std::size_t description_column = 30;
 
 /// One indented line of a help text.
@@ -95,7 +89,8 @@ std::string usage_message(const CLI::App& command, const std::string& name, cons
         const std::string word = unknown.front().substr(0, unknown.front().find('='));
         std::vector<std::string> known = option_names(command);
         known.insert(known.end(), words.begin(), words.end());
-        text = fmt::format("{}: {} is not known here{}", name, word, hint(word, known));
+        const std::string hint = did_you_mean(word, known);
+        text = fmt::format("{}: {} is not known here{}{}", name, word, hint.empty() ? "" : ". ", hint);
     }
     return fmt::format("{}\n`{} --help` says more.\n", text, name);
 }

@@ -70,16 +70,13 @@ bool takes_built_in_name(const ConditionSpec& condition) {
 
 ConditionSpec built_in_condition(const std::string& name, const std::string& where) {
     std::vector<std::string> names;
-    std::string list;
     for (const BuiltInCondition& known : built_in_conditions()) {
         if (known.condition.name == name) return known.condition;
         names.push_back(known.condition.name);
-        list += (list.empty() ? "" : ", ") + known.condition.name;
     }
-    const std::string near = core::nearest(name, names);
-    throw core::InputError({where, fmt::format("'{}' is not a built-in condition", name), list,
-                            near.empty() ? "Define it in [[condition]], or use a known name"
-                                         : fmt::format("Did you mean '{}'?", near)});
+    throw core::InputError(
+        {where, fmt::format("'{}' is not a built-in condition", name), core::listed(names),
+         core::did_you_mean(name, names, "Define it in [[condition]], or use a known name")});
 }
 
 }  // namespace clearway::experiment

@@ -54,10 +54,8 @@ std::vector<bool> equipped_signals(const ConditionSpec& condition, const roads::
             equipped[signal->value] = true;
             continue;
         }
-        const std::string near = core::nearest(id, known);
         problems.push_back({where, fmt::format("the network has no signal \"{}\"", id), allowed,
-                            near.empty() ? "`clearway signals SCENARIO` lists them"
-                                         : fmt::format("Did you mean '{}'?", near)});
+                            core::did_you_mean(id, known, "`clearway signals SCENARIO` lists them")});
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
     return equipped;

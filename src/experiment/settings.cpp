@@ -70,7 +70,7 @@ std::vector<Component> make_components() {
          "Sensors: override the named failure, whose own values may differ from the defaults here",
          core::settings_table<failures::FailureConfig>()}};
     for (const prediction::PredictorEntry& entry : prediction::predictors())
-        all.push_back({entry.name, "Predictor: " + entry.summary, prediction::settings_of(entry.name)});
+        all.push_back({entry.name, "Predictor: " + entry.summary, entry.table});
     for (const policy::PolicyEntry& entry : policy::policies()) {
         if (!entry.table.rows.empty()) all.push_back({entry.name, "Policy: " + entry.summary, entry.table});
     }
@@ -125,18 +125,14 @@ std::vector<std::string> component_names() {
     return names;
 }
 
-/// The full name probably meant by a name without a component or with a wrong one.
-std::string meant(const std::string& name, const std::vector<std::string>& of) {
+/// Asks for the full name probably meant by a name without a component or with a wrong one.
+std::string question(const std::string& name, const std::vector<std::string>& of) {
     const std::vector<std::string> known = full_names(of);
     const std::string last = parted(name).second;
-    for (const std::string& full : known) {
-        if (parted(full).second == last) return full;
-    }
-    return core::nearest(name, known);
-}
-
-std::string question(const std::string& near) {
-    return near.empty() ? "`clearway list settings` shows them all" : fmt::format("Did you mean '{}'?", near);
+    const auto same =
+        std::ranges::find(known, last, [](const std::string& full) { return parted(full).second; });
+    return core::did_you_mean(same == known.end() ? name : *same, known,
+                              "`clearway list settings` shows them all");
 }
 
 void check_model(const ConditionSpec& condition, const std::string& where,
@@ -153,22 +149,11 @@ void check_model(const ConditionSpec& condition, const std::string& where,
     }
 }
 
-/// Names of the condition's policies that have this need.
-std::vector<std::string> policies_with(const ConditionSpec& condition, policy::Need need) {
-    std::vector<std::string> names;
-    for (const policy::PolicyEntry& entry : policy::policies()) {
-        if (std::ranges::find(entry.needs, need) != entry.needs.end() &&
-            std::ranges::find(condition.policies, entry.name) != condition.policies.end())
-            names.push_back(entry.name);
-    }
-    return names;
-}
-
 /// Policies that place vehicles within their lane run in the sublane model alone.
 void check_sublane(const ConditionSpec& condition, const std::string& where,
                    std::vector<core::Problem>& problems) {
     if (condition.traffic_model == TrafficModel::sublane) return;
-    for (const std::string& policy : policies_with(condition, policy::Need::sublane_model))
+    for (const std::string& policy : policies_with(condition, traffic::Trait::sublane_model))
         problems.push_back(
             {where + "policy",
              fmt::format("{} needs vehicles with a place within their lane, which traffic model \"{}\" does "
@@ -257,6 +242,14 @@ void check_truth(const ConditionSpec& condition, const std::string& where,
          fmt::format("Spoil what it knows by its settings: clearway list settings {}", condition.predictor)});
 }
 
+/// `config` with what the condition sets of a component. Throws core::InputError for unknown settings.
+template <class Config>
+Config with_settings(const ConditionSpec& condition, const char* component, Config config) {
+    core::set_all(core::settings_of(condition.settings, component),
+                  fmt::format("condition {}: {}.", condition.name, component), config);
+    return config;
+}
+
 /// `lead_s_12`; with the component if several settings share the last name.
 std::string setting_word(const std::string& name, const std::string& value, const core::Settings& all) {
     const std::string last = parted(name).second;
@@ -277,10 +270,8 @@ std::vector<std::string> components_of(const ConditionSpec& condition) {
     std::vector<std::string> present = {loop_name, failure_name, condition.predictor, siren_name,
                                         privilege_name};
     if (!condition.policies.empty()) present.insert(present.end(), {actuation_name, requests_name});
-    for (const policy::PolicyEntry& entry : policy::policies()) {
-        if (std::ranges::find(condition.policies, entry.name) == condition.policies.end()) continue;
-        present.insert(present.end(), entry.components.begin(), entry.components.end());
-    }
+    const std::vector<std::string> parts_present = parts_of(condition);
+    present.insert(present.end(), parts_present.begin(), parts_present.end());
     std::vector<std::string> ordered;
     for (const Component& component : components()) {
         if (std::ranges::find(present, component.name) != present.end()) ordered.push_back(component.name);
@@ -296,11 +287,10 @@ std::vector<std::string> parts_of(const ConditionSpec& condition) {
         if (std::ranges::find(parts, part) == parts.end()) parts.push_back(part);
     };
     for (const std::string& name : condition.policies) {
-        const auto known = std::ranges::find(policy::policies(), name, &policy::PolicyEntry::name);
-        if (known == policy::policies().end()) {
-            add(python::short_name(name));
-        } else {
+        if (const policy::PolicyEntry* const known = policy::policies().find(name)) {
             std::ranges::for_each(known->components, add);
+        } else {
+            add(python::short_name(name));
         }
     }
     return parts;
@@ -352,10 +342,10 @@ std::vector<core::Problem> check_setting(const std::string& name, const std::str
     if (std::ranges::find(parts, component) != parts.end()) return {};
     if (known == nullptr) {
         std::vector<std::string> all = component_names();
-        const std::string near = meant(name, all);
+        const std::string cure = question(name, all);
         all.insert(all.end(), parts.begin(), parts.end());
         return {{where + name, "is unknown",
-                 "COMPONENT.NAME, the component being one of " + core::listed(all), question(near)}};
+                 "COMPONENT.NAME, the component being one of " + core::listed(all), cure}};
     }
     return known->table.check({{field, value}}, where + component + ".");
 }
@@ -383,16 +373,15 @@ ConditionSpec baseline_for(const ConditionSpec& condition) {
 }
 
 bool reads_links(const ConditionSpec& condition) {
-    return std::ranges::any_of(policy::policies(), [&](const policy::PolicyEntry& entry) {
-        if (std::ranges::find(condition.policies, entry.name) == condition.policies.end()) return false;
-        return entry.reads_links || std::ranges::any_of(entry.components, [&](const std::string& part) {
-                   return asks_linked(condition, part);
-               });
+    return std::ranges::any_of(parts_of(condition), [&](const std::string& part) {
+        return policy::policies().is(part, traffic::Trait::reads_links) || asks_linked(condition, part);
     });
 }
 
-std::vector<std::string> policies_on_shoulders(const ConditionSpec& condition) {
-    return policies_with(condition, policy::Need::shoulder);
+std::vector<std::string> policies_with(const ConditionSpec& condition, traffic::Trait trait) {
+    std::vector<std::string> names = parts_of(condition);
+    std::erase_if(names, [&](const std::string& name) { return !policy::policies().is(name, trait); });
+    return names;
 }
 
 std::vector<core::Problem> check_settings(const ConditionSpec& condition, const std::string& where) {
@@ -407,7 +396,7 @@ std::vector<core::Problem> check_settings(const ConditionSpec& condition, const 
                  fmt::format("is a setting of {}, which the condition does not have", component),
                  present.empty() ? "none: each emergency vehicle is alone on the road"
                                  : "settings of " + core::listed(present),
-                 question(meant(name, present))});
+                 question(name, present)});
             continue;
         }
         const std::vector<core::Problem> found = check_setting(name, value, where, part_names(condition));
@@ -465,17 +454,13 @@ core::Settings predictor_settings(const ConditionSpec& condition) {
 }
 
 LoopConfig loop_config(const ConditionSpec& condition, const LoopConfig& usual) {
-    LoopConfig config = usual;
-    core::set_all(core::settings_of(condition.settings, loop_name),
-                  fmt::format("condition {}: loop.", condition.name), config);
-    return config;
+    return with_settings(condition, loop_name, usual);
 }
 
 actuation::ActuatorConfig actuator_config(const ConditionSpec& condition, actuation::ActuatorConfig usual) {
-    core::Settings numbers = core::settings_of(condition.settings, actuation_name);
-    numbers.erase(equipped_field);  // see equipped_signals
-    core::set_all(numbers, fmt::format("condition {}: actuation.", condition.name), usual);
-    return usual;
+    ConditionSpec numbers = condition;
+    numbers.settings.erase(equipped_setting);  // see equipped_signals
+    return with_settings(numbers, actuation_name, usual);
 }
 
 traffic::SirenConfig siren_config(const ConditionSpec& condition, const traffic::SirenConfig& of_scenario) {
@@ -486,18 +471,12 @@ traffic::SirenConfig siren_config(const ConditionSpec& condition, const traffic:
 }
 
 drivers::RequestConfig request_config(const ConditionSpec& condition) {
-    drivers::RequestConfig config;
-    core::set_all(core::settings_of(condition.settings, requests_name),
-                  fmt::format("condition {}: requests.", condition.name), config);
-    return config;
+    return with_settings(condition, requests_name, drivers::RequestConfig{});
 }
 
 drivers::PrivilegeConfig privilege_config(const ConditionSpec& condition,
                                           const traffic::PrivilegeConfig& of_scenario) {
-    drivers::PrivilegeConfig config = of_scenario;
-    core::set_all(core::settings_of(condition.settings, privilege_name),
-                  fmt::format("condition {}: privilege.", condition.name), config);
-    return config;
+    return with_settings(condition, privilege_name, of_scenario);
 }
 
 }  // namespace clearway::experiment

@@ -7,6 +7,7 @@
 #include "core/settings.hpp"
 #include "experiment/condition.hpp"
 #include "experiment/loop_config.hpp"
+#include "traffic/registry.hpp"
 
 // The settings of a condition are known by their names and texts. A file that needs the numbers of a
 // part includes that part.
@@ -74,8 +75,8 @@ ConditionSpec baseline_for(const ConditionSpec& condition);
 /// are not checked, nor are settings of classes in Python: python::check_part does it.
 std::vector<core::Problem> check_settings(const ConditionSpec& condition, const std::string& where);
 
-/// Names of the condition's policies that need a shoulder.
-std::vector<std::string> policies_on_shoulders(const ConditionSpec& condition);
+/// Those of parts_of that have this trait.
+std::vector<std::string> policies_with(const ConditionSpec& condition, traffic::Trait trait);
 
 /// What is wrong with one setting, regardless of the condition; empty if some condition may have it. Any
 /// setting of `parts`, names of parts in Python, is one.

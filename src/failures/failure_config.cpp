@@ -199,10 +199,8 @@ class ItemReader {
             std::vector<std::string> names;
             for (const FailurePreset& one : presets)
                 names.push_back(one.name);
-            const std::string near = core::nearest(std::string(item), names);
             problems.push_back({"failure", fmt::format("'{}' is not a failure preset", item),
-                                fmt::format("{}", fmt::join(names, ", ")),
-                                near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
+                                core::listed(names), core::did_you_mean(std::string(item), names)});
             return;
         }
         const bool is_late = !seen_.empty() || (preset->kind == PresetKind::reports && !named_.empty());

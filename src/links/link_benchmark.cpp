@@ -30,16 +30,8 @@ SeedRange read_range(core::StrictTable& seeds, const std::string& key) {
 void check_name(core::StrictTable& reader, const std::string& key, const std::string& what,
                 const std::string& name, const std::vector<std::string>& known) {
     if (std::ranges::find(known, name) != known.end()) return;
-    const std::string near = core::nearest(name, known);
     reader.problem(key, fmt::format("`{}` is not a {}", name, what), core::listed(known),
-                   near.empty() ? "" : fmt::format("Did you mean '{}'?", near));
-}
-
-std::vector<std::string> policy_names() {
-    std::vector<std::string> names;
-    for (const policy::PolicyEntry& entry : policy::policies())
-        names.push_back(entry.name);
-    return names;
+                   core::did_you_mean(name, known));
 }
 
 /// The options of `clearway run` that a benchmark may state.
@@ -85,7 +77,8 @@ void read_scenario(const toml::table& table, core::TomlReading& reading, LinkBen
     const scenario::Options options = read_options(reader);
     reader.text("configuration", configuration);
     reader.finish();
-    if (!entry.policy.empty()) check_name(reader, "policy", "policy", entry.policy, policy_names());
+    if (!entry.policy.empty())
+        check_name(reader, "policy", "policy", entry.policy, policy::policies().names());
     try {
         scenario::ScenarioConfig config = scenario::load(name, options);
         if (entry.label.empty()) entry.label = config.name;
@@ -239,7 +232,7 @@ LinkBenchmark read_link_benchmark(const std::filesystem::path& file) {
 }
 
 std::vector<std::string> judged_predictors() {
-    std::vector<std::string> names = prediction::predictor_names();
+    std::vector<std::string> names = prediction::predictors().names();
     std::erase_if(names, prediction::knows_truth);
     return names;
 }

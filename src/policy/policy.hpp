@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -13,6 +11,7 @@
 #include "roads/network.hpp"
 #include "traffic/belief.hpp"
 #include "traffic/lease.hpp"
+#include "traffic/registry.hpp"
 
 namespace clearway::policy {
 
@@ -39,28 +38,15 @@ struct PolicyContext {
     core::Seconds period{0.5};  ///< Time between two calls of `act`.
 };
 
-/// What a policy cannot do without.
-enum class Need : std::uint8_t {
-    sublane_model,  ///< Vehicles have a lateral position within their lane.
-    shoulder,       ///< The network has shoulders.
-};
-
-/// A registered policy.
-struct PolicyEntry {
-    std::string name;
-    std::string summary;  ///< One line for `clearway list`.
+/// A registered policy. Settings are named with their component, `preempt_signals.lead_s`; `make` ignores
+/// those of other components.
+struct PolicyEntry : traffic::Registered<Policy, PolicyContext> {
     /// Names of the policies whose settings it has: its own name, or those of the policies it combines.
     std::vector<std::string> components;
-    bool reads_links = false;   ///< Whether believed links decide anything, and not places alone.
-    core::SettingsTable table;  ///< Its own settings.
-    /// Settings are named with their component, `preempt_signals.lead_s`; those of other components are
-    /// ignored.
-    std::function<std::unique_ptr<Policy>(const PolicyContext& context, const core::Settings& settings)> make;
-    std::vector<Need> needs = {};
 };
 
 /// All registered policies.
-const std::vector<PolicyEntry>& policies();
+const traffic::Registry<PolicyEntry>& policies();
 
 /// Throws core::InputError for an unknown name, naming the nearest, and for settings that its table does not
 /// allow.

@@ -18,8 +18,11 @@
 #include "roads/network.hpp"
 #include "traffic/belief.hpp"
 #include "traffic/observation.hpp"
+#include "traffic/registry.hpp"
 
 namespace clearway::prediction {
+
+struct Weights;
 
 /// A predictor's probabilities for all candidates at the last call, listed or not; for evaluation.
 struct CandidateScores {
@@ -75,44 +78,22 @@ struct PredictorContext {
     core::KeyedRandom random{core::StudySeed{}, core::Replication{}};
 };
 
-/// What a predictor is for.
-enum class PredictorRole : std::uint8_t {
-    repair,        ///< To be used, with or without learning.
-    comparison,    ///< Only compares (prediction/comparison/).
-    dissertation,  ///< Repeats the dissertation.
-    ceiling,       ///< Is given the truth instead of reports: no repair, but a ceiling for them (oracle.hpp).
+/// A registered predictor. Its settings are those that all predictors share, and its own (the field tables of
+/// the predictors' headers); they win over `PredictorContext::config`.
+struct PredictorEntry : traffic::Registered<Predictor, PredictorContext> {
+    std::string title;  ///< What tables call it, as in mid-sentence: `GraphSAGE, corrected inputs`.
+    void (*check_model)(const Weights&) = nullptr;  ///< Of learned predictors: throws core::InputError.
 };
-constexpr core::Spellings<PredictorRole, 4> spellings(PredictorRole) {
-    return {{{PredictorRole::repair, "repair"},
-             {PredictorRole::comparison, "comparison"},
-             {PredictorRole::dissertation, "dissertation"},
-             {PredictorRole::ceiling, "ceiling"}}};
-}
 
-/// A predictor that can be asked for by name.
-struct PredictorEntry {
-    std::string name;
-    std::string title;    ///< What tables call it, as in mid-sentence: `GraphSAGE, corrected inputs`.
-    std::string summary;  ///< A line for listings.
-    PredictorRole role = PredictorRole::repair;
-    bool is_learned = false;  ///< It takes a model.
-};
-/// In the order of the documentation.
-std::vector<PredictorEntry> predictors();
-/// Their names alone.
-std::vector<std::string> predictor_names();
-/// The title of the predictor `name`; throws core::InputError for an unknown name.
+/// All registered predictors.
+const traffic::Registry<PredictorEntry>& predictors();
+
+/// The title of the predictor `name`, which may be one in Python; throws core::InputError for an unknown
+/// name.
 std::string title_of(const std::string& name);
 
-/// Whether the predictor `name` is a ceiling. False for unknown names.
+/// Whether the predictor `name` is given the truth instead of reports. False for unknown names.
 bool knows_truth(const std::string& name);
-
-/// Names of those that take a model.
-std::vector<std::string> learned_predictor_names();
-
-/// Settings that the predictor `name` may have: those that all predictors share, and its own (the field
-/// tables of the predictors' headers). Throws core::InputError for an unknown name.
-core::SettingsTable settings_of(const std::string& name);
 
 /// Appends a problem for every setting that the predictor `name` does not have and every value out of range;
 /// `where` says where they are set. An unknown predictor gives no problem here.

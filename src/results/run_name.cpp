@@ -53,10 +53,8 @@ void require_known(const std::string& where, const std::string& name, const std:
     for (const Entry& entry : entries)
         known.push_back(entry.name);
     if (std::ranges::find(known, name) != known.end()) return;
-    const std::string near = core::nearest(name, known);
-    problems.push_back({where, fmt::format("`{}` is not in this study", name),
-                        fmt::format("{}", fmt::join(known, ", ")),
-                        near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
+    problems.push_back({where, fmt::format("`{}` is not in this study", name), core::listed(known),
+                        core::did_you_mean(name, known)});
 }
 
 std::optional<std::uint32_t> number_from(const std::string& text) {

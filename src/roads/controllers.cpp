@@ -37,12 +37,11 @@ std::optional<core::Problem> controller_problem(std::string where, std::string_v
             fmt::format("Write one of these, or take the signal away: netconvert --sumo-net-file OLD "
                         "--tls.unset {} --output-file NEW",
                         signal)};
-    const std::string near = core::nearest(type, controllers());
-    return core::Problem{std::move(where),
-                         fmt::format("type=\"{}\" of signal \"{}\" is no controller of SUMO", type, signal),
-                         core::listed(controllers()),
-                         near.empty() ? "Write one of these; static shows its phases for their durations"
-                                      : fmt::format("Did you mean '{}'?", near)};
+    return core::Problem{
+        std::move(where), fmt::format("type=\"{}\" of signal \"{}\" is no controller of SUMO", type, signal),
+        core::listed(controllers()),
+        core::did_you_mean(type, controllers(),
+                           "Write one of these; static shows its phases for their durations")};
 }
 
 bool needs_target_phase(std::string_view controller) {

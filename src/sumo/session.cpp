@@ -369,12 +369,9 @@ RemoteSumo& RemoteSumo::operator=(RemoteSumo&&) noexcept = default;
 
 void RemoteSumo::declare(const std::string& type, traffic::VehicleClass vehicle_class) {
     const std::vector<std::string> known = sumo_->type_ids();
-    if (std::ranges::find(known, type) == known.end()) {
-        const std::string near = core::nearest(type, known);
+    if (std::ranges::find(known, type) == known.end())
         throw core::InputError({fmt::format("vehicle type '{}'", type), "is not known to that SUMO",
-                                "a type of its simulation",
-                                near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
-    }
+                                "a type of its simulation", core::did_you_mean(type, known)});
     sumo_->set_type_parameter(type, traffic::class_parameter, std::string(traffic::name(vehicle_class)));
 }
 

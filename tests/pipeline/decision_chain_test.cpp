@@ -131,7 +131,7 @@ TEST(EquippedSignalsOfACondition, MustBeInTheNetwork) {
 class UnknownParts : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(UnknownParts, AreNoTroubleToAnyPredictor) {
-    for (const std::string& predictor : prediction::predictor_names()) {
+    for (const std::string& predictor : prediction::predictors().names()) {
         experiment::ConditionSpec condition;
         condition.failure = GetParam();
         condition.predictor = predictor;

@@ -21,10 +21,7 @@ class EveryPolicy : public ::testing::TestWithParam<std::string> {
     /// Whether the crossings lack what the policy is for: a shoulder, or a junction without a signal.
     static bool is_out_of_place() {
         if (GetParam() == "give_way") return true;
-        const auto& known = policy::policies();
-        const auto entry = std::ranges::find(known, GetParam(), &policy::PolicyEntry::name);
-        if (entry == known.end()) return false;  // written in Python
-        return std::ranges::find(entry->needs, policy::Need::shoulder) != entry->needs.end();
+        return policy::policies().is(GetParam(), traffic::Trait::shoulder);
     }
 };
 
@@ -152,9 +149,7 @@ TEST_P(EveryPolicy, leaves_nothing_behind_when_the_emergency_vehicle_vanishes) {
 }
 
 std::vector<std::string> policy_names() {
-    std::vector<std::string> names;
-    for (const policy::PolicyEntry& entry : policy::policies())
-        names.push_back(entry.name);
+    std::vector<std::string> names = policy::policies().names();
     names.emplace_back(CLEARWAY_SOURCE_DIR "/examples/python/yield_policy.py:Yield");
     return names;
 }

@@ -31,6 +31,17 @@ TEST(PolicyRegistry, has_unique_names_and_a_summary_of_one_line_each) {
     EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
 }
 
+TEST(PolicyRegistry, says_of_every_policy_that_may_ask_drivers_that_it_renews_its_requests) {
+    for (const policy::PolicyEntry& entry : policy::policies()) {
+        const auto has = [&](const char* field) {
+            return std::ranges::find(entry.table.rows, field, &core::SettingInfo::name) !=
+                   entry.table.rows.end();
+        };
+        EXPECT_TRUE(!has("ask_humans") || entry.is(traffic::Trait::renews_requests)) << entry.name;
+        EXPECT_TRUE(!entry.is(traffic::Trait::renews_requests) || has("lease_s")) << entry.name;
+    }
+}
+
 /// Signals asked for at 130 m, 7.8 s before arrival at the allowed speed.
 std::size_t asked_at_130_m(const std::string& policy, const core::Settings& settings) {
     CrossingScene scene;

@@ -19,7 +19,7 @@ TEST(Predictors, DoNotAllocateOnceBuffersHaveGrown) {
     traffic::Observation observation =
         testing::after_outage(scene, 6.0, {"a1", "a3", "h2", "h5", "e1", "a7", "e2", "h9"});
     observation.detected_links = {{scene.key("a1"), scene.key("h1"), -1.0F, 0.0F}};
-    for (const std::string& name : predictor_names()) {
+    for (const std::string& name : predictors().names()) {
         const auto predictor = make_predictor(name, {scene.network(), {}, "", {}});
         traffic::BelievedGraph belief;
         predictor->predict(observation, belief);

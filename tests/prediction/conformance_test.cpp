@@ -194,11 +194,10 @@ TEST_P(EveryPredictor, PassesOnWhatIsKnownAnyway) {
     EXPECT_EQ(believed.own_states[0].state.x_m, scene.snapshot().x_m[scene.row("e1")]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Registered, EveryPredictor, ::testing::ValuesIn(predictor_names()),
+INSTANTIATE_TEST_SUITE_P(Registered, EveryPredictor, ::testing::ValuesIn(predictors().names()),
                          [](const auto& test) { return test.param; });
 
 TEST(Predictors, AreListedWithASummaryAndATitleOfTheirOwn) {
-    EXPECT_EQ(predictors().size(), predictor_names().size());
     std::set<std::string> titles;
     for (const PredictorEntry& entry : predictors()) {
         EXPECT_FALSE(entry.summary.empty()) << entry.name;
@@ -211,17 +210,13 @@ TEST(Predictors, AreListedWithASummaryAndATitleOfTheirOwn) {
 }
 
 TEST(Predictors, SayWhatTheyAreFor) {
-    std::map<PredictorRole, std::vector<std::string>> by_role;
-    for (const PredictorEntry& entry : predictors()) {
-        by_role[entry.role].push_back(entry.name);
-        EXPECT_EQ(knows_truth(entry.name), entry.role == PredictorRole::ceiling);
-    }
     using ::testing::ElementsAre;
-    EXPECT_THAT(by_role[PredictorRole::comparison],
+    using traffic::Trait;
+    EXPECT_THAT(predictors().names(Trait::compares_only),
                 ElementsAre("common_neighbours", "logistic", "graphsage_corrected", "gcn", "gat"));
-    EXPECT_THAT(by_role[PredictorRole::dissertation], ElementsAre("graphsage_as_published"));
-    EXPECT_THAT(by_role[PredictorRole::ceiling], ElementsAre("oracle"));
-    EXPECT_THAT(learned_predictor_names(),
+    EXPECT_THAT(predictors().names(Trait::repeats_dissertation), ElementsAre("graphsage_as_published"));
+    EXPECT_THAT(predictors().names(Trait::knows_truth), ElementsAre("oracle"));
+    EXPECT_THAT(predictors().names(Trait::learned),
                 ElementsAre("logistic", "gradient_boosting", "graphsage_as_published", "graphsage_corrected",
                             "gcn", "gat", "graphsage"));
 }

@@ -147,7 +147,7 @@ std::size_t radius_problems(const std::string& name, const std::string& file, do
 
 TEST(LearnedPredictors, SayForWhichLinkRadiiTheyWereTrained) {
     const support::Scene scene(platoon);
-    for (const std::string& name : learned_predictor_names()) {
+    for (const std::string& name : predictors().names(traffic::Trait::learned)) {
         const bool has_range = name == "graphsage" || name == "gradient_boosting";
         const std::string range = has_range ? "25 to 300 m" : "50 m";
         for (const double radius_m : {24.0, 25.0, 50.0, 120.0, 300.0, 301.0}) {

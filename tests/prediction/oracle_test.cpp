@@ -60,7 +60,7 @@ TEST(Oracle, SpoilsLinksInSpellsThatLastAndAreTheSameForEveryCondition) {
 }
 
 TEST(Oracle, IsTheOnlyPredictorThatKnowsTheTruth) {
-    for (const std::string& name : predictor_names())
+    for (const std::string& name : predictors().names())
         EXPECT_EQ(knows_truth(name), name == "oracle");
     EXPECT_NE(title_of("oracle").find("knows the truth"), std::string::npos);
 }

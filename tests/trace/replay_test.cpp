@@ -74,7 +74,7 @@ TEST_P(EveryCondition, ComesOutOfItsRecordingToTheBit) {
 
 /// Every way to fail, with the predictors in turn, and every predictor at least once.
 std::vector<ConditionSpec> every_condition() {
-    const std::vector<std::string> predictors = prediction::predictor_names();
+    const std::vector<std::string> predictors = prediction::predictors().names();
     const std::vector<failures::FailurePreset> failures = failures::failure_presets();
     const std::vector<std::vector<std::string>> policies = {
         {"dissertation"}, {"corridor"}, {"preempt_signals", "clear_lane"}, {"listing_5_5"}};

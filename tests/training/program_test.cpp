@@ -167,7 +167,7 @@ TEST_F(TrainProgramTest, without_a_word_it_lists_the_nets_and_trains_none) {
 TEST_F(TrainProgramTest, every_learned_predictor_is_a_net_that_can_be_named) {
     const Ended list = train({"--help"});
     EXPECT_EQ(list.exit.code, 0);
-    for (const std::string& predictor : prediction::learned_predictor_names()) {
+    for (const std::string& predictor : prediction::predictors().names(traffic::Trait::learned)) {
         EXPECT_THAT(list.output, HasSubstr("  " + predictor + " "));
         const Ended ended = train({predictor, "--help"});
         EXPECT_EQ(ended.exit.code, 0);

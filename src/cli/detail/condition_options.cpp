@@ -29,9 +29,9 @@ std::vector<std::string> predictors_of(const Conditions& conditions) {
 }
 
 std::vector<std::string> learned_among(std::vector<std::string> names) {
-    const std::vector<std::string> learned = prediction::learned_predictor_names();
-    std::erase_if(names,
-                  [&](const std::string& name) { return std::ranges::find(learned, name) == learned.end(); });
+    std::erase_if(names, [](const std::string& name) {
+        return !prediction::predictors().is(name, traffic::Trait::learned);
+    });
     return names;
 }
 
@@ -140,7 +140,7 @@ void apply_models(const std::vector<std::string>& models, Conditions& conditions
     for (const std::string& words : models) {
         // A file name may contain `=`: only the name of a predictor before it makes an assignment.
         const std::string word = words.substr(0, words.find('='));
-        const std::vector<std::string> known = prediction::learned_predictor_names();
+        const std::vector<std::string> known = prediction::predictors().names(traffic::Trait::learned);
         const bool is_named = word.size() < words.size() && std::ranges::find(known, word) != known.end();
         const std::string file = is_named ? words.substr(word.size() + 1) : words;
         if (!std::filesystem::is_regular_file(file))

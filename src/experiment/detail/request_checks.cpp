@@ -9,6 +9,7 @@
 #include "core/units.hpp"
 #include "experiment/settings.hpp"
 #include "failures/failure_config.hpp"
+#include "policy/policy.hpp"
 #include "python/part_name.hpp"
 
 namespace clearway::experiment::detail {
@@ -37,9 +38,9 @@ bool has_code(const ConditionSpec& condition) {
 
 /// How long a request of a part to a vehicle lives that is not renewed, s; nothing for parts that make none.
 std::optional<double> lifetime_s(const ConditionSpec& condition, const std::string& part) {
-    const bool asks_vehicles = part == "dissertation" || value_of(condition, part, "ask_humans");
+    if (!policy::policies().is(part, traffic::Trait::renews_requests)) return std::nullopt;
     const std::optional<std::string> lease = value_of(condition, part, "lease_s");
-    if (!asks_vehicles || !lease) return std::nullopt;
+    if (!lease) return std::nullopt;
     // Policies lengthen their leases to two periods.
     return std::max(core::number_from(*lease).value_or(0.0), 2.0 * loop_config(condition).policy_period_s);
 }

@@ -33,8 +33,7 @@ std::string meant(const std::string& name, const std::vector<std::string>& known
     }
     if (!lengthened.empty())
         return fmt::format("Factors are part of a name: write '{}'", fmt::join(lengthened, "' or '"));
-    const std::string near = core::nearest(name, known);
-    return near.empty() ? "" : fmt::format("Did you mean '{}'?", near);
+    return core::did_you_mean(name, known);
 }
 
 void check_name(StrictTable& row, const char* key, const std::string& name,

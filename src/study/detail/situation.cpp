@@ -126,7 +126,8 @@ void check_roads(const std::vector<ConditionSpec>& conditions, const scenario::S
         return *network;
     };
     for (const ConditionSpec& condition : conditions) {
-        const std::vector<std::string> pulling_over = experiment::policies_on_shoulders(condition);
+        const std::vector<std::string> pulling_over =
+            experiment::policies_with(condition, traffic::Trait::shoulder);
         if (!pulling_over.empty() && !has_shoulders(built()))
             problems.push_back(
                 {fmt::format("condition {}, scenario {}", condition.name, scenario.name),
