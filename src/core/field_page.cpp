@@ -1,27 +1,14 @@
 #include "core/field_page.hpp"
 
-#include <sstream>
-
 #include "core/json.hpp"
+#include "core/usage.hpp"
 
 namespace clearway::core {
 namespace {
 
-constexpr std::size_t columns = 80;
-
-/// `text` in lines of at most `columns`, each behind `indent`.
-std::string wrapped(const std::string& text, const std::string& indent) {
-    std::istringstream words(text);
-    std::string lines;
-    std::string line;
-    for (std::string word; words >> word;) {
-        if (!line.empty() && indent.size() + line.size() + 1 + word.size() > columns) {
-            lines += indent + line + "\n";
-            line.clear();
-        }
-        line += (line.empty() ? "" : " ") + word;
-    }
-    return lines + indent + line + "\n";
+/// `text` in lines of a terminal, each behind `indent` spaces.
+std::string field_lines(const std::string& text, std::size_t indent) {
+    return wrapped(std::string(indent, ' ') + text, indent) + "\n";
 }
 
 std::string unit_of(const SettingInfo& row) {
@@ -65,10 +52,10 @@ std::string head_of(const SettingInfo& row, FieldUse use) {
 }
 
 std::string console_row(const SettingInfo& row, FieldUse use) {
-    std::string text = wrapped(head_of(row, use), "  ") + wrapped(without_full_stop(row.doc) + ".", "      ");
+    std::string text = field_lines(head_of(row, use), 2) + field_lines(without_full_stop(row.doc) + ".", 6);
     if (!row.source.empty())
-        text += wrapped((use == FieldUse::read ? "From: " : "Why: ") + without_full_stop(row.source) + ".",
-                        "      ");
+        text += field_lines(
+            (use == FieldUse::read ? "From: " : "Why: ") + without_full_stop(row.source) + ".", 6);
     return text;
 }
 
@@ -78,7 +65,7 @@ std::string fields_console(const std::vector<FieldTable>& tables, FieldUse use) 
     std::string text;
     for (const FieldTable& table : tables) {
         text += text.empty() ? "" : "\n";
-        text += wrapped(fmt::format("{}: {}", table.title, table.summary), "");
+        text += field_lines(fmt::format("{}: {}", table.title, table.summary), 0);
         for (const SettingInfo& row : table.rows)
             text += console_row(row, use);
     }

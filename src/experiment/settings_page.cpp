@@ -1,6 +1,8 @@
 #include "experiment/settings_page.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,6 +21,39 @@ std::vector<core::FieldTable> field_tables(const std::vector<Component>& compone
         for (core::SettingInfo& row : table.rows)
             row.name = component.name + "." + row.name;
     }
+    return tables;
+}
+
+/// What two rows have in common that mean the same in different components.
+std::string content_of(const core::SettingInfo& row) {
+    return fmt::format("{}|{}|{}|{}|{}", row.name.substr(row.name.find('.')), row.minimum, row.maximum,
+                       row.preset, row.doc);
+}
+
+/// Takes the rows that this many components have alike out of their tables and puts them first, once each.
+std::vector<core::FieldTable> with_shared_rows(std::vector<core::FieldTable> tables) {
+    constexpr std::size_t least_alike = 3;
+    std::map<std::string, std::vector<std::string>> owners;
+    for (const core::FieldTable& table : tables) {
+        for (const core::SettingInfo& row : table.rows)
+            owners[content_of(row)].push_back(table.title);
+    }
+    core::FieldTable shared{"shared", "Settings that several parts have, each with a value of its own", {}};
+    for (core::FieldTable& table : tables) {
+        std::erase_if(table.rows, [&](const core::SettingInfo& row) {
+            const std::vector<std::string>& alike = owners[content_of(row)];
+            if (alike.size() < least_alike) return false;
+            if (alike.front() == table.title) {
+                core::SettingInfo& once = shared.rows.emplace_back(row);
+                once.name = "PART" + row.name.substr(row.name.find('.'));
+                once.doc += fmt::format(". PART: {}", core::listed(alike));
+            }
+            return true;
+        });
+    }
+    if (shared.rows.empty()) return tables;
+    std::erase_if(tables, [](const core::FieldTable& table) { return table.rows.empty(); });
+    tables.insert(tables.begin(), std::move(shared));
     return tables;
 }
 
@@ -45,16 +80,14 @@ std::vector<Component> components_named(const std::string& name) {
         return std::ranges::find(wanted, component.name) != wanted.end();
     });
     if (found.empty()) {
-        const std::string near = core::nearest(name, known);
-        throw core::InputError({"list settings", fmt::format("`{}` is unknown", name),
-                                fmt::format("{}", fmt::join(known, ", ")),
-                                near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
+        throw core::InputError({"list settings", fmt::format("`{}` is unknown", name), core::listed(known),
+                                core::did_you_mean(name, known)});
     }
     return found;
 }
 
 std::string settings_console(const std::vector<Component>& components) {
-    return core::fields_console(field_tables(components), core::FieldUse::set);
+    return core::fields_console(with_shared_rows(field_tables(components)), core::FieldUse::set);
 }
 
 std::string settings_json(const std::vector<Component>& components) {
@@ -71,7 +104,7 @@ std::string settings_markdown(const std::vector<Component>& components) {
            "vehicles\n"
            "(EV) and the traffic around them. This page is generated from the program's tables:\n"
            "`clearway list settings --markdown > docs/reference/settings.md`.\n" +
-           core::fields_markdown(field_tables(components), core::FieldUse::set);
+           core::fields_markdown(with_shared_rows(field_tables(components)), core::FieldUse::set);
 }
 
 }  // namespace clearway::experiment

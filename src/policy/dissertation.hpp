@@ -10,8 +10,10 @@ namespace clearway::policy {
 
 /// Settings of Dissertation.
 struct DissertationConfig : detail::EdgeRule {
-    double slow_factor = 0.8;
-    double slowest_mps = 5.0;
+    /// A vehicle alongside slows down to this share of the emergency vehicle's speed. The listing's factor.
+    static constexpr double slow_factor = 0.8;
+    /// But no slower than this. Assumed: faster than a queue, slower than a street.
+    static constexpr double slowest_mps = 5.0;
     double beside_behind_m = 10.0;
     double beside_ahead_m = 10.0;
     double ahead_m = 50.0;
@@ -21,11 +23,6 @@ struct DissertationConfig : detail::EdgeRule {
         using C = DissertationConfig;
         using core::Field;
         const auto own = std::make_tuple(
-            Field{"slow_factor", "1", &C::slow_factor, 0.1, 1.0,
-                  "A vehicle alongside slows down to this share of the emergency vehicle's speed",
-                  "the listing's factor"},
-            Field{"slowest_mps", "m/s", &C::slowest_mps, 0.1, 30.0, "But no slower than this",
-                  "assumed: faster than a queue, slower than a street"},
             Field{"beside_behind_m", "m", &C::beside_behind_m, 0.0, 200.0,
                   "A vehicle is alongside when its front is at most this far behind the emergency vehicle's",
                   "assumed: two car lengths"},

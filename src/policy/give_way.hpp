@@ -13,12 +13,16 @@ namespace clearway::policy {
 /// Settings of GiveWay.
 struct GiveWayConfig : AskSettings {
     double lead_s = 6.0;
-    double lead_per_halted_s = 2.0;
-    double longest_lead_s = 20.0;
+    /// And this much earlier per vehicle that stands ahead of it. Saturation headway.
+    static constexpr double lead_per_halted_s = 2.0;
+    /// But no earlier than this. Assumed.
+    static constexpr double longest_lead_s = 20.0;
     double horizon_m = 300.0;
     double near_m = 60.0;
-    double halted_mps = 0.5;
-    double slowest_mps = 5.0;
+    /// A slower vehicle counts as standing. Assumed: walking pace is 1.4 m/s.
+    static constexpr double halted_mps = 0.5;
+    /// Arrival is estimated with at least this speed. Assumed: a standing queue moves once it has the way.
+    static constexpr double slowest_mps = 5.0;
     double longest_s = 30.0;
     double fastest_road_mps = 17.0;
     double lease_s = 2.0;
@@ -31,20 +35,11 @@ struct GiveWayConfig : AskSettings {
                 "lead_s", "s", &C::lead_s, 0.0, 60.0,
                 "Vehicles with right of way are asked from this long before the emergency vehicle's arrival",
                 "as hold_cross"},
-            Field{"lead_per_halted_s", "s", &C::lead_per_halted_s, 0.0, 10.0,
-                  "And this much earlier per vehicle that stands ahead of it", "saturation headway"},
-            Field{"longest_lead_s", "s", &C::longest_lead_s, 0.0, 60.0, "But no earlier than this",
-                  "assumed"},
             Field{"horizon_m", "m", &C::horizon_m, 1.0, 2000.0,
                   "Junctions farther away than this are ignored", "assumed: the longest lead at 15 m/s"},
             Field{"near_m", "m", &C::near_m, 1.0, 500.0,
                   "Vehicles closer than this to the junction are asked",
                   "assumed: more than the usual braking distance in towns"},
-            Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
-                  "assumed: walking pace is 1.4 m/s"},
-            Field{"slowest_mps", "m/s", &C::slowest_mps, 0.1, 30.0,
-                  "Arrival is estimated with at least this speed",
-                  "assumed: a standing queue moves once it has the way"},
             Field{"longest_s", "s", &C::longest_s, 1.0, 600.0,
                   "For one emergency vehicle a junction is kept free no longer than this, and nobody is "
                   "asked to "

@@ -13,7 +13,9 @@ struct HoldCrossConfig : AskSettings {
     double lead_s = 6.0;
     double horizon_m = 200.0;
     double near_m = 80.0;
-    double slowest_mps = 5.0;
+    /// Arrival is estimated with at least this speed. Assumed: an emergency vehicle passes red with 20
+    /// km/h.
+    static constexpr double slowest_mps = 5.0;
     double lease_s = 2.0;
 
     static constexpr auto fields() {
@@ -28,9 +30,6 @@ struct HoldCrossConfig : AskSettings {
             Field{"near_m", "m", &C::near_m, 1.0, 500.0,
                   "Vehicles closer than this to their stop line are asked",
                   "assumed: more than the usual braking distance in towns"},
-            Field{"slowest_mps", "m/s", &C::slowest_mps, 0.1, 30.0,
-                  "Arrival is estimated with at least this speed",
-                  "assumed: an emergency vehicle passes red with 20 km/h"},
             detail::lifetime_field<C>());
         return std::tuple_cat(own, AskSettings::fields());
     }

@@ -11,35 +11,29 @@ namespace clearway::policy {
 
 /// Settings of Listing55.
 struct Listing55Config : detail::EdgeRule {
-    double raise_above = 0.5;
-    double lower_below = -0.5;
-    double raise_factor = 1.1;
-    double lower_factor = 0.8;
-    double set_speed_lease_s = 30.0;
-    double room_m = 10.0;
+    /// A vehicle whose score is above this is told to drive faster. Listing 5.5; scores are -1, 0 and 1.
+    static constexpr double raise_above = 0.5;
+    /// A vehicle whose score is below this is told to drive slower. Listing 5.5; scores are -1, 0 and 1.
+    static constexpr double lower_below = -0.5;
+    /// Faster by this factor. Listing 5.5.
+    static constexpr double raise_factor = 1.1;
+    /// Slower by this factor. Listing 5.5.
+    static constexpr double lower_factor = 0.8;
+    /// Lifetime of a set speed, which every decision renews. Assumed: far longer than the time between two
+    /// decisions, because setSpeed holds.
+    static constexpr double set_speed_lease_s = 30.0;
+    /// A lane is free when no linked vehicle on it is nearer than this along the road. Assumed: a car's
+    /// length and two gaps.
+    static constexpr double room_m = 10.0;
     double lease_s = 2.0;
 
     static constexpr auto fields() {
         using C = Listing55Config;
         using core::Field;
-        const auto own = std::make_tuple(
-            Field{"raise_above", "1", &C::raise_above, -1.0, 1.0,
-                  "A vehicle whose score is above this is told to drive faster",
-                  "listing 5.5; scores are -1, 0 and 1"},
-            Field{"lower_below", "1", &C::lower_below, -1.0, 1.0,
-                  "A vehicle whose score is below this is told to drive slower",
-                  "listing 5.5; scores are -1, 0 and 1"},
-            Field{"raise_factor", "1", &C::raise_factor, 1.0, 2.0, "Faster by this factor", "listing 5.5"},
-            Field{"lower_factor", "1", &C::lower_factor, 0.1, 1.0, "Slower by this factor", "listing 5.5"},
-            Field{"set_speed_lease_s", "s", &C::set_speed_lease_s, 0.1, 600.0,
-                  "Lifetime of a set speed, which every decision renews",
-                  "assumed: far longer than the time between two decisions, because setSpeed holds"},
-            Field{"room_m", "m", &C::room_m, 0.0, 200.0,
-                  "A lane is free when no linked vehicle on it is nearer than this along the road",
-                  "assumed: a car's length and two gaps"},
-            Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
-                  "Lifetime of a lane change that is not renewed; at least two periods",
-                  "assumed: four decisions at the usual period"});
+        const auto own =
+            std::make_tuple(Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
+                                  "Lifetime of a lane change that is not renewed; at least two periods",
+                                  "assumed: four decisions at the usual period"});
         return std::tuple_cat(EdgeRule::fields(), own);
     }
 };

@@ -12,7 +12,8 @@ namespace clearway::policy {
 struct PullAsideConfig : detail::LanePlanConfig {
     double horizon_m = 120.0;
     double slow_share = 0.2;
-    double change_ahead_s = 4.0;
+    /// The emergency vehicle begins a planned lane change this long before its place. As vacate_lane.
+    static constexpr double change_ahead_s = 4.0;
     double lease_s = 2.0;
 
     static constexpr auto fields() {
@@ -26,9 +27,6 @@ struct PullAsideConfig : detail::LanePlanConfig {
                   "trials on the arterial, 10 pairs each: against 0.6 the emergency vehicle gains 6 to 52 s "
                   "and "
                   "others up to 45 s, most where a quarter does not cooperate"},
-            Field{"change_ahead_s", "s", &C::change_ahead_s, 0.0, 30.0,
-                  "The emergency vehicle begins a planned lane change this long before its place",
-                  "as vacate_lane"},
             detail::lifetime_field<C>());
         return std::tuple_cat(own, detail::LanePlanConfig::fields());
     }

@@ -10,25 +10,22 @@ namespace clearway::policy {
 /// Settings of RedPrivilege.
 struct RedPrivilegeConfig {
     double near_m = 200.0;
-    double passing_mps = 5.56;
-    double braking_mps2 = 2.0;
+    /// Highest speed at a stop line that shows red. 20 km/h, assumed: slow enough to stop for traffic that
+    /// has green.
+    static constexpr double passing_mps = 5.56;
+    /// The emergency vehicle slows down to that speed with this deceleration. Comfortable.
+    static constexpr double braking_mps2 = 2.0;
     double lease_s = 2.0;
 
     static constexpr auto fields() {
         using C = RedPrivilegeConfig;
         using core::Field;
-        return std::make_tuple(
-            Field{"near_m", "m", &C::near_m, 1.0, 1000.0,
-                  "The privilege begins at this distance from a signal that is not green",
-                  "assumed: before the vehicle would brake"},
-            Field{"passing_mps", "m/s", &C::passing_mps, 0.1, 50.0,
-                  "Highest speed at a stop line that shows red",
-                  "20 km/h, assumed: slow enough to stop for traffic that has green"},
-            Field{"braking_mps2", "m/s2", &C::braking_mps2, 0.1, 9.0,
-                  "The emergency vehicle slows down to that speed with this deceleration", "comfortable"},
-            Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
-                  "Lifetime of a lease that is not renewed; at least two periods",
-                  "assumed: four decisions at the usual period"});
+        return std::make_tuple(Field{"near_m", "m", &C::near_m, 1.0, 1000.0,
+                                     "The privilege begins at this distance from a signal that is not green",
+                                     "assumed: before the vehicle would brake"},
+                               Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
+                                     "Lifetime of a lease that is not renewed; at least two periods",
+                                     "assumed: four decisions at the usual period"});
     }
 };
 

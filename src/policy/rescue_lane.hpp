@@ -15,10 +15,17 @@ struct RescueLaneConfig : AskSettings {
     double behind_m = 50.0;
     double slow_mps = 14.0;
     double stagger_m = 60.0;
-    double apart_m = 12.0;
-    double stagger_share = 0.5;
+    /// They are apart when there is this much between them along the road; with the emergency vehicle
+    /// beside the rear one, its own length more. Assumed: an ambulance of 6.5 m that steers round one after
+    /// the other.
+    static constexpr double apart_m = 12.0;
+    /// One of them, or else who drives ahead of one, then drives at this share of its speed. Assumed: 1 m/s
+    /// in a jam of 2 m/s.
+    static constexpr double stagger_share = 0.5;
     double room_m = 0.4;
-    double switch_worth = 2.0;
+    /// The rescue lane moves between other lanes if that passes this many fewer vehicles that are not
+    /// asked. Assumed: moving it takes longer than passing one.
+    static constexpr double switch_worth = 2.0;
     double lease_s = 2.0;
 
     static constexpr auto fields() {
@@ -37,21 +44,9 @@ struct RescueLaneConfig : AskSettings {
                   "Two abreast between which the emergency vehicle does not fit are moved apart within this "
                   "distance; 0: never",
                   "assumed: it takes ten seconds"},
-            Field{"apart_m", "m", &C::apart_m, 0.0, 50.0,
-                  "They are apart when there is this much between them along the road; with the emergency "
-                  "vehicle beside the rear one, its own length more",
-                  "assumed: an ambulance of 6.5 m that steers round one after the other"},
-            Field{"stagger_share", "1", &C::stagger_share, 0.0, 1.0,
-                  "One of them, or else who drives ahead of one, then drives at this share of its speed",
-                  "assumed: 1 m/s in a jam of 2 m/s"},
             Field{"room_m", "m", &C::room_m, 0.0, 2.0,
                   "Room that the emergency vehicle needs beside it, both sides together",
                   "as privilege.margin_m"},
-            Field{
-                "switch_worth", "1", &C::switch_worth, 0.0, 20.0,
-                "The rescue lane moves between other lanes if that passes this many fewer vehicles that are "
-                "not asked",
-                "assumed: moving it takes longer than passing one"},
             detail::lifetime_field<C>());
         return std::tuple_cat(own, AskSettings::fields());
     }

@@ -11,8 +11,11 @@ namespace clearway::policy {
 /// Settings of VacateLane.
 struct VacateLaneConfig : detail::LanePlanConfig {
     double horizon_m = 300.0;
-    double change_ahead_s = 4.0;
-    double side_room_m = 12.0;
+    /// The emergency vehicle begins a planned lane change this long before its place. Assumed: SUMO's
+    /// vehicles change within 3 s.
+    static constexpr double change_ahead_s = 4.0;
+    /// Vehicles closer than this along the road cannot move into the same lane side by side. As clear_lane.
+    static constexpr double side_room_m = 12.0;
     double lease_s = 2.0;
 
     static constexpr auto fields() {
@@ -22,12 +25,6 @@ struct VacateLaneConfig : detail::LanePlanConfig {
             Field{"horizon_m", "m", &C::horizon_m, 10.0, 2000.0,
                   "The way is planned and vacated this far ahead",
                   "first trials: 150 to 300 m is the better trade against 800 m, which cost others more"},
-            Field{"change_ahead_s", "s", &C::change_ahead_s, 0.0, 30.0,
-                  "The emergency vehicle begins a planned lane change this long before its place",
-                  "assumed: SUMO's vehicles change within 3 s"},
-            Field{"side_room_m", "m", &C::side_room_m, 0.0, 100.0,
-                  "Vehicles closer than this along the road cannot move into the same lane side by side",
-                  "as clear_lane"},
             detail::lifetime_field<C>());
         return std::tuple_cat(own, detail::LanePlanConfig::fields());
     }

@@ -11,43 +11,40 @@ struct CarFollowingConfig {
     double step_s = 0.5;
     double headway_s = 1.0;
     double min_gap_m = 2.5;
-    double exponent = 4.0;
+    /// Exponent of the free acceleration. SUMO 1.15's IDM, by which the scenarios drive unless they say
+    /// otherwise.
+    static constexpr double exponent = 4.0;
     double speed_factor = 1.0;
-    double acceleration_factor = 1.0;
-    double deceleration_factor = 1.0;
     int know_speed_factor = 0;
     int estimate = 0;
     int follow_leaders = 1;
     int obey_signals = 1;
-    double bias_m = 0.01;
-    double tail_power = 0.475;
-    double older_growth_m = 0.00114;
-    double younger_growth_m = 0.00436;
-    double growth_power = 1.76;
+    // Fitted: least log loss over B10 and B20, dense merge, intersection and city, three replications of
+    // study seed 7001.
+    /// Added to the link radius before distances are compared with it.
+    static constexpr double bias_m = 0.01;
+    /// Far from the radius the odds grow as this power of (distance from it / spread).
+    static constexpr double tail_power = 0.475;
+    /// Spread of a pair at 1 s, by the age of the older report.
+    static constexpr double older_growth_m = 0.00114;
+    /// The same by the age of the younger report.
+    static constexpr double younger_growth_m = 0.00436;
+    /// Power of the ages in s.
+    static constexpr double growth_power = 1.76;
 
     static constexpr auto fields() {
         using C = CarFollowingConfig;
         using core::Field;
         constexpr const char* sumo =
             "SUMO 1.15's IDM, by which the scenarios drive unless they say otherwise";
-        constexpr const char* registered = "registrations are exact";
         constexpr const char* piece = "off shows what the piece is worth";
-        constexpr const char* fitted =
-            "fitted: least log loss over B10 and B20, dense merge, intersection and city, three replications "
-            "of "
-            "study seed 7001";
         return std::make_tuple(
             Field{"step_s", "s", &C::step_s, 0.05, 1.0, "Step of the twins' motion",
                   "assumed: twice SUMO's own step"},
             Field{"headway_s", "s", &C::headway_s, 0.1, 5.0, "Desired time headway T", sumo},
             Field{"min_gap_m", "m", &C::min_gap_m, 0.1, 20.0, "Gap s0 at standstill", sumo},
-            Field{"exponent", "1", &C::exponent, 1.0, 10.0, "Exponent of the free acceleration", sumo},
             Field{"speed_factor", "1", &C::speed_factor, 0.2, 3.0, "Desired speed divided by the speed limit",
                   "mean of the scenarios' drivers"},
-            Field{"acceleration_factor", "1", &C::acceleration_factor, 0.1, 5.0,
-                  "Factor on each vehicle's registered acceleration", registered},
-            Field{"deceleration_factor", "1", &C::deceleration_factor, 0.1, 5.0,
-                  "Factor on each vehicle's registered comfortable deceleration", registered},
             Field{"know_speed_factor", "1", &C::know_speed_factor, 0, 1,
                   "1: each driver's own speed factor is taken from its registration, times speed_factor",
                   "off: what a driver wants is not to be seen"},
@@ -56,16 +53,7 @@ struct CarFollowingConfig {
                   "off: on study seed 7001 AP and F1 were lower by up to .001 with it"},
             Field{"follow_leaders", "1", &C::follow_leaders, 0, 1, "0: twins do not heed vehicles ahead",
                   piece},
-            Field{"obey_signals", "1", &C::obey_signals, 0, 1, "0: twins do not heed signals", piece},
-            Field{"bias_m", "m", &C::bias_m, -50.0, 50.0,
-                  "Added to the link radius before distances are compared with it", fitted},
-            Field{"tail_power", "1", &C::tail_power, 0.05, 10.0,
-                  "Far from the radius the odds grow as this power of (distance from it / spread)", fitted},
-            Field{"older_growth_m", "m", &C::older_growth_m, 0.0, 100.0,
-                  "Spread of a pair at 1 s, by the age of the older report", fitted},
-            Field{"younger_growth_m", "m", &C::younger_growth_m, 0.0, 100.0,
-                  "The same by the age of the younger report", fitted},
-            Field{"growth_power", "1", &C::growth_power, 0.1, 4.0, "Power of the ages in s", fitted});
+            Field{"obey_signals", "1", &C::obey_signals, 0, 1, "0: twins do not heed signals", piece});
     }
 };
 

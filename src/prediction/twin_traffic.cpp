@@ -158,8 +158,7 @@ void TwinTraffic::register_driver(const traffic::VehicleInfo* info, Twin& twin) 
     static const traffic::VehicleInfo typical;
     const traffic::VehicleInfo& vehicle = info == nullptr ? typical : *info;
     const auto least = [](double value) { return std::max(0.1F, static_cast<float>(value)); };
-    twin.driver = {least(vehicle.acceleration_mps2 * config_.acceleration_factor),
-                   least(vehicle.deceleration_mps2 * config_.deceleration_factor),
+    twin.driver = {least(vehicle.acceleration_mps2), least(vehicle.deceleration_mps2),
                    static_cast<float>(config_.headway_s), static_cast<float>(config_.min_gap_m),
                    static_cast<float>(config_.exponent)};
     twin.length_m = vehicle.length_m;

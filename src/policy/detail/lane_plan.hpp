@@ -14,27 +14,22 @@ namespace clearway::policy::detail {
 /// How an emergency vehicle's way through the lanes is chosen; members of the settings of parts that clear
 /// it.
 struct LanePlanConfig : AskSettings {
-    double blocked_s = 15.0;
-    double slow_s = 4.0;
-    double clears_s = 0.5;
+    /// Delay by a vehicle that stands ahead and is not asked. Assumed: a third of a red phase.
+    static constexpr double blocked_s = 15.0;
+    /// Delay by a vehicle that is not asked, times the share by which it is slower than the emergency
+    /// vehicle may drive. Assumed.
+    static constexpr double slow_s = 4.0;
+    /// Delay by a vehicle that is asked to make room. Assumed: it is gone in time, mostly.
+    static constexpr double clears_s = 0.5;
     double change_s = 1.0;
-    double halted_mps = 0.5;
+    /// A slower vehicle counts as standing. Assumed: walking pace is 1.4 m/s.
+    static constexpr double halted_mps = 0.5;
 
     static constexpr auto fields() {
         using C = LanePlanConfig;
         using core::Field;
         const auto own = std::make_tuple(
-            Field{"blocked_s", "s", &C::blocked_s, 0.0, 120.0,
-                  "Delay by a vehicle that stands ahead and is not asked", "assumed: a third of a red phase"},
-            Field{"slow_s", "s", &C::slow_s, 0.0, 60.0,
-                  "Delay by a vehicle that is not asked, times the share by which it is slower than the "
-                  "emergency vehicle may drive",
-                  "assumed"},
-            Field{"clears_s", "s", &C::clears_s, 0.0, 60.0, "Delay by a vehicle that is asked to make room",
-                  "assumed: it is gone in time, mostly"},
-            Field{"change_s", "s", &C::change_s, 0.0, 60.0, "Time that a lane change costs", "assumed"},
-            Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
-                  "assumed: walking pace is 1.4 m/s"});
+            Field{"change_s", "s", &C::change_s, 0.0, 60.0, "Time that a lane change costs", "assumed"});
         return std::tuple_cat(own, AskSettings::fields());
     }
 };
