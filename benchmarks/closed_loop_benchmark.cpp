@@ -24,7 +24,7 @@ std::filesystem::path temporary_folder() {
 
 experiment::RunJob dense_city(const std::filesystem::path& folder) {
     scenario::Options options;
-    options.variant = scenario::Variant::dense;
+    options.set("variant", "dense");
     const scenario::ScenarioConfig config = scenario::load("city", options);
     scenario::store(config, folder);
     scenario::build_network(config, folder);

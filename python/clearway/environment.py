@@ -299,29 +299,6 @@ def checked_seeds(seeds: Any) -> list[int]:
     return checked
 
 
-#: Overrides of ``clearway.run`` and study files, and the options of the program that say the same.
-_OVERRIDES = {"density": "density", "automated_share": "av-share", "road_limit_kmh": "road-limit", "warm_up_s": "warm-up",
-              "horizon_s": "horizon", "step_length_s": "step-length", "time_to_teleport_s": "time-to-teleport", "idm": "idm",
-              "car_following": "car-following", "driver_spread": "driver-spread", "traffic_kinds": "kinds",
-              "emergency_kinds": "emergency-kinds", "siren_compliance": "siren", "road_speed_factor": "road-speed",
-              "friction": "friction", "pedestrians_per_hour": "pedestrians"}
-_VARIANTS: dict[Any, list[str]] = {"standard": [], "dense": ["--dense"]}
-
-
-def _override(name: str, value: Any) -> list[str]:
-    """Words of the command line for an override."""
-    if name == "variant":
-        if not isinstance(value, str) or value not in _VARIANTS:
-            raise _program.InputError(f"variant is {value!r} (allowed: {', '.join(_VARIANTS)})")
-        return _VARIANTS[value]
-    if name not in _OVERRIDES:
-        raise _program.InputError(f"{name} is neither an argument of clearway.Env nor an override, as clearway.run takes them (allowed: "
-                                  f"variant, {', '.join(_OVERRIDES)})")
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (str, numbers.Real)):
-        raise _program.InputError(f"{name} is {value!r} (allowed: a number or a text)")
-    return ["--" + _OVERRIDES[name], str(value)]
-
-
 def _arguments(scenario: str | Path, study_seed: int, policy: Part | Sequence[Part], failure: str, predictor: Part,
                settings: Mapping[str, Any], options: Mapping[str, Any]) -> list[str]:
     if not isinstance(scenario, (str, Path)) or str(scenario).startswith("-"):
@@ -334,7 +311,7 @@ def _arguments(scenario: str | Path, study_seed: int, policy: Part | Sequence[Pa
     for name, value in settings.items():
         words += ["--set", f"{name}={str(value).lower() if isinstance(value, (bool, np.bool_)) else value}"]
     for name, value in options.items():
-        words += _override(name, value)
+        words += ["--override", f"{name}={value}"]
     return words
 
 

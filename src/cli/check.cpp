@@ -77,7 +77,7 @@ core::ExitCode check(const Arguments& arguments, const Invocation& invocation) {
         const std::filesystem::path& roads = plan.units.front().unit.network_folder;
         const scenario::BuiltNetwork built = scenario::open_network(scenario, roads);
         findings =
-            campaign::findings_of(*record, {scenario, built.network, arguments.options.density.value_or(1.0),
+            campaign::findings_of(*record, {scenario, built.network, arguments.options.number("density", 1.0),
                                             store.scenario_folder(scenario.name) / "demand" / "0"});
         findings.push_back(
             {"speed", campaign::Grade::ok,

@@ -88,7 +88,7 @@ Action configure_environment(CLI::App& app) {
         ->required()
         ->expected(3)
         ->option_text("MEMORY READ WRITE (required)");
-    add_scenario_options(app, arguments->options);
+    add_override_option(app, arguments->options);
     return [arguments](const Invocation& invocation) { return serve(*arguments, invocation); };
 }
 

@@ -31,7 +31,7 @@ struct Arguments {
 std::string folder_of(const Arguments& arguments) {
     if (!arguments.folder.empty()) return arguments.folder;
     std::string folder = "runs/reproduce";
-    if (arguments.scenario.variant == scenario::Variant::dense) folder += "-dense";
+    if (arguments.scenario.overrides.contains("variant")) folder += "-dense";
     if (arguments.seeds != usual_seeds) folder += fmt::format("-{}-seeds", arguments.seeds);
     return folder;
 }

@@ -77,12 +77,24 @@ std::string range_text(const Field& field) {
     return text;
 }
 
-/// Sets one member from text: a number (whole for an integer member), true or false, or a word from the
-/// `spellings` of an enumeration. Returns what is wrong, if anything.
+/// Sets one member from text: a number (whole for an integer member), true or false, a word from the
+/// `spellings` of an enumeration, or the text itself. Returns what is wrong, if anything.
 template <class Field, class Member>
 std::optional<Problem> set_member(const Field& field, const std::string& text, const std::string& where,
                                   Member& target) {
-    if constexpr (Spelled<Member>) {
+    if constexpr (OptionalMember<Member>::value) {
+        typename Member::value_type value{};
+        std::optional<Problem> problem = set_member(field, text, where, value);
+        if (problem) {
+            problem->cure.clear();  // names the default of a member that always has a value
+        } else {
+            target = value;
+        }
+        return problem;
+    } else if constexpr (std::is_same_v<Member, std::string>) {
+        target = text;
+        return std::nullopt;
+    } else if constexpr (Spelled<Member>) {
         const auto value = value_from<Member>(text);
         if (!value)
             return Problem{where, fmt::format("\"{}\" is not known", text), spelling_list<Member>(), ""};
@@ -112,9 +124,7 @@ std::optional<Problem> set_member(const Field& field, const std::string& text, c
 /// The problem of a name that is not in `known`; lists them and suggests the nearest.
 inline Problem unknown_setting(const std::string& where, const std::string& name,
                                const std::vector<std::string>& known) {
-    const std::string near = nearest(name, known);
-    return {where, "is unknown", fmt::format("{}", fmt::join(known, ", ")),
-            near.empty() ? "" : fmt::format("Did you mean '{}'?", near)};
+    return {where, "is unknown", listed(known), did_you_mean(name, known)};
 }
 
 /// Sets members of `targets` by name. Returns every problem: an unknown name (with the nearest known one), a

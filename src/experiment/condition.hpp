@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "core/fields.hpp"
 #include "core/settings.hpp"
 #include "core/spellings.hpp"
 #include "traffic/command.hpp"
@@ -47,6 +49,20 @@ struct ConditionSpec {
     bool acts() const { return !policies.empty() || bluelight == traffic::BlueLight::on; }
 
     bool operator==(const ConditionSpec&) const = default;
+
+    /// Keys of `[[condition]]` in study files and of `condition.` factors, and of stored conditions. `name`,
+    /// `policy` (a list), `set` and `model` stand beside them.
+    static constexpr auto fields() {
+        using S = ConditionSpec;
+        using core::Field;
+        return std::make_tuple(
+            Field{"failure", "", &S::failure, 0, 0, "How sensors fail: a preset, fields or both", "perfect"},
+            Field{"predictor", "", &S::predictor, 0, 0, "How the graph is repaired", "none"},
+            Field{"traffic_model", "", &S::traffic_model, 0, 0, "SUMO's lateral model", "standard"},
+            Field{"safety_checks", "", &S::safety_checks, 0, 0,
+                  "SUMO's own checks of commanded speeds and lane changes", "on"},
+            Field{"bluelight", "", &S::bluelight, 0, 0, "SUMO's device.bluelight on every EV", "off"});
+    }
 };
 
 }  // namespace clearway::experiment

@@ -9,6 +9,7 @@
 #include "core/strict_table.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
+#include "scenario/overrides.hpp"
 
 namespace clearway::links {
 namespace {
@@ -34,25 +35,6 @@ void check_name(core::StrictTable& reader, const std::string& key, const std::st
                    core::did_you_mean(name, known));
 }
 
-/// The options of `clearway run` that a benchmark may state.
-scenario::Options read_options(core::StrictTable& reader) {
-    const auto number = [&](const char* key, double least, double most, std::optional<double>& target) {
-        reader.number(key, target);
-        if (!target || (*target >= least && *target <= most)) return;
-        reader.problem(key, fmt::format("{} is out of range", *target), fmt::format("{} to {}", least, most),
-                       "");
-        target.reset();
-    };
-    scenario::Options options;
-    reader.word<scenario::Variant>("variant", options.variant);
-    number("density", 0.0, 100.0, options.density);
-    number("av_share", 0.0, 1.0, options.automated_share);
-    reader.word<scenario::IdmPreset>("idm", options.idm);
-    reader.word<scenario::FollowingModel>("car_following", options.following);
-    number("driver_spread", 0.0, 1.0, options.driver_spread);
-    return options;
-}
-
 /// The label names a folder, and tells the entry from all others.
 void check_label(core::StrictTable& reader, const std::string& label, const LinkBenchmark& benchmark) {
     const char* const key = reader.has("label") ? "label" : "name";
@@ -74,7 +56,8 @@ void read_scenario(const toml::table& table, core::TomlReading& reading, LinkBen
     reader.text("name", name);
     reader.text("label", entry.label);
     reader.text_or_empty("policy", entry.policy);
-    const scenario::Options options = read_options(reader);
+    scenario::Options options;
+    scenario::read_overrides(reader, options);
     reader.text("configuration", configuration);
     reader.finish();
     if (!entry.policy.empty())

@@ -9,6 +9,7 @@
 #include "core/strict_table.hpp"
 #include "scenario/detail/checks.hpp"
 #include "scenario/detail/library.hpp"
+#include "scenario/detail/tables.hpp"
 
 namespace clearway::scenario {
 
@@ -17,63 +18,51 @@ namespace {
 using core::StrictTable;
 
 template <class Struct>
-void read_subtable(StrictTable& parent, const std::string& key, Struct& target) {
-    if (auto reader = parent.below(key)) {
-        reader->read(target);
-        reader->finish();
-    }
-}
+void read_table(StrictTable& reader, Struct& target);
 
-template <class Struct>
-void read_subtable(StrictTable& parent, const std::string& key, std::optional<Struct>& target) {
-    if (parent.table(key) != nullptr) read_subtable(parent, key, target.emplace());
-}
-
-template <class Struct>
-void read_list(StrictTable& parent, const std::string& key, std::vector<Struct>& target) {
-    for (StrictTable& reader : parent.rows(key)) {
-        reader.read(target.emplace_back());
-        reader.finish();
-    }
-}
-
-void read_kinds(StrictTable& root, ScenarioConfig& config) {
-    auto kinds = root.below("kinds");
-    if (!kinds) return;
-    read_subtable(*kinds, "traffic", config.traffic_kinds);
-    read_subtable(*kinds, "emergency", config.emergency_kinds);
-    kinds->finish();
-}
-
-void read_road(StrictTable& root, RoadCondition& road) {
-    auto reader = root.below("road");
-    if (!reader) return;
-    reader->read(road);
-    if (auto named = reader->below("stretch")) {
-        for (const auto& [key, node] : *reader->table("stretch")) {
-            const std::string name(key.str());
-            auto members = named->below(name);
-            if (!members) continue;
-            road.stretches.emplace_back().name = name;
-            members->read(road.stretches.back());
-            members->texts("edges", road.stretches.back().edges);
-            members->finish();
+/// Reads the table or the tables called `key`: a struct, an optional one, or a list.
+template <class Target>
+void read_below(StrictTable& parent, const std::string& key, Target& target) {
+    if constexpr (detail::IsList<Target>::value) {
+        for (StrictTable& reader : parent.rows(key))
+            read_table(reader, target.emplace_back());
+    } else if (auto reader = parent.below(key)) {
+        if constexpr (core::OptionalMember<Target>::value) {
+            read_table(*reader, target.emplace());
+        } else {
+            read_table(*reader, target);
         }
     }
-    reader->finish();
 }
 
-void read_measured(StrictTable& root, ScenarioConfig& config) {
-    auto reader = root.below("measured");
-    if (!reader) return;
-    Measured& measured = config.measured.emplace();
-    reader->read(measured);
-    reader->texts("routes", measured.routes);
-    reader->texts("additional", measured.additional);
-    reader->texts("persons", measured.persons);
-    read_list(*reader, "type", measured.types);
-    read_subtable(*reader, "own_types", measured.own_types);
-    reader->finish();
+void read_stretches(StrictTable& reader, RoadCondition& road) {
+    auto named = reader.below("stretch");
+    if (!named) return;
+    for (const auto& [key, node] : *reader.table("stretch")) {
+        const std::string name(key.str());
+        if (auto members = named->below(name)) {
+            Stretch& stretch = road.stretches.emplace_back();
+            stretch.name = name;
+            members->texts("edges", stretch.edges);
+            read_table(*members, stretch);
+        }
+    }
+}
+
+void read_lists(StrictTable& reader, Measured& measured) {
+    reader.texts("routes", measured.routes);
+    reader.texts("additional", measured.additional);
+    reader.texts("persons", measured.persons);
+    read_below(reader, "type", measured.types);
+    read_below(reader, "own_types", measured.own_types);
+}
+
+template <class Struct>
+void read_table(StrictTable& reader, Struct& target) {
+    reader.read(target);
+    if constexpr (std::is_same_v<Struct, RoadCondition>) read_stretches(reader, target);
+    if constexpr (std::is_same_v<Struct, Measured>) read_lists(reader, target);
+    reader.finish();
 }
 
 void read_root(const toml::table& table, core::TomlReading& reading, ScenarioConfig& config) {
@@ -81,24 +70,17 @@ void read_root(const toml::table& table, core::TomlReading& reading, ScenarioCon
     root.text_or_empty("name", config.name);
     root.text_or_empty("version", config.version);
     root.text_or_empty("title", config.title);
-    read_subtable(root, "network", config.network);
-    read_subtable(root, "time", config.time);
-    read_subtable(root, "demand", config.demand);
-    read_subtable(root, "dense", config.dense);
-    read_subtable(root, "limits", config.limits);
-    read_subtable(root, "drivers", config.drivers);
-    read_subtable(root, "car_following", config.following);
-    read_subtable(root, "siren", config.siren);
-    read_subtable(root, "slow", config.slow);
-    read_subtable(root, "privilege", config.privilege);
-    read_road(root, config.road);
-    read_subtable(root, "pedestrians", config.pedestrians);
-    read_kinds(root, config);
-    read_subtable(root, "trips", config.trips);
-    read_list(root, "flow", config.flows);
-    read_list(root, "emergency_trip", config.emergency_trips);
-    read_list(root, "emergency_site", config.emergency_sites);
-    read_measured(root, config);
+    auto kinds = root.below("kinds");
+    detail::for_each_table([&](const auto& listed) {
+        const std::string key = listed.key;
+        const std::size_t dot = key.find('.');
+        if (dot == std::string::npos) {
+            read_below(root, key, config.*listed.member);
+        } else if (kinds) {
+            read_below(*kinds, key.substr(dot + 1), config.*listed.member);
+        }
+    });
+    if (kinds) kinds->finish();
     root.finish();
 }
 

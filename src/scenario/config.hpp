@@ -484,28 +484,25 @@ struct ScenarioConfig {
     std::string where(const std::string& key) const;
 };
 
-/// What a user changes from the command line. An empty optional leaves the file's value.
+/// A value as text, and where it was given: an option, or file, line and column.
+struct Given {
+    std::string text;
+    std::string where;
+};
+
+/// What a user changes of a scenario.
 struct Options {
-    Variant variant = Variant::standard;
-    std::optional<double> density;             ///< --density
-    std::optional<double> automated_share;     ///< --av-share, 0 to 1
-    std::optional<double> road_limit_kmh;      ///< --road-limit
-    std::optional<double> warm_up_s;           ///< --warm-up
-    std::optional<double> horizon_s;           ///< --horizon
-    std::optional<double> step_length_s;       ///< --step-length
-    std::optional<double> time_to_teleport_s;  ///< --time-to-teleport
-    std::optional<IdmPreset> idm;              ///< --idm
-    std::optional<FollowingModel> following;   ///< --car-following
-    std::optional<double> driver_spread;       ///< --driver-spread, 0 to 1
-    std::optional<double> siren_compliance;    ///< --siren, 0 to 1
-    std::optional<double> road_speed_factor;   ///< --road-speed, 0.05 to 1
-    std::optional<double> friction;            ///< --friction, 0.1 to 1
-    std::optional<double> pedestrians;         ///< --pedestrians, 0 to 2000 per hour at each crossing
-    std::string traffic_kinds;    ///< --kinds, weights such as `car=8,truck=2`; kinds not named get 0.
-    std::string emergency_kinds;  ///< --emergency-kinds, such as `ambulance=1,police_car=1`
+    /// By name, as overrides.hpp lists them: `friction` -> `0.7`. What is not there stays as the file says.
+    std::map<std::string, Given> overrides = {};
     /// Keys that replace those of scenario.toml before it is checked: `demand.human` -> `40`, the value as
     /// TOML text. Arrays of tables cannot be set.
     std::map<std::string, std::string> settings = {};
+
+    /// Sets an override; `where` is its option unless another place is given. Name and value are checked when
+    /// a scenario is loaded.
+    Options& set(const std::string& name, const std::string& text, const std::string& where = "");
+    /// The number of an override; `otherwise` if it is not set.
+    double number(const std::string& name, double otherwise) const;
 };
 
 /// Reads a scenario by name (one of `list()`), folder or TOML file, applies `options` and checks everything.

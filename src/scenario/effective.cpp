@@ -8,6 +8,7 @@
 #include "core/files.hpp"
 #include "scenario/config.hpp"
 #include "scenario/detail/library.hpp"
+#include "scenario/detail/tables.hpp"
 
 namespace clearway::scenario {
 
@@ -55,28 +56,54 @@ std::string text_array(const std::vector<std::string>& values) {
     return text + "]";
 }
 
+/// What the table has beside plain keys.
 template <class Struct>
-std::string tables(const char* name, const std::vector<Struct>& rows) {
-    std::string text;
-    for (const Struct& row : rows)
-        text += fmt::format("\n[[{}]]\n{}", name, members(row));
-    return text;
+std::string lists(const Struct&) {
+    return "";
 }
 
-std::string measured_text(const Measured& measured) {
-    std::string text = fmt::format("\n[measured]\n{}routes = {}\nadditional = {}\n", members(measured),
-                                   text_array(measured.routes), text_array(measured.additional));
+std::string lists(const Measured& measured) {
+    std::string text = fmt::format("routes = {}\nadditional = {}\n", text_array(measured.routes),
+                                   text_array(measured.additional));
     // Only if there are any, so that older configurations keep their `configuration_hash`.
     if (!measured.persons.empty()) text += fmt::format("persons = {}\n", text_array(measured.persons));
     if (measured.own_types) text += "\n[measured.own_types]\n" + members(*measured.own_types);
-    return text + tables("measured.type", measured.types);
+    for (const MeasuredType& type : measured.types)
+        text += "\n[[measured.type]]\n" + members(type);
+    return text;
 }
 
-std::string road_text(const RoadCondition& road) {
-    std::string text = "\n[road]\n" + members(road);
+std::string lists(const RoadCondition& road) {
+    std::string text;
     for (const Stretch& stretch : road.stretches)
         text += fmt::format("\n[road.stretch.{}]\n{}edges = {}\n", detail::quoted(stretch.name),
                             members(stretch), text_array(stretch.edges));
+    return text;
+}
+
+/// Tables without effect are left out, so that older configurations keep their `configuration_hash`.
+template <class Struct>
+bool has_effect(const Struct& table) {
+    if constexpr (std::is_same_v<Struct, Following>) return table != Following{};
+    if constexpr (std::is_same_v<Struct, traffic::SirenConfig>) return table.compliance > 0.0;
+    if constexpr (std::is_same_v<Struct, Slow>) return table.share > 0.0;
+    if constexpr (std::is_same_v<Struct, Privilege>) return !table.none();
+    if constexpr (std::is_same_v<Struct, RoadCondition>) return !table.is_dry();
+    if constexpr (std::is_same_v<Struct, Pedestrians>) return table.walk();
+    return true;
+}
+
+template <class Member>
+std::string table_text(const char* key, const Member& member) {
+    std::string text;
+    if constexpr (detail::IsList<Member>::value) {
+        for (const auto& row : member)
+            text += fmt::format("\n[[{}]]\n{}", key, members(row));
+    } else if constexpr (core::OptionalMember<Member>::value) {
+        if (member) text = table_text(key, *member);
+    } else if (has_effect(member)) {
+        text = fmt::format("\n[{}]\n{}{}", key, members(member), lists(member));
+    }
     return text;
 }
 
@@ -123,26 +150,7 @@ std::string to_toml(const ScenarioConfig& config) {
     std::string text =
         fmt::format("name = {}\nversion = {}\n", detail::quoted(config.name), detail::quoted(config.version));
     if (!config.title.empty()) text += fmt::format("title = {}\n", detail::quoted(config.title));
-    text += "\n[network]\n" + members(config.network);
-    text += "\n[time]\n" + members(config.time);
-    text += "\n[demand]\n" + members(config.demand);
-    if (config.dense) text += "\n[dense]\n" + members(*config.dense);
-    text += "\n[limits]\n" + members(config.limits);
-    text += "\n[drivers]\n" + members(config.drivers);
-    // Left out when they have no effect, so that older configurations keep their `configuration_hash`.
-    if (config.following != Following{}) text += "\n[car_following]\n" + members(config.following);
-    if (config.siren.compliance > 0.0) text += "\n[siren]\n" + members(config.siren);
-    if (config.slow.share > 0.0) text += "\n[slow]\n" + members(config.slow);
-    if (!config.privilege.none()) text += "\n[privilege]\n" + members(config.privilege);
-    if (!config.road.is_dry()) text += road_text(config.road);
-    if (config.pedestrians.walk()) text += "\n[pedestrians]\n" + members(config.pedestrians);
-    text += "\n[kinds.traffic]\n" + members(config.traffic_kinds);
-    text += "\n[kinds.emergency]\n" + members(config.emergency_kinds);
-    text += "\n[trips]\n" + members(config.trips);
-    text += tables("flow", config.flows);
-    text += tables("emergency_trip", config.emergency_trips);
-    text += tables("emergency_site", config.emergency_sites);
-    if (config.measured) text += measured_text(*config.measured);
+    detail::for_each_table([&](const auto& table) { text += table_text(table.key, config.*table.member); });
     return text;
 }
 

@@ -95,10 +95,9 @@ void slow_down(const ScenarioConfig& config, NetworkDocument& document) {
         for (const std::string& edge : stretch.edges) {
             own[edge] = stretch.speed_factor;
             if (known.contains(edge)) continue;
-            const std::string near = core::nearest(edge, {known.begin(), known.end()});
             problems.push_back({config.where(fmt::format("road.stretch.{}.edges", stretch.name)),
                                 fmt::format("the network has no edge '{}'", edge), "ids of its edges",
-                                near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
+                                core::did_you_mean(edge, {known.begin(), known.end()})});
         }
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));

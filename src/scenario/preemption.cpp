@@ -33,11 +33,6 @@ std::string header_line() {
     return fmt::format("{}", fmt::join(column_names(), ","));
 }
 
-std::string hint(const std::string& word, const std::vector<std::string>& known) {
-    const std::string near = core::nearest(word, known);
-    return near.empty() ? "" : fmt::format("Did you mean '{}'?", near);
-}
-
 /// Line ends of other systems, and the mark that spreadsheets put before UTF-8.
 std::string normalised(std::string text) {
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
@@ -59,7 +54,7 @@ class Reading {
         for (const std::string_view cell : cells) {
             const std::string name(cell);
             if (std::ranges::find(known, name) == known.end())
-                refuse(1, name, "is no column of this file", header_line(), hint(name, known));
+                refuse(1, name, "is no column of this file", header_line(), core::did_you_mean(name, known));
             else if (std::ranges::find(columns_, name) != columns_.end())
                 refuse(1, name, "is there twice", "each column once", "remove one");
             columns_.push_back(name);
@@ -252,7 +247,7 @@ std::vector<Preemption> preemption_of(const PreemptionRows& rows, const std::fil
         if (!signal) {
             problems.push_back({fmt::format("{}: {}", where, name_column),
                                 fmt::format("the network has no signal '{}'", id), "ids of its signals",
-                                hint(id, known)});
+                                core::did_you_mean(id, known)});
             continue;
         }
         check(row.values, where, network.signal(*signal), problems);

@@ -14,6 +14,7 @@
 #include "experiment/conditions.hpp"
 #include "experiment/settings.hpp"
 #include "metrics/run_metrics.hpp"
+#include "scenario/overrides.hpp"
 #include "study/detail/factors.hpp"
 #include "study/detail/read_plan.hpp"
 #include "study/detail/read_settings.hpp"
@@ -28,67 +29,29 @@ using Problems = std::vector<core::Problem>;
 constexpr std::uint32_t most_replications = 100000;
 constexpr std::int64_t most_seed = std::numeric_limits<std::int64_t>::max();
 
+/// Every combination of factors loads the same scenarios with the same overrides: a problem is told once.
 void append(Problems& problems, const core::InputError& error) {
-    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-}
-
-/// Keys of `[overrides]`, which scenario factors may also set.
-const std::vector<std::string> override_keys = {"variant",
-                                                "density",
-                                                "automated_share",
-                                                "road_limit_kmh",
-                                                "warm_up_s",
-                                                "horizon_s",
-                                                "step_length_s",
-                                                "time_to_teleport_s",
-                                                "idm",
-                                                "car_following",
-                                                "driver_spread",
-                                                "traffic_kinds",
-                                                "emergency_kinds",
-                                                "siren_compliance",
-                                                "road_speed_factor",
-                                                "friction",
-                                                "pedestrians_per_hour"};
-
-scenario::Options read_overrides(const toml::table& table, TomlReading& reading) {
-    scenario::Options options;
-    StrictTable reader(table, "overrides", reading);
-    reader.word<scenario::Variant>("variant", options.variant);
-    reader.number("density", options.density);
-    reader.number("automated_share", options.automated_share);
-    reader.number("road_limit_kmh", options.road_limit_kmh);
-    reader.number("warm_up_s", options.warm_up_s);
-    reader.number("horizon_s", options.horizon_s);
-    reader.number("step_length_s", options.step_length_s);
-    reader.number("time_to_teleport_s", options.time_to_teleport_s);
-    reader.word<scenario::IdmPreset>("idm", options.idm);
-    reader.word<scenario::FollowingModel>("car_following", options.following);
-    reader.number("driver_spread", options.driver_spread);
-    reader.number("siren_compliance", options.siren_compliance);
-    reader.number("road_speed_factor", options.road_speed_factor);
-    reader.number("friction", options.friction);
-    reader.number("pedestrians_per_hour", options.pedestrians);
-    reader.text("traffic_kinds", options.traffic_kinds);
-    reader.text("emergency_kinds", options.emergency_kinds);
-    reader.finish();
-    return options;
+    std::ranges::copy_if(error.problems(), std::back_inserter(problems), [&](const core::Problem& problem) {
+        return std::ranges::find(problems, core::format_problem(problem), core::format_problem) ==
+               problems.end();
+    });
 }
 
 /// The overrides with a combination of factors applied.
 scenario::Options options_with(const toml::table& overrides, const detail::Assignment& assignment,
                                TomlReading& reading) {
     toml::table changed = overrides;
-    core::Settings settings;
+    scenario::Options options;
     for (const auto& [factor, value] : assignment) {
-        if (std::ranges::find(override_keys, factor->key) == override_keys.end()) {
-            settings[factor->key] = value->toml;
-        } else {
+        if (scenario::is_override(factor->key)) {
             core::set_value(changed, factor->key, value->toml);
+        } else {
+            options.settings[factor->key] = value->toml;
         }
     }
-    scenario::Options options = read_overrides(changed, reading);
-    options.settings = settings;
+    StrictTable reader(changed, "overrides", reading);
+    scenario::read_overrides(reader, options);
+    reader.finish();
     return options;
 }
 
@@ -117,22 +80,14 @@ void read_policies(StrictTable& reader, const toml::table& table, std::vector<st
     } else {
         reader.texts("policy", policies);
     }
-    if (!reader.has("parts")) return;
-    std::vector<std::string> ignored;
-    reader.texts("parts", ignored);
-    reader.problem("parts", "is now called policy", "policy = [\"corridor\"]", "Rename the key");
 }
 
 experiment::ConditionSpec read_condition(const toml::table& table, TomlReading& reading) {
     experiment::ConditionSpec condition;
     StrictTable reader(table, "condition", reading);
     reader.text("name", condition.name);
-    reader.text("failure", condition.failure);
-    reader.text("predictor", condition.predictor);
+    reader.read(condition);
     read_policies(reader, table, condition.policies);
-    reader.word<experiment::TrafficModel>("traffic_model", condition.traffic_model);
-    reader.word<traffic::SafetyChecks>("safety_checks", condition.safety_checks);
-    reader.word<traffic::BlueLight>("bluelight", condition.bluelight);
     read_settings(reader, reading, condition);
     reader.finish();
     if (condition.name.empty()) reader.problem("name", "is missing", "a name", "Name the condition");
@@ -337,9 +292,8 @@ void read_precision(StrictTable& root, StudyConfig& config) {
     reader->finish();
     const std::vector<std::string> names = metric_names();
     if (std::ranges::find(names, target.metric) == names.end()) {
-        const std::string near = core::nearest(target.metric, names);
         reader->problem("metric", fmt::format("'{}' is not a metric", target.metric), "columns of runs.csv",
-                        near.empty() ? "" : fmt::format("Did you mean '{}'?", near));
+                        core::did_you_mean(target.metric, names));
     }
     if (!half_width || !(*half_width > 0.0) || !std::isfinite(*half_width))
         reader->problem("half_width",
@@ -362,10 +316,8 @@ void keep_named(StrictTable& quick, const char* key, std::vector<Element>& all) 
         names.push_back(element.name);
     for (const std::string& name : kept) {
         if (std::ranges::find(names, name) != names.end()) continue;
-        const std::string near = core::nearest(name, names);
-        quick.problem(key, fmt::format("'{}' is not in the study", name),
-                      fmt::format("{}", fmt::join(names, ", ")),
-                      near.empty() ? "" : fmt::format("Did you mean '{}'?", near));
+        quick.problem(key, fmt::format("'{}' is not in the study", name), core::listed(names),
+                      core::did_you_mean(name, names));
     }
     std::erase_if(
         all, [&](const Element& element) { return std::ranges::find(kept, element.name) == kept.end(); });
@@ -404,9 +356,10 @@ StudyConfig dissertation_study(std::uint32_t replications, std::uint64_t seed,
     Problems problems;
     add_scenario("merge", options, "", problems, config);
     // Where nobody waits, TABLE II is all zeros; in the dense merge there is something to gain.
-    if (options.variant == scenario::Variant::standard) {
+    const std::string variant = "variant";
+    if (!options.overrides.contains(variant)) {
         scenario::Options dense = options;
-        dense.variant = scenario::Variant::dense;
+        dense.set(variant, std::string(core::name(scenario::Variant::dense)));
         add_scenario("merge", dense, "_dense", problems, config);
     }
     for (const char* name : {"intersection", "city"})

@@ -90,7 +90,7 @@ TEST_F(HelpTest, tells_units_where_an_option_has_one) {
     for (const std::string& option : options_in(run)) {
         for (const char* const timed : {"--warm-up", "--horizon", "--step-length"}) {
             if (option.find(timed) == std::string::npos) continue;
-            EXPECT_THAT(option, HasSubstr(", s"));
+            EXPECT_THAT(option, HasSubstr(" s ["));
         }
         if (option.find("--road-limit") == std::string::npos) continue;
         EXPECT_THAT(option, HasSubstr("km/h"));

@@ -5,16 +5,19 @@
 namespace clearway::experiment {
 namespace {
 
-TEST(ConditionSpec, names_its_settings_only_where_there_are_any) {
+TEST(ConditionSpec, is_stored_with_its_settings_where_it_has_any) {
     ConditionSpec condition;
     condition.name = "b10";
     condition.failure = "B10";
     condition.policies = {"corridor"};
     EXPECT_EQ(to_json(condition).dump(),
-              R"({"name":"b10","failure":"B10","predictor":"none","policies":["corridor"],)"
-              R"("traffic_model":"standard","safety_checks":"on"})");
+              R"({"name":"b10","failure":"B10","predictor":"none","traffic_model":"standard",)"
+              R"("safety_checks":"on","bluelight":"off","policies":["corridor"]})");
     condition.settings = {{"loop.policy_period_s", "1"}};
     EXPECT_EQ(to_json(condition)["settings"].dump(), R"({"loop.policy_period_s":"1"})");
+    std::vector<core::Problem> problems;
+    EXPECT_EQ(condition_from(to_json(condition), "here", problems), condition);
+    EXPECT_TRUE(problems.empty());
 }
 
 }  // namespace

@@ -151,7 +151,7 @@ TEST_F(LinkBenchmarkFile, refuses_a_scenario_that_is_not_what_it_was) {
 /// A variant of the intersection.
 const std::string second_entry =
     "[[scenario]]\nname = \"intersection\"\nlabel = \"intersection_treiber\"\npolicy = \"corridor\"\n"
-    "idm = \"treiber\"\ndensity = 0.5\nav_share = 0.25\n";
+    "idm = \"treiber\"\ndensity = 0.5\nautomated_share = 0.25\n";
 
 TEST_F(LinkBenchmarkFile, states_variants_of_a_scenario_with_a_policy_and_options) {
     // The hash is not known here: the refusal prints it, and only it.
@@ -181,7 +181,7 @@ TEST_F(LinkBenchmarkFile, refuses_entries_that_cannot_be_told_apart_or_are_out_o
     EXPECT_THAT(refusal(name, name + "policy = \"coridor\"\n"),
                 AllOf(HasSubstr("`coridor` is not a policy"), HasSubstr("Did you mean 'corridor'?")));
     EXPECT_THAT(refusal(name, name + "idm = \"krauss\"\n"), AllOf(HasSubstr("krauss"), HasSubstr("treiber")));
-    EXPECT_THAT(refusal(name, name + "av_share = 1.5\n"),
+    EXPECT_THAT(refusal(name, name + "automated_share = 1.5\n"),
                 AllOf(HasSubstr("1.5 is out of range"), HasSubstr("0 to 1")));
     EXPECT_THAT(refusal(name, name + "density = -1\n"), HasSubstr("-1 is out of range"));
 }

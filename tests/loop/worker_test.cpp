@@ -69,10 +69,10 @@ TEST(Worker, RunsSumosBluelightAndDriversWhoYield) {
     light.name = "light";
     light.bluelight = traffic::BlueLight::on;
     scenario::Options dense;
-    dense.variant = scenario::Variant::dense;
+    dense.set("variant", "dense");
     const test::StudyFolder plain("merge", dense, {baseline, light});
     ASSERT_TRUE(run_worker(plain, plain.unit(0)).ok());
-    dense.siren_compliance = 1.0;
+    dense.set("siren_compliance", "1");
     const test::StudyFolder heard("merge", dense, {baseline});
     ASSERT_TRUE(run_worker(heard, heard.unit(0)).ok());
     const auto trace = [](const test::StudyFolder& folder, const char* name) {
@@ -97,9 +97,9 @@ TEST(Worker, DrivesInRainAndOnIceInEveryConditionAndAlone) {
     };
     const auto dry = travel_times({});
     scenario::Options rain;
-    rain.road_speed_factor = 0.5;
+    rain.set("road_speed_factor", "0.5");
     scenario::Options ice;
-    ice.friction = 0.2;
+    ice.set("friction", "0.2");
     const auto wet = travel_times(rain);
     for (const auto& [name, time_s] : dry)
         EXPECT_GT(wet.at(name), time_s * 1.05) << name;
@@ -115,7 +115,7 @@ TEST(Worker, LetsEmergencyVehiclesInWhereThereIsNoSignalAndOnlyWhereVehiclesHear
     const ConditionSpec deaf =
         condition("deaf", "perfect,request_propagation=sharp,request_loss_rate=1", "none", {"give_way"});
     scenario::Options dense;
-    dense.variant = scenario::Variant::dense;
+    dense.set("variant", "dense");
     const test::StudyFolder folder("city", dense, {baseline, asking, deaf});
     ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());
     std::uint64_t stops = 0;
@@ -136,10 +136,10 @@ TEST(Worker, LetsEmergencyVehiclesInWhereThereIsNoSignalAndOnlyWhereVehiclesHear
 
 TEST(Worker, MeetsPedestriansAlikeInEveryConditionAndHitsNoMoreOfThem) {
     scenario::Options walked;
-    walked.variant = scenario::Variant::dense;
-    walked.road_limit_kmh = 70.0;
-    walked.pedestrians = 300.0;
-    walked.step_length_s = 0.1;
+    walked.set("variant", "dense");
+    walked.set("road_limit_kmh", "70");
+    walked.set("pedestrians_per_hour", "300");
+    walked.set("step_length_s", "0.1");
     const test::StudyFolder folder("intersection", walked, {baseline, clearing, solo});
     ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());
     ASSERT_TRUE(run_worker(folder, folder.unit(0, TrafficModel::free_flow)).ok());
@@ -232,9 +232,9 @@ void expect_no_green_across_people(const std::string& scenario, const scenario::
 
 TEST(Worker, GivesNoGreenAcrossACrossingThatSomebodyIsStillOn) {
     scenario::Options slow;
-    slow.variant = scenario::Variant::dense;
-    slow.road_limit_kmh = 70.0;
-    slow.pedestrians = 600.0;
+    slow.set("variant", "dense");
+    slow.set("road_limit_kmh", "70");
+    slow.set("pedestrians_per_hour", "600");
     slow.settings = {{"pedestrians.speed_mean_mps", "0.8"}};
     expect_no_green_across_people("intersection", slow);
 }
@@ -312,7 +312,7 @@ TEST(Worker, EqualsARunWithoutForkInTheCity) {
 
 TEST(Worker, EqualsARunWithoutForkAmongPedestrians) {
     scenario::Options walked;
-    walked.pedestrians = 300.0;
+    walked.set("pedestrians_per_hour", "300");
     expect_equal_without_fork("city", walked);
 }
 
@@ -323,8 +323,8 @@ TEST(Worker, EqualsARunWithoutForkAmongThePersonsOfAScenario) {
 
 TEST(Worker, EqualsARunWithoutForkInBologna) {
     scenario::Options shortened;
-    shortened.density = 0.2;  // of the measured demand; the whole takes minutes
-    shortened.horizon_s = 1200.0;
+    shortened.set("density", "0.2");  // of the measured demand; the whole takes minutes
+    shortened.set("horizon_s", "1200");
     expect_equal_without_fork("bologna", shortened);
 }
 
@@ -375,7 +375,7 @@ TEST(Worker, EqualsARunThatIsShown) {
 
 TEST(Worker, RunsEmergencyVehiclesAloneForTheSoloTime) {
     scenario::Options dense;
-    dense.variant = scenario::Variant::dense;
+    dense.set("variant", "dense");
     const test::StudyFolder folder("intersection", dense, {baseline, solo});
     ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());
     ASSERT_TRUE(run_worker(folder, folder.unit(0, TrafficModel::free_flow)).ok());

@@ -13,7 +13,7 @@ from unittest import mock
 
 import clearway
 import numpy as np
-from support import FolderCase
+from support import FolderCase, program
 
 
 def no_action(env: clearway.Env) -> np.ndarray:
@@ -153,13 +153,13 @@ class InterfaceTest(FolderCase):
     def test_wrong_arguments_are_told(self) -> None:
         for arguments, says in (({"until": "noon"}, "emergency, end"), ({"render_mode": "human"}, "ansi"), ({"seeds": []}, "at least one"),
                                 ({"seeds": [-1]}, "-1"), ({"others_weight": float("nan")}, "nan"), ({"failure": "B99"}, "B99"),
-                                ({"policy": "nothing"}, "nothing"), ({"sparse": True}, "sparse is neither"),
-                                ({"dense": True}, "dense is neither an argument of clearway.Env nor an override"),
-                                ({"variant": "thick"}, "allowed: standard, dense"), ({"variant": True}, "variant is True"),
-                                ({"step_length_s": None}, "step_length_s is None"), ({"density": True}, "density is True"),
+                                ({"policy": "nothing"}, "nothing"), ({"sparse": True}, "sparse: is unknown"),
+                                ({"densty": 2}, "Did you mean 'density'?"),
+                                ({"variant": "thick"}, "allowed: standard, dense"), ({"variant": True}, "variant: \"True\""),
+                                ({"step_length_s": None}, "step_length_s: \"None\""), ({"density": True}, "density: \"True\""),
                                 ({"horizon_s": float("nan")}, "horizon"), ({"step_length_s": 7}, "7"),
                                 ({"seeds": 4}, "seeds are 4"), ({"seeds": None}, "seeds are None"), ({"policy": 3}, "is 3"),
-                                ({"set": ["a"]}, "set is ['a']"), ({"replication": 3}, "replication is neither")):
+                                ({"set": ["a"]}, "set is ['a']"), ({"replication": 3}, "replication: is unknown")):
             self.assertIn(says, self.message_of(clearway.InputError, lambda: clearway.env("intersection", **arguments)))
         self.assertIn("nowhere", self.message_of(clearway.InputError, lambda: clearway.env("nowhere")))
         self.assertIn("seed is 'a'", self.message_of(clearway.InputError, lambda: self.env.reset(seed="a")))
@@ -191,7 +191,10 @@ class EqualRunTest(FolderCase):
                  "car_following": "idm", "idm": "treiber", "driver_spread": 0.1, "siren_compliance": 0.2, "road_speed_factor": 0.9,
                  "friction": 0.8, "time_to_teleport_s": 200, "traffic_kinds": "car=8,truck=2", "emergency_kinds": "police_car=1",
                  "pedestrians_per_hour": 10, "warm_up_s": 60}
-        self.assertEqual(words.keys(), {"variant", *clearway.environment._OVERRIDES})
+        listed = json.loads(program("list", "scenario-keys", "--json"))
+        overrides = {row["name"]: row.get("words", [row.get("minimum")])[0] for row in listed if row["table"] == "Overrides"}
+        self.assertLessEqual(words.keys(), overrides.keys())
+        words = {**overrides, **words}  # also those that are newer than this test
         results = clearway.run("intersection", ["corridor"], seeds=1, out="runs", **words)
         run = results.runs.where(condition="corridor")
         with clearway.env("intersection", policy="corridor", seeds=[0], until="end", **words) as env:

@@ -1,5 +1,7 @@
 #include "scenario/config.hpp"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "core/files.hpp"
@@ -66,7 +68,7 @@ TEST_F(Config, counts_and_limits_are_those_of_table_1) {
 
 TEST_F(Config, dense_variant_multiplies_traffic_and_widens_the_window) {
     Options options;
-    options.variant = Variant::dense;
+    options.set("variant", "dense");
     const ScenarioConfig config = load("intersection", options);
     EXPECT_EQ(config.demand.density, 7.0);
     EXPECT_EQ(config.demand.emergency, 6);
@@ -76,11 +78,11 @@ TEST_F(Config, dense_variant_multiplies_traffic_and_widens_the_window) {
 
 TEST_F(Config, options_change_the_configuration) {
     Options options;
-    options.density = 2.0;
-    options.automated_share = 0.5;
-    options.road_limit_kmh = 70.0;
-    options.step_length_s = 0.1;
-    options.idm = IdmPreset::treiber;
+    options.set("density", "2");
+    options.set("automated_share", "0.5");
+    options.set("road_limit_kmh", "70");
+    options.set("step_length_s", "0.1");
+    options.set("idm", "treiber");
     const ScenarioConfig config = load("merge", options);
     EXPECT_EQ(config.demand.density, 2.0);
     EXPECT_EQ(config.demand.human + config.demand.automated, 37);
@@ -114,7 +116,7 @@ TEST_F(Config, step_out_of_range_is_refused_in_file_and_option) {
                 AllOf(Field(&core::Problem::what, HasSubstr("1.5 is out of range")),
                       Field(&core::Problem::allowed, "0.1 to 1")));
     Options options;
-    options.step_length_s = 0.05;
+    options.set("step_length_s", "0.05");
     EXPECT_EQ(only_problem("", options).where, "--step-length");
 }
 
@@ -131,7 +133,7 @@ TEST_F(Config, emergency_departure_before_the_warm_up_is_refused) {
 
 TEST_F(Config, warm_up_after_the_window_names_the_option_that_set_it) {
     Options options;
-    options.warm_up_s = 500.0;
+    options.set("warm_up_s", "500");
     const core::Problem problem = only_problem("[demand]\nemergency = 1\n", options);
     EXPECT_EQ(problem.where, "--warm-up");
     EXPECT_THAT(problem.what, HasSubstr("500"));
@@ -181,7 +183,7 @@ TEST_F(Config, unknown_scenario_suggests_the_nearest) {
 
 TEST_F(Config, density_above_one_is_refused_for_measured_demand) {
     Options options;
-    options.density = 2.0;
+    options.set("density", "2");
     const auto problems = problems_of([&] { load("bologna", options); });
     ASSERT_EQ(problems.size(), 1U);
     EXPECT_EQ(problems[0].where, "--density");
@@ -189,14 +191,14 @@ TEST_F(Config, density_above_one_is_refused_for_measured_demand) {
 
 TEST_F(Config, variant_without_a_table_is_refused) {
     Options options;
-    options.variant = Variant::dense;
+    options.set("variant", "dense");
     EXPECT_EQ(only_problem("", options).where, "--dense");
 }
 
 TEST_F(Config, kinds_from_the_command_line_replace_those_of_the_file) {
     Options options;
-    options.traffic_kinds = "van=3,bus=1";
-    options.emergency_kinds = "police_car=1";
+    options.set("traffic_kinds", "van=3,bus=1");
+    options.set("emergency_kinds", "police_car=1");
     const ScenarioConfig config = load("merge", options);
     EXPECT_EQ(config.traffic_kinds.car, 0.0);
     EXPECT_EQ(config.traffic_kinds.van, 3.0);
@@ -207,18 +209,18 @@ TEST_F(Config, kinds_from_the_command_line_replace_those_of_the_file) {
 
 TEST_F(Config, bad_kinds_from_the_command_line_are_each_reported) {
     Options options;
-    options.traffic_kinds = "car=1,trcuk=2,van=-1,bus";
+    options.set("traffic_kinds", "car=1,trcuk=2,van=-1,bus");
     const auto problems = problems_of([&] { load("merge", options); });
     ASSERT_EQ(problems.size(), 3U);
-    EXPECT_EQ(problems[0].where, "--kinds");
-    EXPECT_THAT(problems[0].cure, HasSubstr("truck"));
-    EXPECT_THAT(problems[1].what, HasSubstr("van=-1"));
-    EXPECT_THAT(problems[2].what, HasSubstr("\"bus\""));
+    const std::vector<std::string> wheres = {problems[0].where, problems[1].where, problems[2].where};
+    EXPECT_THAT(wheres, testing::UnorderedElementsAre("--kinds trcuk", "--kinds van", "--kinds bus"));
+    const auto unknown = std::ranges::find(problems, "--kinds trcuk", &core::Problem::where);
+    EXPECT_THAT(unknown->cure, HasSubstr("truck"));
 }
 
 TEST_F(Config, kinds_without_any_weight_are_refused) {
     Options options;
-    options.emergency_kinds = "ambulance=0";
+    options.set("emergency_kinds", "ambulance=0");
     const auto problems = problems_of([&] { load("merge", options); });
     ASSERT_EQ(problems.size(), 1U);
     EXPECT_EQ(problems[0].where, "--emergency-kinds");
@@ -226,7 +228,7 @@ TEST_F(Config, kinds_without_any_weight_are_refused) {
 
 TEST_F(Config, kinds_of_emergency_vehicles_are_refused_where_all_are_trips_of_their_own) {
     Options options;
-    options.emergency_kinds = "fire_engine=1";
+    options.set("emergency_kinds", "fire_engine=1");
     const auto problems = problems_of([&] { load("motorway_jam", options); });
     ASSERT_EQ(problems.size(), 1U);
     EXPECT_EQ(problems[0].where, "--emergency-kinds");
@@ -235,8 +237,8 @@ TEST_F(Config, kinds_of_emergency_vehicles_are_refused_where_all_are_trips_of_th
 
 TEST_F(Config, dense_times_density_stays_readable) {
     Options options;
-    options.variant = Variant::dense;
-    options.density = 50.0;
+    options.set("variant", "dense");
+    options.set("density", "50");
     const auto problems = problems_of([&] { load("merge", options); });
     ASSERT_EQ(problems.size(), 1U);
     EXPECT_EQ(problems[0].where, "--density");
@@ -260,11 +262,11 @@ TEST_F(Config, a_share_of_slow_vehicles_outside_zero_to_one_is_refused) {
 TEST_F(Config, a_siren_enters_the_effective_configuration_where_somebody_heeds_it) {
     EXPECT_EQ(to_toml(load("merge")).find("[siren]"), std::string::npos);
     Options options;
-    options.siren_compliance = 0.8;
+    options.set("siren_compliance", "0.8");
     const ScenarioConfig heard = load("merge", options);
     EXPECT_EQ(heard.siren.compliance, 0.8);
     EXPECT_NE(to_toml(heard).find("[siren]\ncompliance = 0.8\n"), std::string::npos);
-    options.siren_compliance = 1.5;
+    options.set("siren_compliance", "1.5");
     EXPECT_THROW(load("merge", options), core::InputError);
 }
 
@@ -278,8 +280,8 @@ TEST_F(Config, a_dry_road_leaves_the_effective_configuration_as_it_was) {
 
 TEST_F(Config, road_conditions_come_from_table_options_and_factors_and_read_back) {
     Options options;
-    options.road_speed_factor = 0.8;
-    options.friction = 0.7;
+    options.set("road_speed_factor", "0.8");
+    options.set("friction", "0.7");
     options.settings = {{"road.stretch.works.speed_factor", "0.3"}};
     const ScenarioConfig config = load_text(
         "[road]\nheadway_factor = 1.2\n[road.stretch.\"works\"]\nspeed_factor = 0.5\nedges = [\"first\"]\n",
@@ -306,7 +308,7 @@ TEST_F(Config, bad_road_conditions_say_where_and_what) {
                 AllOf(Field(&core::Problem::where, HasSubstr("road.stretch.works.edges")),
                       Field(&core::Problem::what, HasSubstr("is already in 'ice'"))));
     Options options;
-    options.friction = 0.0;
+    options.set("friction", "0");
     EXPECT_EQ(only_problem("", options).where, "--friction");
 }
 
@@ -318,7 +320,7 @@ TEST_F(Config, crossings_that_nobody_uses_leave_the_effective_configuration_as_i
 
 TEST_F(Config, pedestrians_come_from_table_option_and_factor_and_read_back) {
     Options options;
-    options.pedestrians = 120.0;
+    options.set("pedestrians_per_hour", "120");
     options.settings = {{"pedestrians.speed_mean_mps", "1.2"}};
     const ScenarioConfig config =
         load_text("[pedestrians]\nper_hour = 5\ncrossings = \"all\"\nspeed_deviation_mps = 0\n", options);
@@ -339,7 +341,7 @@ TEST_F(Config, bad_pedestrians_say_where_and_what) {
     EXPECT_THAT(only_problem("[pedestrians]\ncrossings = \"some\"\n").allowed, HasSubstr("signals"));
     EXPECT_THAT(only_problem("[pedestrians]\nspeed_mean_mps = 0\n").allowed, "0.5 to 3");
     Options options;
-    options.pedestrians = 1e6;
+    options.set("pedestrians_per_hour", "1000000");
     EXPECT_EQ(only_problem("", options).where, "--pedestrians");
 }
 
@@ -377,8 +379,8 @@ TEST_F(Config, a_missing_file_of_persons_is_named_with_its_key_and_cure) {
 
 TEST_F(Config, usual_drivers_leave_the_effective_configuration_as_it_was) {
     Options usual;
-    usual.following = FollowingModel::idm;
-    usual.driver_spread = 0.0;
+    usual.set("car_following", "idm");
+    usual.set("driver_spread", "0");
     for (const char* const name : {"merge", "bologna"}) {
         EXPECT_EQ(configuration_hash(load(name, usual)), configuration_hash(load(name)));
         EXPECT_EQ(to_toml(load(name)).find("car_following]"), std::string::npos);
@@ -387,8 +389,8 @@ TEST_F(Config, usual_drivers_leave_the_effective_configuration_as_it_was) {
 
 TEST_F(Config, other_drivers_come_from_table_options_and_factors_and_read_back) {
     Options options;
-    options.following = FollowingModel::krauss;
-    options.driver_spread = 0.2;
+    options.set("car_following", "krauss");
+    options.set("driver_spread", "0.2");
     const ScenarioConfig config = load("merge", options);
     EXPECT_EQ(config.following, (Following{FollowingModel::krauss, 0.2}));
     EXPECT_NE(configuration_hash(config), configuration_hash(load("merge")));
@@ -403,14 +405,14 @@ TEST_F(Config, other_drivers_come_from_table_options_and_factors_and_read_back) 
 
 TEST_F(Config, bad_drivers_say_where_and_what) {
     Options options;
-    options.driver_spread = 1.5;
+    options.set("driver_spread", "1.5");
     const auto wide = problems_of([&] { load("merge", options); });
     ASSERT_EQ(wide.size(), 1U);
     EXPECT_EQ(wide[0].where, "--driver-spread");
     EXPECT_THAT(wide[0].allowed, HasSubstr("0 to 1"));
     Options both;
-    both.following = FollowingModel::krauss;
-    both.idm = IdmPreset::treiber;
+    both.set("car_following", "krauss");
+    both.set("idm", "treiber");
     const auto mixed = problems_of([&] { load("merge", both); });
     ASSERT_EQ(mixed.size(), 1U);
     EXPECT_EQ(mixed[0].where, "--idm");
@@ -421,7 +423,7 @@ TEST_F(Config, bad_drivers_say_where_and_what) {
 TEST_F(Config, effective_configuration_reads_back_as_itself) {
     for (const std::string& name : list()) {
         Options options;
-        options.horizon_s = 4321.5;
+        options.set("horizon_s", "4321.5");
         const ScenarioConfig config = load(name, options);
         store(config, folder() / name);
         const ScenarioConfig again = load((folder() / name).string());

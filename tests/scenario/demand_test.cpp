@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/files.hpp"
@@ -65,7 +66,7 @@ TEST_F(PreparedDemand, counts_are_those_asked_for) {
     EXPECT_EQ(merge.emergency.size(), 3U);
     EXPECT_EQ(rows_of(merge.route_files.at(0)).size(), 37U);
     Options dense;
-    dense.variant = Variant::dense;
+    dense.set("variant", "dense");
     const Prepared many = prepared("merge", dense);
     EXPECT_EQ(many.human, 230);
     EXPECT_EQ(many.automated, 140);
@@ -87,7 +88,7 @@ TEST_F(PreparedDemand, pedestrians_walk_across_crossings_and_leave_the_vehicles_
     const Prepared alone = prepared("city");
     EXPECT_EQ(alone.route_files.size(), 1U) << "nobody walks by default";
     Options options;
-    options.pedestrians = 200.0;
+    options.set("pedestrians_per_hour", "200");
     const Prepared walked = prepared("city", options);
     ASSERT_EQ(walked.route_files.size(), 2U);
     EXPECT_EQ(core::read_file(walked.route_files[0]), core::read_file(alone.route_files[0]));
@@ -102,7 +103,7 @@ TEST_F(PreparedDemand, pedestrians_walk_across_crossings_and_leave_the_vehicles_
             ++persons;
         return persons;
     };
-    options.pedestrians = 400.0;
+    options.set("pedestrians_per_hour", "400");
     const std::string more = core::read_file(prepared("city", options).route_files[1]);
     EXPECT_NEAR(static_cast<double>(count(more)), 2.0 * static_cast<double>(count(first)), 1.0);
     const std::size_t person = first.find("<person id=\"pedestrian.7\"");
@@ -112,7 +113,7 @@ TEST_F(PreparedDemand, pedestrians_walk_across_crossings_and_leave_the_vehicles_
 
 TEST_F(PreparedDemand, pedestrians_need_a_crossing) {
     Options options;
-    options.pedestrians = 10.0;
+    options.set("pedestrians_per_hour", "10");
     const auto problems = problems_of([&] { prepared("merge", options); });
     ASSERT_EQ(problems.size(), 1U);
     EXPECT_EQ(problems[0].where, "--pedestrians");
@@ -122,7 +123,7 @@ TEST_F(PreparedDemand, pedestrians_need_a_crossing) {
 TEST_F(PreparedDemand, more_traffic_leaves_the_other_vehicles_as_they_were) {
     const auto few = rows_of(prepared("merge").route_files[0]);
     Options options;
-    options.density = 3.0;
+    options.set("density", "3");
     const auto many = rows_of(prepared("merge", options).route_files[0]);
     EXPECT_EQ(many.size(), 111U);
     for (const auto& [id, row] : few) {
@@ -160,7 +161,7 @@ TEST_F(PreparedDemand, emergency_vehicles_depart_after_the_warm_up) {
 
 TEST_F(PreparedDemand, human_drivers_differ_and_automated_ones_do_not) {
     Options dense;
-    dense.variant = Variant::dense;
+    dense.set("variant", "dense");
     double sum = 0.0;
     double squares = 0.0;
     int humans = 0;
@@ -195,9 +196,9 @@ std::map<std::string, std::array<double, 4>> dynamics_of(const std::filesystem::
 
 TEST_F(PreparedDemand, spread_gives_each_human_driver_a_type_of_its_own) {
     Options options;
-    options.variant = Variant::dense;
+    options.set("variant", "dense");
     const auto of = [&](double spread) {
-        options.driver_spread = spread;
+        options.set("driver_spread", fmt::format("{}", spread));
         const Prepared made = prepared("merge", options);
         return std::pair(rows_of(made.route_files.front()), dynamics_of(made.additional_files.front()));
     };
@@ -243,7 +244,7 @@ TEST_F(PreparedDemand, spread_gives_each_human_driver_a_type_of_its_own) {
 
 TEST_F(PreparedDemand, three_in_ten_come_from_the_ramp) {
     Options dense;
-    dense.variant = Variant::dense;
+    dense.set("variant", "dense");
     int ramp = 0;
     int all = 0;
     for (std::uint32_t replication = 0; replication < 5; ++replication) {
@@ -295,7 +296,7 @@ TEST_F(PreparedDemand, measured_departures_and_routes_stay_and_a_share_is_automa
 
 TEST_F(PreparedDemand, thinning_measured_demand_keeps_who_is_automated) {
     Options half;
-    half.density = 0.5;
+    half.set("density", "0.5");
     const auto all = rows_of(prepared("bologna").route_files[0]);
     const auto thinned = rows_of(prepared("bologna", half).route_files[0]);
     EXPECT_NEAR(static_cast<double>(thinned.size()) / static_cast<double>(all.size()), 0.5, 0.03);
@@ -346,8 +347,8 @@ TEST_P(LoadsInSumo, without_warning_about_routes_or_types) {
 
 TEST_P(LoadsInSumo, with_other_drivers) {
     Options options;
-    options.following = FollowingModel::krauss;
-    options.driver_spread = 0.3;
+    options.set("car_following", "krauss");
+    options.set("driver_spread", "0.3");
     const Prepared demand = prepared(GetParam(), options);
     EXPECT_THAT(core::read_file(demand.route_files[0]), HasSubstr("_driver_"));
     expect_loads(demand);

@@ -54,7 +54,7 @@ TEST_P(FrozenScenario, is_still_v1) {
     EXPECT_EQ(prepared.demand_hash, frozen.demand);
     if (!config.dense) return;
     Options options;
-    options.variant = Variant::dense;
+    options.set("variant", "dense");
     const Prepared dense = prepare(load(frozen.name, options), network, core::StudySeed{1},
                                    core::Replication{0}, folder() / "dense");
     EXPECT_EQ(dense.demand_hash, frozen.dense_demand);

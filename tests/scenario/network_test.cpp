@@ -105,7 +105,7 @@ TEST_F(BuiltNetworks, intersection_has_no_wide_edge) {
 
 TEST_F(BuiltNetworks, road_limit_slows_faster_roads_only_and_keeps_the_signal) {
     Options options;
-    options.road_limit_kmh = 70.0;
+    options.set("road_limit_kmh", "70");
     const BuiltNetwork slow = built("intersection", options);
     EXPECT_NEAR(fastest_lane_mps(slow.network), 70 / 3.6, 0.01);
     ASSERT_EQ(slow.network.signals().size(), 1U);
@@ -113,7 +113,7 @@ TEST_F(BuiltNetworks, road_limit_slows_faster_roads_only_and_keeps_the_signal) {
     const BuiltNetwork normal = built("intersection");
     EXPECT_NE(slow.inputs_hash, normal.inputs_hash);
     EXPECT_EQ(slow.network.edges().size(), normal.network.edges().size());
-    options.road_limit_kmh = 120.0;
+    options.set("road_limit_kmh", "120");
     const BuiltNetwork merge = built("merge", options);
     EXPECT_NEAR(
         merge.network.lane(merge.network.lane_of(*merge.network.find_edge("ramp"), 0)).speed_limit_mps,
@@ -140,7 +140,7 @@ TEST_F(BuiltNetworks, rain_slows_all_roads_and_a_stretch_has_a_factor_of_its_own
 
 TEST_F(BuiltNetworks, pedestrians_bring_the_intersection_four_crossings_with_phases_of_their_own) {
     Options options;
-    options.pedestrians = 100.0;
+    options.set("pedestrians_per_hour", "100");
     const BuiltNetwork walked = built("intersection", options);
     EXPECT_EQ(roads::crossings(walked.network).size(), 4U);
     const roads::Signal& signal = walked.network.signals()[0];

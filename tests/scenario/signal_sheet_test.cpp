@@ -10,14 +10,14 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-roads::Network crossings() {
+roads::Network sheet_crossings() {
     return roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml");
 }
 
 TEST(SignalSheet, says_what_the_program_of_a_signal_shows) {
     std::vector<traffic::Preemption> set(2);
     set[0].dwell_s = 7.0;
-    const auto sheets = signal_sheets(crossings(), set);
+    const auto sheets = signal_sheets(sheet_crossings(), set);
     ASSERT_EQ(sheets.size(), 2U);
     const SignalSheet& sheet = sheets.front();
     EXPECT_EQ(sheet.signal, "A");
@@ -35,7 +35,7 @@ TEST(SignalSheet, says_what_the_program_of_a_signal_shows) {
 }
 
 TEST(SignalSheet, names_the_approaches_of_each_phase) {
-    const auto sheets = signal_sheets(crossings(), {});
+    const auto sheets = signal_sheets(sheet_crossings(), {});
     const SignalSheet& sheet = sheets.front();
     ASSERT_EQ(sheet.approaches.size(), 4U);
     EXPECT_EQ(sheet.approaches[0].edge, "north_a_A");
@@ -59,7 +59,7 @@ TEST(SignalSheet, of_a_signal_with_a_crossing_counts_it_apart) {
 }
 
 TEST(SignalsPicture, has_a_number_and_a_name_at_each_signal) {
-    const roads::Network network = crossings();
+    const roads::Network network = sheet_crossings();
     const std::string svg = signals_picture(network, "two <crossings>");
     EXPECT_THAT(svg, HasSubstr("two &lt;crossings&gt;"));
     EXPECT_THAT(svg, HasSubstr(">1</text>"));
@@ -69,7 +69,7 @@ TEST(SignalsPicture, has_a_number_and_a_name_at_each_signal) {
 }
 
 TEST(SignalsPicture, has_the_ranks_of_some_signals_and_the_others_in_grey) {
-    const roads::Network network = crossings();
+    const roads::Network network = sheet_crossings();
     const std::vector<core::SignalIndex> second = {core::SignalIndex{1}};
     const std::string svg = ranked_signals_picture(network, "two", second);
     EXPECT_THAT(svg, HasSubstr("<title>1: B</title>"));

@@ -42,11 +42,11 @@ TEST_F(VehicleTypes, a_slow_kind_keeps_its_own_top_speed) {
 
 TEST_F(VehicleTypes, presets_differ_in_headway_and_acceleration) {
     Options options;
-    options.idm = IdmPreset::treiber;
+    options.set("idm", "treiber");
     const std::string treiber = element(vehicle_types_xml(load("merge", options)), "human_car");
     EXPECT_THAT(treiber, HasSubstr("accel=\"1.4\" decel=\"2\""));
     EXPECT_THAT(treiber, HasSubstr("tau=\"1.5\""));
-    options.idm = IdmPreset::sumo;
+    options.set("idm", "sumo");
     const std::string sumo = element(vehicle_types_xml(load("merge", options)), "human_car");
     EXPECT_THAT(sumo, HasSubstr("accel=\"2.6\" decel=\"4.5\""));
     EXPECT_THAT(sumo, HasSubstr("tau=\"1\""));
@@ -83,7 +83,7 @@ TEST_F(VehicleTypes, of_an_imported_demand_feel_the_road_as_far_as_their_grip_is
 
 TEST_F(VehicleTypes, a_truck_gains_no_acceleration_from_a_preset) {
     Options options;
-    options.idm = IdmPreset::treiber;
+    options.set("idm", "treiber");
     EXPECT_THAT(element(vehicle_types_xml(load("merge", options)), "human_truck"),
                 HasSubstr("accel=\"1.3\""));
 }
@@ -96,7 +96,7 @@ TEST_F(VehicleTypes, unrestricted_types_exist_for_measured_demand_only) {
 
 TEST_F(VehicleTypes, follow_by_krauss_with_sumos_defaults_and_automated_ones_do_not_dawdle) {
     Options options;
-    options.following = FollowingModel::krauss;
+    options.set("car_following", "krauss");
     const std::string xml = vehicle_types_xml(load("merge", options));
     for (const char* const id : {"human_car", "human_bus", "emergency_ambulance"})
         EXPECT_THAT(element(xml, id), HasSubstr("carFollowModel=\"Krauss\" tau=\"1\" sigma=\"0.5\"")) << id;

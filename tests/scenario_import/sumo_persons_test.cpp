@@ -213,7 +213,7 @@ TEST_F(SumoPersons, ids_may_be_those_of_vehicles_but_not_of_each_other) {
     run(with("<vehicle id='person.0' depart='100'><route edges='A0A1'/></vehicle>" + person("0", walk) +
              person("pedestrian.0", walk)));
     scenario::Options options;
-    options.pedestrians = 10.0;
+    options.set("pedestrians_per_hour", "10");
     const scenario::Prepared made = prepared(options);
     ASSERT_EQ(made.route_files.size(), 3U);
     EXPECT_THAT(core::read_file(made.route_files[1]), AllOf(HasSubstr("<person id=\"person.person.0\""),

@@ -3,17 +3,20 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "experiment/conditions.hpp"
+#include "scenario/overrides.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::study {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class StudyFile : public testing::Test {
   protected:
@@ -76,6 +79,37 @@ step_length_s = 0.1
     EXPECT_EQ(config.scenarios[1].road.friction, 0.7);
     EXPECT_EQ(config.scenarios[1].time.step_length_s, 0.1);
     EXPECT_EQ(config.conditions[1].bluelight, traffic::BlueLight::on);
+}
+
+/// A study with a line of overrides and one of factors.
+std::string study_with(const std::string& override, const std::string& factor) {
+    return "scenarios = [\"merge\"]\nconditions = [\"baseline\"]\n[overrides]\n" + override +
+           "\n[factors]\n" + factor + "\n";
+}
+
+TEST_F(StudyFile, TakesEveryOverrideAsKeyAndAsFactorWithItsRange) {
+    for (const scenario::Override& override : scenario::overrides()) {
+        const core::SettingInfo& value = override.value;
+        const auto line = [&](double number) { return fmt::format("{} = {}", value.name, number); };
+        if (override.is_number()) {
+            const std::string factor = fmt::format("scenario.{} = [{}]", value.name, value.maximum);
+            const double beyond = value.maximum * 2.0 + 1.0;
+            const std::string says =
+                fmt::format("{} is out of range (allowed: {} to {}", beyond, value.minimum, value.maximum);
+            EXPECT_THAT(problems(study_with(line(value.maximum), "")), Not(HasSubstr("out of range")));
+            EXPECT_THAT(problems(study_with("", factor)), Not(HasSubstr("out of range")));
+            EXPECT_THAT(problems(study_with(line(beyond), "")),
+                        HasSubstr(fmt::format("study.toml:4:1: overrides.{}: {}", value.name, says)));
+            EXPECT_THAT(problems(study_with("", fmt::format("scenario.{} = [{}]", value.name, beyond))),
+                        HasSubstr(fmt::format("overrides.{}, set by a factor: {}", value.name, says)));
+        } else {
+            EXPECT_THAT(problems(study_with(value.name + " = \"no such word\"", "")),
+                        testing::AllOf(HasSubstr(fmt::format("study.toml:4:1: overrides.{}", value.name)),
+                                       HasSubstr("no such word")));
+        }
+        EXPECT_THAT(problems(study_with(value.name + " = true", "")),
+                    HasSubstr(fmt::format("study.toml:4:1: overrides.{}: is true or false", value.name)));
+    }
 }
 
 TEST_F(StudyFile, SaysWhatIsWrongWithAScenarioOfItsOwn) {
@@ -152,7 +186,6 @@ TEST_F(StudyFile, RefusesSettingsAndModelsThatDoNotExist) {
                 HasSubstr("-1 is out of range"));
     EXPECT_THAT(problems(begin + "set = { \"clear_lane.horizon_m\" = [1] }\n"), HasSubstr("is not a value"));
     EXPECT_THAT(problems(begin + "model = \"none.weights\"\n"), HasSubstr("none.weights is not a file"));
-    EXPECT_THAT(problems(begin + "parts = [\"corridor\"]\n"), HasSubstr("parts: is now called policy"));
 }
 
 TEST_F(StudyFile, ReportsAllProblemsWithTheirLines) {
@@ -206,7 +239,7 @@ TEST_F(StudyFile, DissertationStudyHasItsScenariosConditionsAndControls) {
         testing::ElementsAre("baseline", "graph_simulation", "graph_graphsage", "graph_graphsage_improved",
                              "graph_graphsage_as_published", "b10_no_repair", "b10_dead_reckoning", "solo"));
     scenario::Options all_dense;
-    all_dense.variant = scenario::Variant::dense;
+    all_dense.set("variant", "dense");
     EXPECT_THAT(names(dissertation_study(20, 1, all_dense).scenarios),
                 testing::ElementsAre("merge", "intersection", "city"));
 }

@@ -24,20 +24,20 @@ using results::Store;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr std::uint32_t replications = 5;
+constexpr std::uint32_t merged_replications = 5;
 
 class Merge : public testing::Test {
   protected:
     std::filesystem::path place(const std::string& name) const { return folder_.path() / name; }
     Store store(const std::string& name, std::uint64_t seed = 1) const {
-        results::Manifest manifest = results::synthetic::manifest(replications);
+        results::Manifest manifest = results::synthetic::manifest(merged_replications);
         manifest.study_seed = seed;
         return Store::create(place(name), manifest);
     }
     /// Run folders `FIRST1` to `FIRSTn`, each with every n-th run.
     std::vector<std::filesystem::path> divided(std::size_t count, const std::string& first) const {
         std::vector<std::filesystem::path> folders;
-        const std::vector<RunKey> keys = results::synthetic::manifest(replications).runs();
+        const std::vector<RunKey> keys = results::synthetic::manifest(merged_replications).runs();
         for (std::size_t part = 0; part < count; ++part) {
             const std::string name = first + std::to_string(part + 1);
             claim(place(name), {static_cast<std::uint32_t>(part + 1), static_cast<std::uint32_t>(count)});

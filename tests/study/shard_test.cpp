@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-Plan example() {
+Plan example_plan() {
     StudyConfig config;
     config.replications = 7;
     for (const char* name : {"alpha", "beta"})
@@ -29,21 +29,21 @@ TEST(Shards, HaveEveryUnitOnceWhateverTheirNumber) {
         std::map<std::string, int> seen;
         std::size_t runs = 0;
         for (std::uint32_t index = 1; index <= count; ++index) {
-            Plan plan = example();
+            Plan plan = example_plan();
             keep_shard(plan, {index, count});
             runs += plan.run_count();
             for (const PlannedUnit& unit : plan.units)
                 ++seen[unit.name];
         }
         EXPECT_EQ(seen.size(), 28U) << count;
-        EXPECT_EQ(runs, example().run_count()) << count;
+        EXPECT_EQ(runs, example_plan().run_count()) << count;
         EXPECT_TRUE(std::ranges::all_of(seen, [](const auto& entry) { return entry.second == 1; })) << count;
     }
 }
 
 TEST(Shards, MixEnginesAndScenarios) {
     for (std::uint32_t index = 1; index <= 4; ++index) {
-        Plan plan = example();
+        Plan plan = example_plan();
         keep_shard(plan, {index, 4});
         std::map<std::pair<std::string, experiment::TrafficModel>, int> kinds;
         for (const PlannedUnit& unit : plan.units)
@@ -68,7 +68,7 @@ TEST(Shards, AreReadAndRefusedAsTyped) {
 TEST(Shards, KeepTheirFolderToThemselves) {
     const support::TemporaryFolder folder;
     const auto place = folder.path() / "out";
-    const results::Manifest manifest = example().manifest;
+    const results::Manifest manifest = example_plan().manifest;
     claim(place, {2, 3});
     results::Store::create(place, manifest);
     EXPECT_EQ(shard_of(place), (Shard{2, 3}));

@@ -1,12 +1,14 @@
 #include "cli/detail/reference_pages.hpp"
 
+#include <utility>
+
 #include "metrics/lease_row.hpp"
 #include "metrics/run_metrics.hpp"
 #include "metrics/signal_event.hpp"
 #include "metrics/signal_measures.hpp"
 #include "metrics/traffic_tables.hpp"
 #include "metrics/vehicle_row.hpp"
-#include "scenario/config.hpp"
+#include "scenario/keys.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -51,48 +53,16 @@ ReferencePage columns() {
 }
 
 ReferencePage scenario_keys() {
+    std::vector<core::FieldTable> tables = scenario::key_tables();
+    tables.push_back(scenario::override_table());
     return {
-        "scenario-keys",
-        "Keys of the scenario file",
+        "scenario-keys", "Keys of the scenario file",
         "Every key of `scenario.toml`. A study varies those of plain tables as factors: "
         "`scenario.demand.human =\n"
         "[40, 80]`. What they mean for emergency vehicles (EV) and traffic stands in [the scenario\n"
-        "file](scenario-file.md). Beside them stand `name`, `version` and `title` of the scenario.",
-        core::FieldUse::set,
-        {table_of<scenario::NetworkSource>(
-             "network", "Where the roads come from; paths are relative to the folder", "network."),
-         table_of<scenario::Times>("time", "The clock of a run", "time."),
-         table_of<scenario::Demand>("demand", "How many vehicles drive", "demand."),
-         table_of<scenario::Dense>("dense", "What the dense variant changes; optional", "dense."),
-         table_of<scenario::SpeedLimits>("limits", "Speed limits of classes", "limits."),
-         table_of<scenario::Drivers>("drivers", "Car-following model and desired speeds", "drivers."),
-         table_of<scenario::Following>("car_following", "Other drivers than usual; optional",
-                                       "car_following."),
-         table_of<scenario::TrafficKinds>("kinds.traffic", "Frequencies of kinds among traffic",
-                                          "kinds.traffic."),
-         table_of<scenario::EmergencyKinds>("kinds.emergency", "The same among EVs", "kinds.emergency."),
-         table_of<traffic::SirenConfig>("siren", "Human drivers who yield to a siren; optional", "siren."),
-         table_of<scenario::Slow>("slow", "Vehicles slower than the rest; optional", "slow."),
-         table_of<scenario::Privilege>("privilege", "What the law allows EVs, in every condition; optional",
-                                       "privilege."),
-         table_of<scenario::RoadCondition>("road", "Weather and works; optional", "road."),
-         table_of<scenario::Stretch>("road.stretch.NAME",
-                                     "Edges with a factor of their own, listed in `edges`",
-                                     "road.stretch.NAME."),
-         table_of<scenario::Pedestrians>("pedestrians", "People at crossings; optional", "pedestrians."),
-         table_of<scenario::Trips>("trips", "Origins and destinations drawn over the network", "trips."),
-         table_of<scenario::Flow>("[[flow]]", "A share of all vehicles from an edge to another", "flow."),
-         table_of<scenario::EmergencyTrip>("[[emergency_trip]]", "An EV with a trip of its own",
-                                           "emergency_trip."),
-         table_of<scenario::EmergencySite>("[[emergency_site]]", "Where EVs start or arrive",
-                                           "emergency_site."),
-         table_of<scenario::Measured>(
-             "measured", "Measured demand; its lists `routes`, `additional` and `persons` name files",
-             "measured."),
-         table_of<scenario::OwnTypes>("measured.own_types", "Vehicles keep their own types",
-                                      "measured.own_types."),
-         table_of<scenario::MeasuredType>("[[measured.type]]", "What a type of the measured demand becomes",
-                                          "measured.type.")}};
+        "file](scenario-file.md). Beside them stand `name`, `version` and `title` of the scenario. The last\n"
+        "table lists the overrides, which change any scenario without editing its file.",
+        core::FieldUse::set, std::move(tables)};
 }
 
 }  // namespace

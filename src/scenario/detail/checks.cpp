@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
-#include <sstream>
 #include <string>
 
 #include <fmt/format.h>
@@ -18,63 +16,6 @@ namespace {
 
 using core::Problem;
 using Problems = std::vector<Problem>;
-
-/// Sets a member from an option, with the range of its row in the field table.
-template <class Struct>
-void set(const char* option, const char* field_name, std::optional<double> value, Struct& target,
-         Problems& problems) {
-    if (!value) return;
-    core::for_each_field<Struct>([&](const auto& field) {
-        using Member = std::decay_t<decltype(target.*field.member)>;
-        if constexpr (std::is_same_v<Member, double> || std::is_same_v<Member, std::optional<double>>) {
-            if (std::string(field_name) != field.name) return;
-            if (*value >= field.minimum && *value <= field.maximum) {
-                target.*field.member = *value;
-                return;
-            }
-            problems.push_back({option, fmt::format("{} is out of range", *value),
-                                fmt::format("{} to {} {}", field.minimum, field.maximum, field.unit), ""});
-        }
-    });
-}
-
-void apply_dense(ScenarioConfig& config, Problems& problems) {
-    if (!config.dense) {
-        problems.push_back({"--dense", fmt::format("scenario {} has no table [dense]", config.name), "",
-                            "add the table, or use --density"});
-        return;
-    }
-    config.demand.density *= config.dense->factor;
-    config.demand.emergency = config.dense->emergency;
-    config.time.warm_up_s = config.dense->warm_up_s;
-    config.time.window_s = config.dense->window_s;
-    for (const auto& [key, source] :
-         {std::pair{"time.warm_up_s", "dense.warm_up_s"}, std::pair{"time.window_s", "dense.window_s"},
-          std::pair{"demand.emergency", "dense.emergency"}, std::pair{"demand.density", "dense.factor"}})
-        config.origins[key] = config.where(source);
-    config.dense.reset();
-}
-
-std::string nearest_hint(const std::string& word, const std::vector<std::string>& known) {
-    const std::string near = core::nearest(word, known);
-    return near.empty() ? "" : fmt::format("Did you mean '{}'?", near);
-}
-
-/// Divides the human and automated vehicles of a generated demand anew; measured demand has its own setting
-/// for the share.
-void apply_share(double share, ScenarioConfig& config, Problems& problems) {
-    if (!(share >= 0.0 && share <= 1.0)) {
-        problems.push_back({"--av-share", fmt::format("{} is out of range", share), "0 to 1", ""});
-        return;
-    }
-    if (config.measured) {
-        config.measured->automated_share = share;
-        return;
-    }
-    const int total = config.demand.human + config.demand.automated;
-    config.demand.automated = static_cast<int>(std::lround(share * total));
-    config.demand.human = total - config.demand.automated;
-}
 
 void require_text(const ScenarioConfig& config, const char* key, const std::string& value,
                   Problems& problems) {
@@ -284,74 +225,7 @@ void check_drivers(const ScenarioConfig& config, Problems& problems) {
         problems.push_back({config.where("kinds.emergency"), "all weights are 0", "one above 0", ""});
 }
 
-/// Weights given as `car=8,truck=2`. Kinds that are not named get none.
-template <class Kinds>
-void set_kinds(const char* option, const std::string& text, Kinds& target, Problems& problems) {
-    if (text.empty()) return;
-    std::vector<std::string> known;
-    core::for_each_field<Kinds>([&](const auto& field) {
-        target.*field.member = 0.0;
-        known.push_back(field.name);
-    });
-    std::istringstream parts(text);
-    for (std::string part; std::getline(parts, part, ',');) {
-        const std::size_t equals = part.find('=');
-        const std::string kind = part.substr(0, equals);
-        const std::string digits = equals == std::string::npos ? "" : part.substr(equals + 1);
-        char* end = nullptr;
-        const double weight = std::strtod(digits.c_str(), &end);
-        const bool is_known = std::find(known.begin(), known.end(), kind) != known.end();
-        if (!is_known || digits.empty() || *end != '\0' || !(weight >= 0.0 && weight <= 1e6)) {
-            problems.push_back({option, fmt::format("\"{}\" is not a weight of a kind", part),
-                                fmt::format("KIND=0 to 1000000, KIND one of {}", fmt::join(known, ", ")),
-                                is_known ? "" : nearest_hint(kind, known)});
-            continue;
-        }
-        core::for_each_field<Kinds>([&](const auto& field) {
-            if (kind == field.name) target.*field.member = weight;
-        });
-    }
-}
-
 }  // namespace
-
-void apply(const Options& options, ScenarioConfig& config, Problems& problems) {
-    if (options.variant == Variant::dense) apply_dense(config, problems);
-    if (options.density) {
-        Demand scaled = config.demand;
-        set("--density", "density", options.density, scaled, problems);
-        config.demand.density *= scaled.density == *options.density ? *options.density : 1.0;
-        config.origins["demand.density"] = "--density";
-    }
-    if (options.automated_share) apply_share(*options.automated_share, config, problems);
-    set("--road-limit", "road_kmh", options.road_limit_kmh, config.limits, problems);
-    set("--warm-up", "warm_up_s", options.warm_up_s, config.time, problems);
-    set("--horizon", "horizon_s", options.horizon_s, config.time, problems);
-    set("--step-length", "step_length_s", options.step_length_s, config.time, problems);
-    set("--time-to-teleport", "time_to_teleport_s", options.time_to_teleport_s, config.time, problems);
-    if (options.warm_up_s) config.origins["time.warm_up_s"] = "--warm-up";
-    if (options.horizon_s) config.origins["time.horizon_s"] = "--horizon";
-    set("--siren", "compliance", options.siren_compliance, config.siren, problems);
-    set("--road-speed", "speed_factor", options.road_speed_factor, config.road, problems);
-    set("--friction", "friction", options.friction, config.road, problems);
-    set("--pedestrians", "per_hour", options.pedestrians, config.pedestrians, problems);
-    if (options.pedestrians) config.origins["pedestrians.per_hour"] = "--pedestrians";
-    if (options.idm) config.drivers.idm = *options.idm;
-    if (options.following) config.following.model = *options.following;
-    set("--driver-spread", "driver_spread", options.driver_spread, config.following, problems);
-    if (options.idm) config.origins["drivers.idm"] = "--idm";
-    set_kinds("--kinds", options.traffic_kinds, config.traffic_kinds, problems);
-    set_kinds("--emergency-kinds", options.emergency_kinds, config.emergency_kinds, problems);
-    if (!options.traffic_kinds.empty()) config.origins["kinds.traffic"] = "--kinds";
-    if (!options.emergency_kinds.empty()) {
-        config.origins["kinds.emergency"] = "--emergency-kinds";
-        if (config.demand.emergency == 0)
-            problems.push_back({"--emergency-kinds", "has no effect, because demand.emergency is 0",
-                                "scenarios with demand.emergency above 0",
-                                "In a copy of the scenario (clearway init), set demand.emergency or the kind "
-                                "of each [[emergency_trip]]"});
-    }
-}
 
 void check(const ScenarioConfig& config, Problems& problems) {
     require_text(config, "name", config.name, problems);

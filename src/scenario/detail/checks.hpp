@@ -7,7 +7,7 @@
 
 namespace clearway::scenario::detail {
 
-/// Applies the options of the command line; problems name the option.
+/// Applies the overrides (overrides.cpp); problems name the place where one was given.
 void apply(const Options& options, ScenarioConfig& config, std::vector<core::Problem>& problems);
 
 /// Checks beyond a single key: keys that contradict or need each other, and files that must exist.

@@ -76,11 +76,9 @@ std::optional<RouteEdges> route_between(const DemandContext& context, const std:
             std::vector<std::string> known;
             for (const roads::Edge& row : context.network.edges())
                 if (!row.internal) known.push_back(row.id);
-            const std::string near = core::nearest(id, known);
             problems.push_back({context.config.where(key + "." + end),
                                 fmt::format("the network has no edge \"{}\"", id),
-                                "id of an edge outside junctions",
-                                near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
+                                "id of an edge outside junctions", core::did_you_mean(id, known)});
             return std::optional<core::EdgeIndex>();
         }
         return found;

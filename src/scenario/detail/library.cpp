@@ -45,13 +45,9 @@ std::filesystem::path scenario_file(const std::string& name_or_path) {
     const std::vector<std::string> names = list();
     if (std::find(names.begin(), names.end(), name_or_path) != names.end())
         return library_folder() / name_or_path / file_name;
-    std::string known;
-    for (const std::string& name : names)
-        known += (known.empty() ? "" : ", ") + name;
-    const std::string near = core::nearest(name_or_path, names);
     throw core::InputError(core::Problem{
         name_or_path, "is neither a scenario, nor a folder with a scenario.toml, nor a file",
-        known + ", a folder or a TOML file", near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
+        core::listed(names) + ", a folder or a TOML file", core::did_you_mean(name_or_path, names)});
 }
 
 std::string quoted(const std::string& text) {

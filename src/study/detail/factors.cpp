@@ -17,8 +17,18 @@ using Problems = std::vector<core::Problem>;
 
 constexpr const char* several = "set";
 constexpr const char* design_key = "design";
-const std::vector<std::string> condition_keys = {"bluelight", "traffic_model", "failure",
-                                                 "policy",    "predictor",     "safety_checks"};
+constexpr const char* policy_key = "policy";
+
+/// What a factor may vary below `condition.`.
+const std::vector<std::string>& condition_keys() {
+    static const std::vector<std::string> keys = [] {
+        std::vector<std::string> names = {policy_key};
+        core::for_each_field<experiment::ConditionSpec>(
+            [&](const auto& field) { names.emplace_back(field.name); });
+        return names;
+    }();
+    return keys;
+}
 
 /// What a factor may vary: conditions, scenarios, several settings, or any component with settings, those in
 /// Python included.
@@ -45,9 +55,8 @@ std::string last_part(const std::string& key) {
 
 void add_unknown(const std::string& where, const std::string& word, const std::vector<std::string>& known,
                  Problems& problems) {
-    const std::string near = core::nearest(word, known);
-    problems.push_back({where, fmt::format("'{}' is unknown", word), core::listed(known),
-                        near.empty() ? "" : fmt::format("Did you mean '{}'?", near)});
+    problems.push_back(
+        {where, fmt::format("'{}' is unknown", word), core::listed(known), core::did_you_mean(word, known)});
 }
 
 bool read_value(const toml::node& node, FactorValue& value) {
@@ -171,8 +180,8 @@ void check_design(const Factors& factors, Problems& problems) {
 void check_names(const std::vector<Factor>& factors, const SettingsPlace& settings, Problems& problems) {
     for (const Factor& factor : factors) {
         if (factor.group == "condition" &&
-            std::ranges::find(condition_keys, factor.key) == condition_keys.end())
-            add_unknown(factor.where, factor.key, condition_keys, problems);
+            std::ranges::find(condition_keys(), factor.key) == condition_keys().end())
+            add_unknown(factor.where, factor.key, condition_keys(), problems);
         if (!is_component(factor.group)) continue;
         const std::string name = factor.group + "." + factor.key;
         for (const FactorValue& value : factor.values) {
@@ -183,29 +192,15 @@ void check_names(const std::vector<Factor>& factors, const SettingsPlace& settin
     }
 }
 
-template <class Enum, class FromName>
-void set_word(const Factor& factor, const FactorValue& value, FromName&& from_name, Enum& target,
-              Problems& problems) {
-    if (const auto known = from_name(value.text)) {
-        target = *known;
-    } else {
-        problems.push_back({factor.where, fmt::format("\"{}\" is not known", value.text), "", ""});
-    }
-}
-
 void set_condition_key(const Factor& factor, const FactorValue& value, experiment::ConditionSpec& condition,
                        Problems& problems) {
-    if (factor.key == "failure") condition.failure = value.text;
-    if (factor.key == "predictor") condition.predictor = value.text;
-    if (factor.key == "policy")
+    if (factor.key == policy_key)
         condition.policies = value.words.empty() ? std::vector{value.text} : value.words;
-    if (factor.key == "traffic_model")
-        set_word(factor, value, core::value_from<experiment::TrafficModel>, condition.traffic_model,
-                 problems);
-    if (factor.key == "bluelight")
-        set_word(factor, value, core::value_from<traffic::BlueLight>, condition.bluelight, problems);
-    if (factor.key == "safety_checks")
-        set_word(factor, value, core::value_from<traffic::SafetyChecks>, condition.safety_checks, problems);
+    core::for_each_field<experiment::ConditionSpec>([&](const auto& field) {
+        if (factor.key != field.name) return;
+        if (auto problem = core::set_member(field, value.text, factor.where, condition.*field.member))
+            problems.push_back(std::move(*problem));
+    });
 }
 
 /// Reads `"preempt_signals.lead_s" = [4, 8]`, a setting with its full name in quotes. Returns whether `name`
@@ -242,7 +237,7 @@ Factors read_factors(const toml::table& table, const SettingsPlace& settings, Pr
         } else if (read_quoted(group, node, settings, factors.list, problems)) {
             continue;
         } else if (std::ranges::find(known, group) == known.end()) {
-            const bool bare = std::ranges::find(condition_keys, group) != condition_keys.end();
+            const bool bare = std::ranges::find(condition_keys(), group) != condition_keys().end();
             if (bare)
                 problems.push_back(
                     {where, "is unknown", core::listed(known), "Did you mean 'condition." + group + "'?"});

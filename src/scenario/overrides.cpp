@@ -1,0 +1,223 @@
+#include "scenario/overrides.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "scenario/detail/checks.hpp"
+#include "scenario/detail/tables.hpp"
+
+namespace clearway::scenario {
+namespace {
+
+using Problems = std::vector<core::Problem>;
+
+/// What is wrong with the value of an override, whatever the scenario.
+std::optional<core::Problem> problem_of(const Override& override, const Given& given) {
+    const std::vector<std::string>& words = override.value.words;
+    std::optional<core::Problem> problem;
+    double number = 0.0;
+    if (override.is_number()) {
+        problem = core::set_member(override.value, given.text, given.where, number);
+        if (problem) problem->cure.clear();
+    } else if (!words.empty() && std::ranges::find(words, given.text) == words.end()) {
+        problem = core::Problem{given.where, fmt::format("\"{}\" is not known", given.text),
+                                core::listed(words), ""};
+    }
+    return problem;
+}
+
+double number_in(const Given& given) {
+    return core::number_from(given.text).value_or(0.0);
+}
+
+void apply_variant(const Override&, const Given& given, ScenarioConfig& config, Problems& problems) {
+    if (given.text == core::name(Variant::standard)) return;
+    if (!config.dense) {
+        problems.push_back({given.where, fmt::format("scenario {} has no table [dense]", config.name), "",
+                            "add the table, or use --density"});
+        return;
+    }
+    config.demand.density *= config.dense->factor;
+    config.demand.emergency = config.dense->emergency;
+    config.time.warm_up_s = config.dense->warm_up_s;
+    config.time.window_s = config.dense->window_s;
+    for (const auto& [key, source] :
+         {std::pair{"time.warm_up_s", "dense.warm_up_s"}, std::pair{"time.window_s", "dense.window_s"},
+          std::pair{"demand.emergency", "dense.emergency"}, std::pair{"demand.density", "dense.factor"}})
+        config.origins[key] = config.where(source);
+    config.dense.reset();
+}
+
+/// Multiplies the density of the file and of the dense variant.
+void apply_density(const Override& row, const Given& given, ScenarioConfig& config, Problems&) {
+    config.demand.density *= number_in(given);
+    config.origins[row.key] = given.where;
+}
+
+/// Divides the human and automated vehicles of a generated demand anew; measured demand has its own key for
+/// the share.
+void apply_share(const Override&, const Given& given, ScenarioConfig& config, Problems&) {
+    const double share = number_in(given);
+    if (config.measured) {
+        config.measured->automated_share = share;
+        return;
+    }
+    const int total = config.demand.human + config.demand.automated;
+    config.demand.automated = static_cast<int>(std::lround(share * total));
+    config.demand.human = total - config.demand.automated;
+}
+
+/// Weights given as `car=8,truck=2`. Kinds that are not named get none.
+template <class Kinds>
+void set_kinds(const Given& given, Kinds& target, Problems& problems) {
+    core::Settings weights;
+    std::istringstream parts(given.text);
+    for (std::string part; std::getline(parts, part, ',');) {
+        const std::size_t equals = part.find('=');
+        weights[part.substr(0, equals)] = equals == std::string::npos ? "" : part.substr(equals + 1);
+    }
+    core::for_each_field<Kinds>([&](const auto& field) { target.*field.member = 0.0; });
+    std::ranges::move(core::apply_settings(weights, given.where + " ", target), std::back_inserter(problems));
+}
+
+void apply_kinds(const Override& row, const Given& given, ScenarioConfig& config, Problems& problems) {
+    set_kinds(given, config.traffic_kinds, problems);
+    config.origins[row.key] = given.where;
+}
+
+void apply_emergency_kinds(const Override& row, const Given& given, ScenarioConfig& config,
+                           Problems& problems) {
+    set_kinds(given, config.emergency_kinds, problems);
+    config.origins[row.key] = given.where;
+    if (config.demand.emergency == 0)
+        problems.push_back({given.where, "has no effect, because demand.emergency is 0",
+                            "scenarios with demand.emergency above 0",
+                            "In a copy of the scenario (clearway init), set demand.emergency or the kind "
+                            "of each [[emergency_trip]]"});
+}
+
+/// An override that has the type, range and meaning of a key.
+Override of_key(const char* name, const char* option, const char* key,
+                decltype(Override::apply) apply = nullptr) {
+    core::SettingInfo value = detail::key_info(key);
+    value.name = name;
+    return {std::move(value), option, key, apply};
+}
+
+/// One whose value is text that `apply` reads.
+Override of_text(const char* name, const char* option, const char* key, const char* doc,
+                 decltype(Override::apply) apply) {
+    core::SettingInfo value;
+    value.name = name;
+    value.doc = doc;
+    return {std::move(value), option, key, apply};
+}
+
+Override dense_variant() {
+    Override variant = of_text("variant", "--dense", "dense", "The scenario's dense variant", apply_variant);
+    variant.value.words = core::words_of<Variant>();
+    variant.is_flag = true;
+    return variant;
+}
+
+/// The one list of overrides. To add one, add a line.
+std::vector<Override> make_overrides() {
+    return {
+        dense_variant(),
+        of_key("density", "--density", "demand.density", apply_density),
+        of_key("automated_share", "--av-share", "measured.automated_share", apply_share),
+        of_text("traffic_kinds", "--kinds", "kinds.traffic", "Weights of the kinds of traffic: car=8,truck=2",
+                apply_kinds),
+        of_text("emergency_kinds", "--emergency-kinds", "kinds.emergency",
+                "Weights of the kinds of EVs: ambulance=2,police_car=1", apply_emergency_kinds),
+        of_key("road_limit_kmh", "--road-limit", "limits.road_kmh"),
+        of_key("warm_up_s", "--warm-up", "time.warm_up_s"),
+        of_key("horizon_s", "--horizon", "time.horizon_s"),
+        of_key("step_length_s", "--step-length", "time.step_length_s"),
+        of_key("time_to_teleport_s", "--time-to-teleport", "time.time_to_teleport_s"),
+        of_key("siren_compliance", "--siren", "siren.compliance"),
+        of_key("road_speed_factor", "--road-speed", "road.speed_factor"),
+        of_key("friction", "--friction", "road.friction"),
+        of_key("pedestrians_per_hour", "--pedestrians", "pedestrians.per_hour"),
+        of_key("idm", "--idm", "drivers.idm"),
+        of_key("car_following", "--car-following", "car_following.model"),
+        of_key("driver_spread", "--driver-spread", "car_following.driver_spread"),
+    };
+}
+
+const Override* find(const std::string& name) {
+    for (const Override& override : overrides()) {
+        if (override.value.name == name) return &override;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+const std::vector<Override>& overrides() {
+    static const std::vector<Override> all = make_overrides();
+    return all;
+}
+
+bool is_override(const std::string& name) {
+    return find(name) != nullptr;
+}
+
+void read_overrides(core::StrictTable& table, Options& options) {
+    for (const Override& override : overrides()) {
+        const std::string& name = override.value.name;
+        std::optional<double> number;
+        std::string text;
+        if (override.is_number()) {
+            table.number(name, number);
+            if (number) text = fmt::format("{}", *number);
+        } else {
+            table.text(name, text);
+        }
+        if (text.empty()) continue;
+        if (const auto problem = problem_of(override, {text, table.where(name)})) {
+            table.problem(name, problem->what, problem->allowed, problem->cure);
+        } else {
+            options.set(name, text, table.where(name));
+        }
+    }
+}
+
+Options& Options::set(const std::string& name, const std::string& text, const std::string& where) {
+    const Override* const known = find(name);
+    const std::string& usual = known == nullptr ? name : known->option;
+    overrides.insert_or_assign(name, Given{text, where.empty() ? usual : where});
+    return *this;
+}
+
+double Options::number(const std::string& name, double otherwise) const {
+    const auto found = overrides.find(name);
+    return found == overrides.end() ? otherwise : core::number_from(found->second.text).value_or(otherwise);
+}
+
+void detail::apply(const Options& options, ScenarioConfig& config, Problems& problems) {
+    std::vector<std::string> names;
+    for (const Override& override : overrides()) {
+        names.push_back(override.value.name);
+        const auto found = options.overrides.find(override.value.name);
+        if (found == options.overrides.end()) continue;
+        const Given& given = found->second;
+        if (auto problem = problem_of(override, given)) {
+            problems.push_back(std::move(*problem));
+        } else if (override.apply != nullptr) {
+            override.apply(override, given, config, problems);
+        } else if (auto wrong = set_key(config, override.key, given.text, given.where)) {
+            problems.push_back(std::move(*wrong));
+        }
+    }
+    for (const auto& [name, given] : options.overrides) {
+        if (find(name) == nullptr) problems.push_back(core::unknown_setting(given.where, name, names));
+    }
+}
+
+}  // namespace clearway::scenario

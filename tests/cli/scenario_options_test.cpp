@@ -1,0 +1,60 @@
+#include "cli/detail/scenario_options.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "core/error.hpp"
+#include "scenario/overrides.hpp"
+
+namespace clearway::cli {
+namespace {
+
+/// What `app --friction 0.5` sets.
+scenario::Options parsed(void (*declare)(CLI::App&, scenario::Options&),
+                         const std::vector<std::string>& words) {
+    CLI::App app;
+    scenario::Options options;
+    declare(app, options);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    return options;
+}
+
+std::string valid_text(const scenario::Override& override) {
+    if (!override.value.words.empty()) return override.value.words.back();
+    return override.is_number() ? fmt::format("{}", override.value.minimum) : "car=1";
+}
+
+TEST(ScenarioOptions, are_one_for_every_override_of_a_scenario) {
+    for (const scenario::Override& override : scenario::overrides()) {
+        const std::string text = valid_text(override);
+        std::vector<std::string> words = {override.option};
+        if (!override.is_flag) words.push_back(text);
+        const scenario::Options options = parsed(add_scenario_options, words);
+        ASSERT_EQ(options.overrides.size(), 1U) << override.option;
+        EXPECT_EQ(options.overrides.at(override.value.name).text, text);
+        EXPECT_EQ(options.overrides.at(override.value.name).where, override.option);
+        const scenario::Options named =
+            parsed(add_override_option, {"--override", override.value.name + "=" + text});
+        EXPECT_EQ(named.overrides.at(override.value.name).text, text);
+    }
+}
+
+TEST(ScenarioOptions, refuse_what_is_not_a_number_or_not_a_word_at_once) {
+    for (const scenario::Override& override : scenario::overrides()) {
+        if (!override.is_number() && override.value.words.empty()) continue;
+        if (override.is_flag) continue;
+        EXPECT_THROW(parsed(add_scenario_options, {override.option, "much"}), CLI::ValidationError)
+            << override.option;
+    }
+}
+
+TEST(ScenarioOptions, show_unit_and_range_in_the_help) {
+    CLI::App app;
+    scenario::Options options;
+    add_scenario_options(app, options);
+    EXPECT_THAT(app.help(), testing::HasSubstr("--friction NUMBER, 0.1 to 1 [by scenario]"));
+    EXPECT_THAT(app.help(), testing::HasSubstr("--warm-up NUMBER, 0 to 86400 s [by scenario]"));
+}
+
+}  // namespace
+}  // namespace clearway::cli
