@@ -228,7 +228,8 @@ TEST_F(NetworkTest, ReadsWhatAControllerOwesItsPhases) {
         <phase duration="99" state="rrGG"/>
     </tlLogic>
 </additional>)");
-    const auto& program = Network::read(file, {programs}).signals()[0].program;
+    const Network network = Network::read(file, {programs});
+    const auto& program = network.signals()[0].program;
     EXPECT_DOUBLE_EQ(program[0].least_s, 5.0);
     EXPECT_DOUBLE_EQ(program[0].yellow_s, 3.5);
     EXPECT_DOUBLE_EQ(program[0].red_s, 2.0);
