@@ -15,6 +15,7 @@
 #include "roads/map_matching.hpp"
 #include "roads/network.hpp"
 #include "roads/route.hpp"
+#include "roads/way_ahead.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::roads {
@@ -166,6 +167,44 @@ TEST(RealNetwork, NoRouteOfSumosRouterIsFasterThanOurs) {
     }
     EXPECT_GT(same, trips * 8 / 10);
     RecordProperty("same", static_cast<int>(same));
+}
+
+TEST(RealNetwork, AWayThatIsWalkedOnceTellsWhatAWalkToEachPlaceTells) {
+    const Network network = berlin();
+    const std::vector<core::EdgeIndex> edges = largest_car_component(network);
+    const core::KeyedRandom random(core::StudySeed{1}, core::Replication{0});
+    std::size_t found = 0;
+    std::size_t inside = 0;
+    for (std::uint64_t trip = 0; trip < 30; ++trip) {
+        const auto draw = [&](std::uint64_t which) {
+            return random.uniform(core::Purpose::emergency, trip, which);
+        };
+        const auto end = [&](std::uint64_t which) {
+            return edges[random.below(edges.size(), core::Purpose::demand, trip, which)];
+        };
+        auto route = *fastest_route(network, end(0), end(1));
+        // A route may pass a junction twice.
+        const auto back = fastest_route(network, route.back(), route.front());
+        if (trip % 3 == 0 && back) route.insert(route.end(), back->begin() + 1, back->end());
+        const double start_m = draw(0) * 0.5 * route_length(network, route).value;
+        const auto state =
+            advance(network, route, {.lane = network.lane_of(route.front(), 0)}, core::Metres(start_m)).state;
+        const core::Metres horizon(trip % 2 == 0 ? 300.0 : 1000.0);
+        const WayAhead way(network, route, state, horizon);
+        for (std::uint32_t row = 0; row < network.lanes().size(); ++row) {
+            traffic::MotionState other;
+            other.lane = core::LaneIndex{row};
+            other.lane_position_m = network.lane(other.lane).length_m * static_cast<float>(draw(row + 1));
+            const auto alone = distance_ahead(network, route, state, other, horizon);
+            EXPECT_EQ(way.distance_to(other), alone) << network.lane(other.lane).id;
+            if (!alone) continue;
+            ++found;
+            if (network.edge(network.lane(other.lane).edge).internal) ++inside;
+        }
+        EXPECT_FALSE(way.distance_to({}).has_value());
+    }
+    EXPECT_GT(found, 1000U);
+    EXPECT_GT(inside, 100U);
 }
 
 /// Shares of sightings that are matched to a wrong edge and to a wrong lane.

@@ -1,7 +1,10 @@
 #include "policy/detail/view.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+
+#include "roads/way_ahead.hpp"
 
 namespace clearway::policy::detail {
 
@@ -20,6 +23,7 @@ bool View::is_on_route(const traffic::BelievedVehicle& vehicle) const {
 }
 
 std::vector<traffic::BelievedVehicle> View::emergency_vehicles() const {
+    assert(std::ranges::is_sorted(belief_.own_states, {}, &traffic::BelievedVehicle::key));
     std::vector<traffic::BelievedVehicle> found;
     for (const traffic::BelievedVehicle& own : belief_.own_states) {
         if (is_on_route(own)) found.push_back(own);
@@ -32,6 +36,12 @@ std::vector<traffic::BelievedVehicle> View::emergency_vehicles() const {
     }
     std::ranges::sort(found, {}, &traffic::BelievedVehicle::key);
     return found;
+}
+
+const traffic::VehicleInfo& View::info_of(const traffic::BelievedVehicle& vehicle) const {
+    static const traffic::VehicleInfo typical;
+    const traffic::VehicleInfo* const info = belief_.roster->find(vehicle.key);
+    return info != nullptr ? *info : typical;
 }
 
 core::MetresPerSecond View::allowed_speed(const traffic::BelievedVehicle& vehicle) const {
@@ -48,16 +58,18 @@ std::optional<core::EdgeIndex> View::edge_of(const traffic::BelievedVehicle& veh
 
 std::vector<VehicleAhead> View::vehicles_ahead(const traffic::BelievedVehicle& vehicle,
                                                core::Metres horizon) const {
+    assert(is_on_route(vehicle) && horizon.value >= 0.0);
     std::vector<VehicleAhead> ahead;
-    const roads::Route route = route_of(vehicle.key);
+    std::optional<roads::WayAhead> way;
     const auto reach = static_cast<float>(horizon.value);
     for (const traffic::BelievedVehicle& other : belief_.vehicles) {
-        // No path is shorter than a straight line; this avoids searching the route for most vehicles.
+        // No path is shorter than a straight line; this is decided at once for most vehicles.
         if (std::abs(other.state.x_m - vehicle.state.x_m) > reach ||
             std::abs(other.state.y_m - vehicle.state.y_m) > reach)
             continue;
         if (other.key == vehicle.key || !other.state.lane.exists()) continue;
-        const auto distance = roads::distance_ahead(network_, route, vehicle.state, other.state, horizon);
+        if (!way) way.emplace(network_, route_of(vehicle.key), vehicle.state, horizon);
+        const auto distance = way->distance_to(other.state);
         if (distance) ahead.push_back({&other, distance->value});
     }
     std::ranges::stable_sort(ahead, {}, &VehicleAhead::distance_m);
@@ -66,6 +78,7 @@ std::vector<VehicleAhead> View::vehicles_ahead(const traffic::BelievedVehicle& v
 
 std::vector<VehicleAhead> View::vehicles_behind(const traffic::BelievedVehicle& vehicle,
                                                 core::Metres reach) const {
+    assert(is_on_route(vehicle) && reach.value >= 0.0);
     std::vector<VehicleAhead> behind;
     const roads::Route route = route_of(vehicle.key);
     const auto near = static_cast<float>(reach.value);
@@ -109,6 +122,25 @@ std::vector<std::uint32_t> View::usable_neighbours(const traffic::BelievedVehicl
     if (number > 0 && may_use_lane(vehicle, number - 1)) usable.push_back(number - 1);
     if (may_use_lane(vehicle, number + 1)) usable.push_back(number + 1);
     return usable;
+}
+
+std::optional<std::uint32_t> View::way_out(const traffic::BelievedVehicle& vehicle,
+                                           const std::vector<VehicleAhead>& others,
+                                           double side_room_m) const {
+    const traffic::MotionState& own = vehicle.state;
+    std::optional<std::uint32_t> best;
+    long fewest = 0;
+    for (const std::uint32_t number : usable_neighbours(vehicle)) {
+        const core::LaneIndex lane = network_.lane_of(*edge_of(vehicle), number);
+        const long beside = std::ranges::count_if(others, [&](const VehicleAhead& other) {
+            const traffic::MotionState& state = other.vehicle->state;
+            return state.lane == lane && std::abs(state.lane_position_m - own.lane_position_m) < side_room_m;
+        });
+        if (best && beside >= fewest) continue;
+        best = number;
+        fewest = beside;
+    }
+    return best;
 }
 
 }  // namespace clearway::policy::detail

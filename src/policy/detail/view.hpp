@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -39,11 +40,14 @@ class View {
     roads::Route route_of(core::VehicleKey vehicle) const;
     /// Whether lane and route are known and fit together, so that questions about the route may be asked.
     bool is_on_route(const traffic::BelievedVehicle& vehicle) const;
+    /// What is registered of a vehicle; of a typical one when it is not.
+    const traffic::VehicleInfo& info_of(const traffic::BelievedVehicle& vehicle) const;
     /// Highest speed that the road and the vehicle allow; 0 for an unregistered vehicle or without a lane.
     core::MetresPerSecond allowed_speed(const traffic::BelievedVehicle& vehicle) const;
     /// The edge a vehicle is on; empty without a lane.
     std::optional<core::EdgeIndex> edge_of(const traffic::BelievedVehicle& vehicle) const;
     std::uint32_t lane_number(const traffic::BelievedVehicle& vehicle) const {
+        assert(vehicle.state.lane.exists());
         return network_.lane(vehicle.state.lane).number;
     }
 
@@ -69,6 +73,10 @@ class View {
     bool may_use_lane(const traffic::BelievedVehicle& vehicle, std::uint32_t number) const;
     /// The neighbouring lanes that `may_use_lane` allows, the outer (lower) one first.
     std::vector<std::uint32_t> usable_neighbours(const traffic::BelievedVehicle& vehicle) const;
+    /// The one of them with fewer vehicles of `others` less than `side_room_m` before or behind; the outer
+    /// one if equal.
+    std::optional<std::uint32_t> way_out(const traffic::BelievedVehicle& vehicle,
+                                         const std::vector<VehicleAhead>& others, double side_room_m) const;
 
   private:
     const roads::Network& network_;
@@ -94,6 +102,7 @@ class LeaseWriter {
     /// `reason` has static storage; `beneficiary` is the emergency vehicle served.
     void add(traffic::Target target, traffic::Action action, const char* reason, core::VehicleKey beneficiary,
              std::optional<core::Seconds> lasting = std::nullopt) {
+        assert(*reason != '\0' && lasting.value_or(usual_).value > 0.0);
         leases_.push_back({target, std::move(action), now_ + lasting.value_or(usual_), priority_, policy_,
                            reason, beneficiary});
     }
