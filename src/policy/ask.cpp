@@ -1,6 +1,7 @@
 #include "policy/ask.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace clearway::policy {
 namespace {
@@ -14,6 +15,7 @@ std::vector<int> hops_from(const traffic::BelievedGraph& belief, core::VehicleIn
         std::vector<core::VehicleIndex> relays;
         for (const core::VehicleIndex sender : senders) {
             for (const traffic::BelievedLink& link : belief.links_of(sender)) {
+                assert(link.neighbour < hops.size());
                 const bool is_new = link.neighbour != start && hops[link.neighbour] == 0;
                 if (!is_new || link.probability < settings.ask_probability) continue;
                 hops[link.neighbour] = hop;
@@ -34,6 +36,7 @@ Audience::Audience(const traffic::BelievedGraph& belief, core::VehicleKey emerge
     if (ask_ == Ask::everyone) return;
     const traffic::BelievedVehicle* const itself = belief.find(emergency);
     if (itself == nullptr) return;
+    assert(itself->vehicle_class == traffic::VehicleClass::emergency);
     const auto start = static_cast<core::VehicleIndex>(itself - belief.vehicles.data());
     const std::vector<int> hops = hops_from(belief, start, settings);
     for (std::size_t row = 0; row < hops.size(); ++row) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 
 namespace clearway::policy {
-CheckInOut::CheckInOut(const PolicyContext& context, CheckInOutConfig config)
-    : context_(context), config_(config) {}
 
 void CheckInOut::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/fields.hpp"
+#include "policy/configured_policy.hpp"
 #include "policy/detail/approach.hpp"
-#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
@@ -30,9 +30,9 @@ struct CheckInOutConfig {
 /// An opponent that cities own: a detector before the stop line calls the signal when an emergency vehicle
 /// passes it, and one behind releases it. Neither knows of queues or of speed. A vehicle that enters between
 /// the two calls at once.
-class CheckInOut : public Policy {
+class CheckInOut : public ConfiguredPolicy<CheckInOutConfig> {
   public:
-    explicit CheckInOut(const PolicyContext& context, CheckInOutConfig config = {});
+    using ConfiguredPolicy::ConfiguredPolicy;
 
     std::string_view name() const override { return "check_in_out"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
@@ -43,8 +43,6 @@ class CheckInOut : public Policy {
         double released_m;  ///< The vehicle's distance to the end of its route at the second detector.
     };
 
-    PolicyContext context_;
-    CheckInOutConfig config_;
     std::map<std::pair<core::VehicleKey, core::SignalIndex>, Call> calls_;
 };
 

@@ -61,32 +61,13 @@ class Way {
         if (view_.network().edge(lane.edge).internal) return;
         const core::LaneIndex ours = lane_at(emergency_.state.lane, ahead.distance_m);
         if (ours == vehicle.state.lane) {
-            if (const auto target = way_out(vehicle))
+            if (const auto target = view_.way_out(vehicle, ahead_, config_.side_room_m))
                 write_.add(vehicle.key, traffic::ChangeLane{*target}, "ahead of an emergency vehicle",
                            emergency_.key);
         } else if (view_.network().lane(ours).edge == lane.edge) {
             write_.add(vehicle.key, traffic::HoldLane{}, "keeps out of an emergency vehicle's lane",
                        emergency_.key);
         }
-    }
-
-    /// The usable neighbouring lane with fewer vehicles alongside; the outer one if equal.
-    std::optional<std::uint32_t> way_out(const traffic::BelievedVehicle& vehicle) const {
-        std::optional<std::uint32_t> best;
-        long fewest = 0;
-        for (const std::uint32_t number : view_.usable_neighbours(vehicle)) {
-            const core::LaneIndex lane = view_.network().lane_of(*view_.edge_of(vehicle), number);
-            const long beside = std::ranges::count_if(ahead_, [&](const VehicleAhead& other) {
-                const traffic::MotionState& state = other.vehicle->state;
-                return state.lane == lane &&
-                       std::abs(state.lane_position_m - vehicle.state.lane_position_m) < config_.side_room_m;
-            });
-            if (!best || beside < fewest) {
-                best = number;
-                fewest = beside;
-            }
-        }
-        return best;
     }
 
     /// Expected time over the next `choice_m` when starting on `lane`, s.
@@ -176,9 +157,6 @@ class Way {
 };
 
 }  // namespace
-
-ClearLane::ClearLane(const PolicyContext& context, ClearLaneConfig config)
-    : context_(context), config_(config) {}
 
 void ClearLane::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const View view(context_.network, belief);

@@ -4,7 +4,7 @@
 
 #include "core/fields.hpp"
 #include "policy/ask.hpp"
-#include "policy/policy.hpp"
+#include "policy/configured_policy.hpp"
 
 namespace clearway::policy {
 
@@ -96,16 +96,12 @@ struct ClearLaneConfig : AskSettings {
 /// alongside, it falls back to a gap, which an automated vehicle behind keeps open. Only lanes that continue
 /// are used. With `ask=linked`, automated vehicles are asked only where the believed graph links them with
 /// the emergency vehicle; its own choice of lane reads places, as it needs nobody's help.
-class ClearLane : public Policy {
+class ClearLane : public ConfiguredPolicy<ClearLaneConfig> {
   public:
-    explicit ClearLane(const PolicyContext& context, ClearLaneConfig config = {});
+    using ConfiguredPolicy::ConfiguredPolicy;
 
     std::string_view name() const override { return "clear_lane"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
-
-  private:
-    PolicyContext context_;
-    ClearLaneConfig config_;
 };
 
 }  // namespace clearway::policy

@@ -1,9 +1,12 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
+#include "policy/clear_lane.hpp"
+#include "policy/give_way.hpp"
 #include "policy/policy.hpp"
+#include "policy/preempt_signals.hpp"
+#include "policy/recover_signals.hpp"
 
 namespace clearway::policy {
 
@@ -16,10 +19,13 @@ class Corridor : public Policy {
 
     std::string_view name() const override { return "corridor"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
-    SignalMessages* messages() override { return policies_.front()->messages(); }
+    SignalMessages* messages() override { return preempt_signals_.messages(); }
 
   private:
-    std::vector<std::unique_ptr<Policy>> policies_;  ///< PreemptSignals first.
+    PreemptSignals preempt_signals_;
+    RecoverSignals recover_signals_;
+    ClearLane clear_lane_;
+    GiveWay give_way_;
 };
 
 }  // namespace clearway::policy

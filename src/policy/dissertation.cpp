@@ -66,9 +66,6 @@ class OneEmergency {
 
 }  // namespace
 
-Dissertation::Dissertation(const PolicyContext& context, DissertationConfig config)
-    : context_(context), config_(config) {}
-
 void Dissertation::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     if (!config_.has_sufficient_edges(belief)) return;
     const View view(context_.network, belief);

@@ -3,8 +3,8 @@
 #include <tuple>
 
 #include "core/fields.hpp"
+#include "policy/configured_policy.hpp"
 #include "policy/detail/edge_rule.hpp"
-#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
@@ -41,16 +41,12 @@ struct DissertationConfig : detail::EdgeRule {
 /// emergency vehicles drive at their allowed speed; an automated vehicle linked to one and ahead on its lane
 /// changes lane; one alongside on a neighbouring lane slows down to let it in. Every request is a lease that
 /// expires unless renewed, and slowing has a lower bound, so no speed decays to a standstill.
-class Dissertation : public Policy {
+class Dissertation : public ConfiguredPolicy<DissertationConfig> {
   public:
-    explicit Dissertation(const PolicyContext& context, DissertationConfig config = {});
+    using ConfiguredPolicy::ConfiguredPolicy;
 
     std::string_view name() const override { return "dissertation"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
-
-  private:
-    PolicyContext context_;
-    DissertationConfig config_;
 };
 
 }  // namespace clearway::policy

@@ -94,8 +94,6 @@ class Message {
 
 }  // namespace
 
-Geocast::Geocast(const PolicyContext& context, GeocastConfig config) : context_(context), config_(config) {}
-
 bool Geocast::is_due(core::Seconds now) const {
     const double now_s = now.value + core::clock_tolerance_s;
     return std::floor(now_s / config_.interval_s) >

@@ -5,8 +5,8 @@
 
 #include "core/fields.hpp"
 #include "core/spellings.hpp"
+#include "policy/configured_policy.hpp"
 #include "policy/detail/cooperation.hpp"
-#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
@@ -64,9 +64,9 @@ struct GeocastConfig {
 /// needs the emergency vehicle's own place and route, the map, and nothing of any other vehicle: no link, no
 /// report, no repair. Vehicles on the lane leave it, or pull aside where they are slow; those on the lanes
 /// beside it stay there. The emergency vehicle moves to the lane and otherwise chooses lanes itself.
-class Geocast : public Policy {
+class Geocast : public ConfiguredPolicy<GeocastConfig> {
   public:
-    explicit Geocast(const PolicyContext& context, GeocastConfig config = {});
+    using ConfiguredPolicy::ConfiguredPolicy;
 
     std::string_view name() const override { return "geocast"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
@@ -75,9 +75,6 @@ class Geocast : public Policy {
     /// Whether a message goes out at the decision of this time. A function of time alone, so that messages
     /// come at the same moments in every condition.
     bool is_due(core::Seconds now) const;
-
-    PolicyContext context_;
-    GeocastConfig config_;
 };
 
 }  // namespace clearway::policy

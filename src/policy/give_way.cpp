@@ -115,8 +115,6 @@ bool is_near(const traffic::MotionState& state, const roads::Point& place, doubl
 
 }  // namespace
 
-GiveWay::GiveWay(const PolicyContext& context, GiveWayConfig config) : context_(context), config_(config) {}
-
 bool GiveWay::is_early(const detail::View& view, const traffic::BelievedVehicle& emergency,
                        double distance_m) const {
     const double speed_mps = std::max<double>(emergency.state.speed_mps, config_.slowest_mps);

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "policy/ask.hpp"
+#include "policy/configured_policy.hpp"
 #include "policy/detail/cooperation.hpp"
-#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
@@ -57,9 +57,9 @@ struct GiveWayConfig : AskSettings {
 /// At junctions without signals where an emergency vehicle must yield, those who have right of way stop
 /// before the junction until it has passed, and with them everybody behind. The queue ahead of the emergency
 /// vehicle then goes, too. Nobody is asked to stop in a roundabout, nor ahead of an emergency vehicle.
-class GiveWay : public Policy {
+class GiveWay : public ConfiguredPolicy<GiveWayConfig> {
   public:
-    explicit GiveWay(const PolicyContext& context, GiveWayConfig config = {});
+    using ConfiguredPolicy::ConfiguredPolicy;
 
     std::string_view name() const override { return "give_way"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
@@ -71,8 +71,6 @@ class GiveWay : public Policy {
     bool is_early(const detail::View& view, const traffic::BelievedVehicle& emergency,
                   double distance_m) const;
 
-    PolicyContext context_;
-    GiveWayConfig config_;
     // When the first of the requests was made that still go on.
     std::map<Passage, double> kept_free_s_;
     std::map<core::VehicleKey, double> held_s_;

@@ -12,9 +12,6 @@ constexpr double whole_route_m = 1e6;
 
 }  // namespace
 
-GreenWave::GreenWave(const PolicyContext& context, GreenWaveConfig config)
-    : context_(context), config_(config) {}
-
 void GreenWave::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
     detail::LeaseWriter write("green_wave", context_.period, belief.time, leases, config_.lease_s);

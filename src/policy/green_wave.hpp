@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
-#include "policy/policy.hpp"
+#include "policy/configured_policy.hpp"
 
 namespace clearway::policy {
 
@@ -32,9 +32,9 @@ struct GreenWaveConfig {
 /// An opponent: every signal on an emergency vehicle's route turns green around the time at which the vehicle
 /// would get there at its allowed speed. The plan is made once, when the vehicle appears, and never
 /// corrected.
-class GreenWave : public Policy {
+class GreenWave : public ConfiguredPolicy<GreenWaveConfig> {
   public:
-    explicit GreenWave(const PolicyContext& context, GreenWaveConfig config = {});
+    using ConfiguredPolicy::ConfiguredPolicy;
 
     std::string_view name() const override { return "green_wave"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
@@ -47,8 +47,6 @@ class GreenWave : public Policy {
         double until_s;
     };
 
-    PolicyContext context_;
-    GreenWaveConfig config_;
     std::map<core::VehicleKey, std::vector<Window>> plans_;
 };
 

@@ -27,9 +27,6 @@ std::set<core::LaneIndex> crossing_lanes(const detail::View& view, const detail:
 
 }  // namespace
 
-HoldCross::HoldCross(const PolicyContext& context, HoldCrossConfig config)
-    : context_(context), config_(config) {}
-
 void HoldCross::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
     detail::LeaseWriter write("hold_cross", context_.period, belief.time, leases, config_.lease_s);

@@ -3,8 +3,8 @@
 #include <tuple>
 
 #include "policy/ask.hpp"
+#include "policy/configured_policy.hpp"
 #include "policy/detail/cooperation.hpp"
-#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
@@ -37,16 +37,12 @@ struct HoldCrossConfig : AskSettings {
 
 /// Cross traffic gives way: vehicles that have green and would cross the emergency vehicle's way stop at
 /// their line until it has passed, and with them everybody behind them.
-class HoldCross : public Policy {
+class HoldCross : public ConfiguredPolicy<HoldCrossConfig> {
   public:
-    explicit HoldCross(const PolicyContext& context, HoldCrossConfig config = {});
+    using ConfiguredPolicy::ConfiguredPolicy;
 
     std::string_view name() const override { return "hold_cross"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
-
-  private:
-    PolicyContext context_;
-    HoldCrossConfig config_;
 };
 
 }  // namespace clearway::policy

@@ -30,9 +30,6 @@ bool is_in_beam(const traffic::MotionState& state, const roads::Point& target,
 
 }  // namespace
 
-LineOfSight::LineOfSight(const PolicyContext& context, LineOfSightConfig config)
-    : context_(context), config_(config) {}
-
 void LineOfSight::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
     detail::LeaseWriter write("line_of_sight", context_.period, belief.time, leases);

@@ -3,7 +3,7 @@
 #include <tuple>
 
 #include "core/fields.hpp"
-#include "policy/policy.hpp"
+#include "policy/configured_policy.hpp"
 
 namespace clearway::policy {
 
@@ -30,16 +30,12 @@ struct LineOfSightConfig {
 /// An opponent that cities own: an optical emitter on the emergency vehicle calls a signal on its route while
 /// that lies in its beam. It knows neither speed nor queues; vehicles and buildings do not block it, and a
 /// signal beside the route does not answer.
-class LineOfSight : public Policy {
+class LineOfSight : public ConfiguredPolicy<LineOfSightConfig> {
   public:
-    explicit LineOfSight(const PolicyContext& context, LineOfSightConfig config = {});
+    using ConfiguredPolicy::ConfiguredPolicy;
 
     std::string_view name() const override { return "line_of_sight"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
-
-  private:
-    PolicyContext context_;
-    LineOfSightConfig config_;
 };
 
 }  // namespace clearway::policy

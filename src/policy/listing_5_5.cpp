@@ -79,9 +79,6 @@ void change_lanes(const Links& links, LeaseWriter& write) {
 
 }  // namespace
 
-Listing55::Listing55(const PolicyContext& context, Listing55Config config)
-    : context_(context), config_(config) {}
-
 /// Differences from the printed listing: its loop variable is `id`, but the body reads `vehicle_id`, which is
 /// never assigned, so that one vehicle would decide for all; here each vehicle is judged by itself. A raised
 /// speed stays within what the vehicle is allowed, because no vehicle is asked to break a limit here.

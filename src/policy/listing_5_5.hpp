@@ -4,8 +4,8 @@
 #include <tuple>
 
 #include "core/fields.hpp"
+#include "policy/configured_policy.hpp"
 #include "policy/detail/edge_rule.hpp"
-#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
@@ -41,16 +41,14 @@ struct Listing55Config : detail::EdgeRule {
 /// The dissertation's listing 5.5, *as published*, with the score of section 4.3 in our reading. An opponent
 /// that keeps the listing's defects, each noted in the source where it acts; docs/findings/policies.md says
 /// what they cost.
-class Listing55 : public Policy {
+class Listing55 : public ConfiguredPolicy<Listing55Config> {
   public:
-    explicit Listing55(const PolicyContext& context, Listing55Config config = {});
+    using ConfiguredPolicy::ConfiguredPolicy;
 
     std::string_view name() const override { return "listing_5_5"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    PolicyContext context_;
-    Listing55Config config_;
     std::map<core::VehicleKey, double> set_speed_mps_;  ///< Never released: see `act`.
 };
 

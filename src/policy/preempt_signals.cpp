@@ -20,7 +20,7 @@ bool leads_into_a_queue(const roads::Signal& signal, const detail::Approach& app
 
 PreemptSignals::PreemptSignals(const PolicyContext& context, PreemptSignalsConfig config,
                                RequestMemorySettings memory)
-    : context_(context), config_(config), memory_(memory) {
+    : ConfiguredPolicy(context, config), memory_(memory) {
     if (config_.short_block_m > 0.0)
         is_careful_ = detail::on_short_loops(context_.network, config_.short_block_m);
 }

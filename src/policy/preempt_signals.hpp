@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/fields.hpp"
+#include "policy/configured_policy.hpp"
 #include "policy/detail/request_table.hpp"
 #include "policy/detail/room.hpp"
-#include "policy/policy.hpp"
 #include "policy/request_memory.hpp"
 #include "policy/signal_messages.hpp"
 
@@ -71,7 +71,7 @@ struct PreemptSignalsConfig {
 ///
 /// Emergency vehicles ask by message, and each signal decides from what came to it (SignalMessages). With a
 /// perfect channel every signal knows what every emergency vehicle knows of itself.
-class PreemptSignals : public Policy, public SignalMessages {
+class PreemptSignals : public ConfiguredPolicy<PreemptSignalsConfig>, public SignalMessages {
   public:
     explicit PreemptSignals(const PolicyContext& context, PreemptSignalsConfig config = {},
                             RequestMemorySettings memory = {});
@@ -96,8 +96,6 @@ class PreemptSignals : public Policy, public SignalMessages {
     bool stands_back(const detail::Arrival& arrival, const detail::Room* room, bool is_asked) const;
     bool is_early(const detail::View& view, const detail::Arrival& arrival) const;
 
-    PolicyContext context_;
-    PreemptSignalsConfig config_;
     RequestMemorySettings memory_;
     std::vector<bool> is_careful_;  ///< By signal; empty if none is on a loop of short blocks.
     /// Vehicles and the signals requested for them at the last call. A request stands until the vehicle has

@@ -3,8 +3,6 @@
 #include "policy/detail/view.hpp"
 
 namespace clearway::policy {
-PullAside::PullAside(const PolicyContext& context, PullAsideConfig config)
-    : context_(context), config_(config) {}
 
 void PullAside::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);

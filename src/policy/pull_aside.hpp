@@ -2,9 +2,9 @@
 
 #include <tuple>
 
+#include "policy/configured_policy.hpp"
 #include "policy/detail/cooperation.hpp"
 #include "policy/detail/lane_plan.hpp"
-#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
@@ -36,16 +36,14 @@ struct PullAsideConfig : detail::LanePlanConfig {
 /// passed. The way leads round those who will not (detail::LanePlan). Without the sublane model the vehicles
 /// stop beside the road, from whichever lane, which is more generous than a real queue; with it they keep to
 /// the edge of their lane.
-class PullAside : public Policy {
+class PullAside : public ConfiguredPolicy<PullAsideConfig> {
   public:
-    explicit PullAside(const PolicyContext& context, PullAsideConfig config = {});
+    using ConfiguredPolicy::ConfiguredPolicy;
 
     std::string_view name() const override { return "pull_aside"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    PolicyContext context_;
-    PullAsideConfig config_;
     detail::AsideMemory memory_;
 };
 

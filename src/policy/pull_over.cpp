@@ -30,9 +30,6 @@ bool is_oncoming(const traffic::MotionState& own, const traffic::MotionState& ot
 
 }  // namespace
 
-PullOver::PullOver(const PolicyContext& context, PullOverConfig config)
-    : context_(context), config_(config) {}
-
 void PullOver::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
     detail::LeaseWriter write("pull_over", context_.period, belief.time, leases, config_.lease_s,

@@ -3,8 +3,8 @@
 #include <tuple>
 
 #include "policy/ask.hpp"
+#include "policy/configured_policy.hpp"
 #include "policy/detail/cooperation.hpp"
-#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
@@ -36,16 +36,14 @@ struct PullOverConfig : AskSettings {
 /// On roads with a shoulder, slower vehicles ahead stop on it until the emergency vehicle has passed. One
 /// that will not is overtaken on the lane of oncoming traffic, which oncoming vehicles leave free in the same
 /// way.
-class PullOver : public Policy {
+class PullOver : public ConfiguredPolicy<PullOverConfig> {
   public:
-    explicit PullOver(const PolicyContext& context, PullOverConfig config = {});
+    using ConfiguredPolicy::ConfiguredPolicy;
 
     std::string_view name() const override { return "pull_over"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    PolicyContext context_;
-    PullOverConfig config_;
     detail::AsideMemory memory_;
 };
 

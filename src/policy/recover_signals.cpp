@@ -77,7 +77,7 @@ std::vector<std::uint16_t> most_wanted(const roads::Signal& signal, const std::s
 }  // namespace
 
 RecoverSignals::RecoverSignals(const PolicyContext& context, RecoverSignalsConfig config)
-    : context_(context), config_(config) {
+    : ConfiguredPolicy(context, config) {
     if (config_.short_block_m > 0.0)
         keeps_cycle_ = detail::on_short_loops(context_.network, config_.short_block_m);
 }

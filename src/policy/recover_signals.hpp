@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
-#include "policy/policy.hpp"
+#include "policy/configured_policy.hpp"
 
 namespace clearway::policy {
 
@@ -54,7 +54,7 @@ struct RecoverSignalsConfig {
 /// serves the most vehicles believed to wait there, and that, for a while, greens which serve fewer end
 /// early. It stands back where short blocks form closed loops: a signal that leaves the cycle of its
 /// neighbours fills the block between them.
-class RecoverSignals : public Policy {
+class RecoverSignals : public ConfiguredPolicy<RecoverSignalsConfig> {
   public:
     explicit RecoverSignals(const PolicyContext& context, RecoverSignalsConfig config = {});
 
@@ -62,8 +62,6 @@ class RecoverSignals : public Policy {
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    PolicyContext context_;
-    RecoverSignalsConfig config_;
     std::map<core::SignalIndex, double> until_s_;
     std::vector<bool> keeps_cycle_;  ///< By signal; empty if none does.
 };

@@ -6,8 +6,6 @@
 #include "traffic/passing_red.hpp"
 
 namespace clearway::policy {
-RedPrivilege::RedPrivilege(const PolicyContext& context, RedPrivilegeConfig config)
-    : context_(context), config_(config) {}
 
 void RedPrivilege::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);

@@ -3,7 +3,7 @@
 #include <tuple>
 
 #include "core/fields.hpp"
-#include "policy/policy.hpp"
+#include "policy/configured_policy.hpp"
 
 namespace clearway::policy {
 
@@ -31,16 +31,12 @@ struct RedPrivilegeConfig {
 
 /// Emergency vehicles pass red signals, slowly and yielding, as the law of many countries allows. The
 /// privilege ends with the red signal.
-class RedPrivilege : public Policy {
+class RedPrivilege : public ConfiguredPolicy<RedPrivilegeConfig> {
   public:
-    explicit RedPrivilege(const PolicyContext& context, RedPrivilegeConfig config = {});
+    using ConfiguredPolicy::ConfiguredPolicy;
 
     std::string_view name() const override { return "red_privilege"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
-
-  private:
-    PolicyContext context_;
-    RedPrivilegeConfig config_;
 };
 
 }  // namespace clearway::policy

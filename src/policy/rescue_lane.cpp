@@ -100,16 +100,10 @@ class Rescue {
         }
     }
 
-    const traffic::VehicleInfo& info_of(const traffic::BelievedVehicle& vehicle) const {
-        static const traffic::VehicleInfo unknown;
-        const traffic::VehicleInfo* const info = view_.belief().roster->find(vehicle.key);
-        return info != nullptr ? *info : unknown;
-    }
-
     /// How far the vehicle reaches into the road from the outer edge of its lane, m: one that is asked keeps
     /// to that edge, another drives in the middle.
     double reach_m(const VehicleAhead& other) const {
-        const double width_m = info_of(*other.vehicle).width_m;
+        const double width_m = view_.info_of(*other.vehicle).width_m;
         const double lane_m = view_.network().lane(other.vehicle->state.lane).width_m;
         return audience_.has(*other.vehicle) ? width_m : (lane_m + width_m) / 2.0;
     }
@@ -117,14 +111,14 @@ class Rescue {
     bool leave_room(const VehicleAhead& left, const VehicleAhead& right) const {
         const double road_m = view_.network().lane(left.vehicle->state.lane).width_m +
                               view_.network().lane(right.vehicle->state.lane).width_m;
-        return road_m - reach_m(left) - reach_m(right) >= info_of(emergency_).width_m + config_.room_m;
+        return road_m - reach_m(left) - reach_m(right) >= view_.info_of(emergency_).width_m + config_.room_m;
     }
 
     /// Whether less than `apart_m` lies between the two along the road; while the emergency vehicle is beside
     /// the rear one or just ahead of it, its own length more, so that it can steer.
     bool are_abreast(const VehicleAhead& rear, const VehicleAhead& front) const {
-        const double between_m = front.distance_m - info_of(*front.vehicle).length_m - rear.distance_m;
-        const double own_m = rear.distance_m < 0.0 ? info_of(emergency_).length_m : 0.0;
+        const double between_m = front.distance_m - view_.info_of(*front.vehicle).length_m - rear.distance_m;
+        const double own_m = rear.distance_m < 0.0 ? view_.info_of(emergency_).length_m : 0.0;
         return between_m < config_.apart_m + own_m;
     }
 
@@ -147,7 +141,7 @@ class Rescue {
 
     /// Whether the front of the emergency vehicle is beside the vehicle or ahead of it.
     bool is_passed(const VehicleAhead& other) const {
-        return other.distance_m < info_of(*other.vehicle).length_m;
+        return other.distance_m < view_.info_of(*other.vehicle).length_m;
     }
 
     bool slow_down(const VehicleAhead& other) {
@@ -177,9 +171,6 @@ class Rescue {
 };
 
 }  // namespace
-
-RescueLane::RescueLane(const PolicyContext& context, RescueLaneConfig config)
-    : context_(context), config_(config) {}
 
 void RescueLane::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const View view(context_.network, belief);

@@ -4,8 +4,8 @@
 #include <tuple>
 
 #include "policy/ask.hpp"
+#include "policy/configured_policy.hpp"
 #include "policy/detail/cooperation.hpp"
-#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
@@ -60,16 +60,14 @@ struct RescueLaneConfig : AskSettings {
 /// drive on between the lanes. Two abreast that leave too little room, such as two trucks or two that are not
 /// asked, would block it: one of them slows down, or else who drives ahead of one, until they are apart.
 /// Needs the sublane model.
-class RescueLane : public Policy {
+class RescueLane : public ConfiguredPolicy<RescueLaneConfig> {
   public:
-    explicit RescueLane(const PolicyContext& context, RescueLaneConfig config = {});
+    using ConfiguredPolicy::ConfiguredPolicy;
 
     std::string_view name() const override { return "rescue_lane"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    PolicyContext context_;
-    RescueLaneConfig config_;
     /// Lowest lane number left of the rescue lane, counted from the leftmost lane: 0 is between the two
     /// leftmost lanes.
     std::map<core::VehicleKey, std::uint32_t> place_;

@@ -1,9 +1,5 @@
 #include "policy/vacate_lane.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-
 #include "policy/detail/view.hpp"
 
 namespace clearway::policy {
@@ -43,27 +39,10 @@ class Vacating {
         if (column != plan_.column_at(other.distance_m)) {
             write_.add(vehicle.key, traffic::HoldLane{}, "stays out of an emergency vehicle's way",
                        emergency_.key);
-        } else if (const auto target = way_out(other)) {
+        } else if (const auto target = view_.way_out(vehicle, ahead_, config_.side_room_m)) {
             write_.add(vehicle.key, traffic::ChangeLane{*target}, "in an emergency vehicle's way",
                        emergency_.key);
         }
-    }
-
-    /// The usable neighbouring lane with fewer vehicles alongside; the outer one if equal.
-    std::optional<std::uint32_t> way_out(const VehicleAhead& other) const {
-        std::optional<std::uint32_t> best;
-        long fewest = 0;
-        for (const std::uint32_t number : view_.usable_neighbours(*other.vehicle)) {
-            const core::LaneIndex lane = view_.network().lane_of(*view_.edge_of(*other.vehicle), number);
-            const long beside = std::ranges::count_if(ahead_, [&](const VehicleAhead& third) {
-                return third.vehicle->state.lane == lane &&
-                       std::abs(third.distance_m - other.distance_m) < config_.side_room_m;
-            });
-            if (best && beside >= fewest) continue;
-            best = number;
-            fewest = beside;
-        }
-        return best;
     }
 
     const View& view_;
@@ -76,9 +55,6 @@ class Vacating {
 };
 
 }  // namespace
-
-VacateLane::VacateLane(const PolicyContext& context, VacateLaneConfig config)
-    : context_(context), config_(config) {}
 
 void VacateLane::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const View view(context_.network, belief);

@@ -2,9 +2,9 @@
 
 #include <tuple>
 
+#include "policy/configured_policy.hpp"
 #include "policy/detail/cooperation.hpp"
 #include "policy/detail/lane_plan.hpp"
-#include "policy/policy.hpp"
 
 namespace clearway::policy {
 
@@ -33,16 +33,12 @@ struct VacateLaneConfig : detail::LanePlanConfig {
 /// Plans the emergency vehicle's way through the lanes, round those who will not make room, and vacates it:
 /// vehicles on the way change lanes, those beside it stay where they are, and the emergency vehicle follows
 /// the plan.
-class VacateLane : public Policy {
+class VacateLane : public ConfiguredPolicy<VacateLaneConfig> {
   public:
-    explicit VacateLane(const PolicyContext& context, VacateLaneConfig config = {});
+    using ConfiguredPolicy::ConfiguredPolicy;
 
     std::string_view name() const override { return "vacate_lane"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
-
-  private:
-    PolicyContext context_;
-    VacateLaneConfig config_;
 };
 
 }  // namespace clearway::policy

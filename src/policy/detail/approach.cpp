@@ -1,6 +1,7 @@
 #include "policy/detail/approach.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <map>
 
 namespace clearway::policy::detail {
@@ -21,6 +22,7 @@ void add_companions(const View& view, const std::vector<core::EdgeIndex>& edges,
     const roads::Signal& signal = view.network().signal(approach.signal);
     approach.links = approach.own_links;
     const auto link_count = static_cast<std::uint16_t>(signal.links.size());
+    assert(std::ranges::all_of(approach.own_links, [&](std::uint16_t own) { return own < link_count; }));
     for (std::uint16_t link = 0; link < link_count; ++link) {
         const bool on_approach = std::ranges::any_of(
             edges, [&](core::EdgeIndex edge) { return starts_on(view, signal, link, edge); });
@@ -37,6 +39,7 @@ void add_companions(const View& view, const std::vector<core::EdgeIndex>& edges,
 
 std::vector<Approach> approaches(const View& view, const traffic::BelievedVehicle& vehicle,
                                  core::Metres horizon) {
+    assert(view.is_on_route(vehicle));
     std::vector<Approach> found;
     std::vector<std::vector<core::EdgeIndex>> edges;
     for (const roads::StopLine& line :
@@ -78,6 +81,7 @@ std::size_t queue_ahead(const View& view, const traffic::BelievedVehicle& vehicl
 }
 
 double free_travel_time_s(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m) {
+    assert(vehicle.state.lane.exists());
     const roads::Route route = view.route_of(vehicle.key);
     traffic::BelievedVehicle there = vehicle;
     double time_s = 0.0;

@@ -1,13 +1,15 @@
 #include "policy/detail/belief_sheet.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <string>
+#include <string_view>
 
 namespace clearway::policy::detail {
 namespace {
 
 using python::Sheet;
-constexpr std::array<python::Column, belief_column::count> belief_sheet_columns = {{
+constexpr python::Column belief_sheet_columns[] = {
     {"time_s", "f8", "s", "Simulation time of the belief"},
     {"key", "u8", "", "Identity of each believed vehicle during the run; rows are ordered by it"},
     {"vehicle_class", "u1", "", "0 human, 1 automated, 2 emergency"},
@@ -48,70 +50,78 @@ constexpr std::array<python::Column, belief_column::count> belief_sheet_columns 
     {"served_link", "u2", "", "Own links, and those of its approaches that do not conflict with them"},
     {"signal_first", "u4", "1", "Where the letters of each signal begin"},
     {"signal_letters", "u1", "", "SUMO's letter of each link; none where it is not known"},
-}};
+};
 
-template <class Value, class Rows, class Member>
-void fill(Sheet& sheet, std::size_t number, const Rows& rows, const Member& member) {
-    const std::span<Value> target = sheet.room<Value>(number, rows.size());
-    std::ranges::transform(rows, target.begin(), member);
+/// Fills the columns of a sheet one after the other; each call names the column that is next.
+class Filler {
+  public:
+    explicit Filler(Sheet& sheet) : sheet_(sheet) {}
+
+    template <class Value>
+    void put(std::string_view name, const std::vector<Value>& values) {
+        sheet_.put(next(name), values);
+    }
+    template <class Value, class Row, class Member>
+    void put(std::string_view name, const std::vector<Row>& rows, const Member& member) {
+        std::ranges::transform(rows, sheet_.room<Value>(next(name), rows.size()).begin(), member);
+    }
+
+  private:
+    std::size_t next([[maybe_unused]] std::string_view name) {
+        assert(next_ < std::size(belief_sheet_columns) && name == belief_sheet_columns[next_].name);
+        return next_++;
+    }
+
+    Sheet& sheet_;
+    std::size_t next_ = 0;
+};
+
+using Vehicle = traffic::BelievedVehicle;
+
+/// Columns that believed vehicles and emergency vehicles have alike.
+void write_motion(const std::vector<Vehicle>& rows, const std::string& of, Filler& fill) {
+    fill.put<float>(of + "x_m", rows, [](const Vehicle& row) { return row.state.x_m; });
+    fill.put<float>(of + "y_m", rows, [](const Vehicle& row) { return row.state.y_m; });
+    fill.put<float>(of + "heading_rad", rows, [](const Vehicle& row) { return row.state.heading_rad; });
+    fill.put<float>(of + "speed_mps", rows, [](const Vehicle& row) { return row.state.speed_mps; });
+    fill.put<std::uint32_t>(of + "lane", rows, [](const Vehicle& row) { return row.state.lane.value; });
+    fill.put<float>(of + "lane_position_m", rows,
+                    [](const Vehicle& row) { return row.state.lane_position_m; });
 }
 
-void write_vehicles(const std::vector<traffic::BelievedVehicle>& rows, Sheet& sheet) {
-    using Row = traffic::BelievedVehicle;
-    fill<std::uint64_t>(sheet, belief_column::key, rows, [](const Row& row) { return row.key.value; });
-    fill<std::uint8_t>(sheet, belief_column::vehicle_class, rows,
-                       [](const Row& row) { return static_cast<std::uint8_t>(row.vehicle_class); });
-    fill<float>(sheet, belief_column::x, rows, [](const Row& row) { return row.state.x_m; });
-    fill<float>(sheet, belief_column::y, rows, [](const Row& row) { return row.state.y_m; });
-    fill<float>(sheet, belief_column::heading, rows, [](const Row& row) { return row.state.heading_rad; });
-    fill<float>(sheet, belief_column::speed, rows, [](const Row& row) { return row.state.speed_mps; });
-    fill<std::uint32_t>(sheet, belief_column::lane, rows,
-                        [](const Row& row) { return row.state.lane.value; });
-    fill<float>(sheet, belief_column::lane_position, rows,
-                [](const Row& row) { return row.state.lane_position_m; });
-    fill<std::uint32_t>(sheet, belief_column::route_edge, rows,
-                        [](const Row& row) { return row.state.route_edge; });
-    fill<float>(sheet, belief_column::sigma, rows, [](const Row& row) { return row.sigma_m; });
-    fill<float>(sheet, belief_column::age, rows, [](const Row& row) { return row.age_s; });
+void write_vehicles(const std::vector<Vehicle>& rows, Filler& fill) {
+    fill.put<std::uint64_t>("key", rows, [](const Vehicle& row) { return row.key.value; });
+    fill.put<std::uint8_t>("vehicle_class", rows,
+                           [](const Vehicle& row) { return static_cast<std::uint8_t>(row.vehicle_class); });
+    write_motion(rows, "", fill);
+    fill.put<std::uint32_t>("route_edge", rows, [](const Vehicle& row) { return row.state.route_edge; });
+    fill.put<float>("sigma_m", rows, [](const Vehicle& row) { return row.sigma_m; });
+    fill.put<float>("age_s", rows, [](const Vehicle& row) { return row.age_s; });
 }
 
-void write_links(const traffic::BelievedGraph& belief, Sheet& sheet) {
+void write_links(const traffic::BelievedGraph& belief, Filler& fill) {
     using Link = traffic::BelievedLink;
-    sheet.put(belief_column::link_first, belief.first_link);
-    fill<std::uint32_t>(sheet, belief_column::link_neighbour, belief.links,
-                        [](const Link& link) { return link.neighbour; });
-    fill<float>(sheet, belief_column::link_distance, belief.links,
-                [](const Link& link) { return link.distance_m; });
-    fill<float>(sheet, belief_column::link_probability, belief.links,
-                [](const Link& link) { return link.probability; });
+    fill.put("link_first", belief.first_link);
+    fill.put<std::uint32_t>("link_neighbour", belief.links, [](const Link& link) { return link.neighbour; });
+    fill.put<float>("link_distance_m", belief.links, [](const Link& link) { return link.distance_m; });
+    fill.put<float>("link_probability", belief.links, [](const Link& link) { return link.probability; });
 }
 
-void write_emergency(const View& view, const std::vector<traffic::BelievedVehicle>& rows, Sheet& sheet) {
-    using Row = traffic::BelievedVehicle;
-    fill<std::uint64_t>(sheet, belief_column::emergency_key, rows,
-                        [](const Row& row) { return row.key.value; });
-    fill<float>(sheet, belief_column::emergency_x, rows, [](const Row& row) { return row.state.x_m; });
-    fill<float>(sheet, belief_column::emergency_y, rows, [](const Row& row) { return row.state.y_m; });
-    fill<float>(sheet, belief_column::emergency_heading, rows,
-                [](const Row& row) { return row.state.heading_rad; });
-    fill<float>(sheet, belief_column::emergency_speed, rows,
-                [](const Row& row) { return row.state.speed_mps; });
-    fill<std::uint32_t>(sheet, belief_column::emergency_lane, rows,
-                        [](const Row& row) { return row.state.lane.value; });
-    fill<float>(sheet, belief_column::emergency_lane_position, rows,
-                [](const Row& row) { return row.state.lane_position_m; });
-    fill<float>(sheet, belief_column::emergency_allowed_speed, rows,
-                [&](const Row& row) { return static_cast<float>(view.allowed_speed(row).value); });
+void write_emergency(const View& view, const std::vector<Vehicle>& rows, Filler& fill) {
+    fill.put<std::uint64_t>("emergency_key", rows, [](const Vehicle& row) { return row.key.value; });
+    write_motion(rows, "emergency_", fill);
+    fill.put<float>("emergency_allowed_speed_mps", rows,
+                    [&](const Vehicle& row) { return static_cast<float>(view.allowed_speed(row).value); });
 }
 
-void write_ahead(const View& view, const std::vector<traffic::BelievedVehicle>& emergency, Sheet& sheet) {
+void write_ahead(const View& view, const std::vector<Vehicle>& emergency, Filler& fill) {
     std::vector<std::uint32_t> first = {0}, row;
     std::vector<float> distance_m;
     std::vector<std::uint8_t> lower, higher;
-    const traffic::BelievedVehicle* const begin = view.belief().vehicles.data();
-    for (const traffic::BelievedVehicle& vehicle : emergency) {
+    const Vehicle* const begin = view.belief().vehicles.data();
+    for (const Vehicle& vehicle : emergency) {
         for (const VehicleAhead& ahead : view.vehicles_ahead(vehicle, sheet_horizon)) {
-            const traffic::BelievedVehicle& other = *ahead.vehicle;
+            const Vehicle& other = *ahead.vehicle;
             row.push_back(static_cast<std::uint32_t>(ahead.vehicle - begin));
             distance_m.push_back(static_cast<float>(ahead.distance_m));
             const bool takes_leases = other.vehicle_class == traffic::VehicleClass::automated;
@@ -121,19 +131,18 @@ void write_ahead(const View& view, const std::vector<traffic::BelievedVehicle>& 
         }
         first.push_back(static_cast<std::uint32_t>(row.size()));
     }
-    sheet.put(belief_column::ahead_first, first);
-    sheet.put(belief_column::ahead_row, row);
-    sheet.put(belief_column::ahead_distance, distance_m);
-    sheet.put(belief_column::ahead_usable_lower, lower);
-    sheet.put(belief_column::ahead_usable_higher, higher);
+    fill.put("ahead_first", first);
+    fill.put("ahead_row", row);
+    fill.put("ahead_distance_m", distance_m);
+    fill.put("ahead_usable_lower", lower);
+    fill.put("ahead_usable_higher", higher);
 }
 
-void write_approaches(const View& view, const std::vector<traffic::BelievedVehicle>& emergency,
-                      Sheet& sheet) {
+void write_approaches(const View& view, const std::vector<Vehicle>& emergency, Filler& fill) {
     std::vector<std::uint32_t> first = {0}, signal, own_first = {0}, served_first = {0};
     std::vector<float> distance_m;
     std::vector<std::uint16_t> own, served;
-    for (const traffic::BelievedVehicle& vehicle : emergency) {
+    for (const Vehicle& vehicle : emergency) {
         for (const Approach& approach : approaches(view, vehicle, approach_horizon)) {
             signal.push_back(approach.signal.value);
             distance_m.push_back(static_cast<float>(approach.distance_m));
@@ -144,24 +153,24 @@ void write_approaches(const View& view, const std::vector<traffic::BelievedVehic
         }
         first.push_back(static_cast<std::uint32_t>(signal.size()));
     }
-    sheet.put(belief_column::approach_first, first);
-    sheet.put(belief_column::approach_signal, signal);
-    sheet.put(belief_column::approach_distance, distance_m);
-    sheet.put(belief_column::own_link_first, own_first);
-    sheet.put(belief_column::own_link, own);
-    sheet.put(belief_column::served_link_first, served_first);
-    sheet.put(belief_column::served_link, served);
+    fill.put("approach_first", first);
+    fill.put("approach_signal", signal);
+    fill.put("approach_distance_m", distance_m);
+    fill.put("own_link_first", own_first);
+    fill.put("own_link", own);
+    fill.put("served_link_first", served_first);
+    fill.put("served_link", served);
 }
 
-void write_signals(const traffic::SignalStates& signals, Sheet& sheet) {
+void write_signals(const traffic::SignalStates& signals, Filler& fill) {
     std::vector<std::uint32_t> first = {0};
     std::vector<std::uint8_t> letters;
     for (const std::string& state : signals.state) {
         letters.insert(letters.end(), state.begin(), state.end());
         first.push_back(static_cast<std::uint32_t>(letters.size()));
     }
-    sheet.put(belief_column::signal_first, first);
-    sheet.put(belief_column::signal_letters, letters);
+    fill.put("signal_first", first);
+    fill.put("signal_letters", letters);
 }
 
 }  // namespace
@@ -173,13 +182,14 @@ std::span<const python::Column> belief_columns() {
 void write_belief(const View& view, const std::vector<traffic::BelievedVehicle>& emergency, Sheet& sheet) {
     const traffic::BelievedGraph& belief = view.belief();
     sheet.clear();
-    sheet.room<double>(belief_column::time, 1)[0] = belief.time.value;
-    write_vehicles(belief.vehicles, sheet);
-    write_links(belief, sheet);
-    write_emergency(view, emergency, sheet);
-    write_ahead(view, emergency, sheet);
-    write_approaches(view, emergency, sheet);
-    write_signals(belief.signals, sheet);
+    Filler fill(sheet);
+    fill.put("time_s", std::vector{belief.time.value});
+    write_vehicles(belief.vehicles, fill);
+    write_links(belief, fill);
+    write_emergency(view, emergency, fill);
+    write_ahead(view, emergency, fill);
+    write_approaches(view, emergency, fill);
+    write_signals(belief.signals, fill);
 }
 
 }  // namespace clearway::policy::detail

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/units.hpp"
@@ -14,51 +13,6 @@ namespace clearway::policy::detail {
 /// A believed graph in memory that a Python process shares. The first columns are the members of
 /// traffic::BelievedGraph; those from `ahead_first` on are what View and `approaches` say of it, so that no
 /// policy in Python walks routes itself. Lists of lists are flat, with the bounds of each in `*_first`.
-namespace belief_column {
-enum Number : std::size_t {
-    time,
-    key,
-    vehicle_class,
-    x,
-    y,
-    heading,
-    speed,
-    lane,
-    lane_position,
-    route_edge,
-    sigma,
-    age,
-    link_first,
-    link_neighbour,
-    link_distance,
-    link_probability,
-    emergency_key,
-    emergency_x,
-    emergency_y,
-    emergency_heading,
-    emergency_speed,
-    emergency_lane,
-    emergency_lane_position,
-    emergency_allowed_speed,
-    ahead_first,
-    ahead_row,
-    ahead_distance,
-    ahead_usable_lower,
-    ahead_usable_higher,
-    approach_first,
-    approach_signal,
-    approach_distance,
-    own_link_first,
-    own_link,
-    served_link_first,
-    served_link,
-    signal_first,
-    signal_letters,
-    count,
-};
-}  // namespace belief_column
-
-/// In the order of belief_column.
 std::span<const python::Column> belief_columns();
 
 /// How far ahead of an emergency vehicle sheets tell vehicles, m: twice as far as ClearLane acts.

@@ -1,10 +1,12 @@
 #include "policy/detail/cooperation.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace clearway::policy::detail {
 
 void AsideMemory::keep_only(const std::vector<traffic::BelievedVehicle>& emergencies) {
+    assert(std::ranges::is_sorted(emergencies, {}, &traffic::BelievedVehicle::key));
     std::erase_if(asked_, [&](const auto& entry) {
         return !std::ranges::binary_search(emergencies, entry.first, {}, &traffic::BelievedVehicle::key);
     });

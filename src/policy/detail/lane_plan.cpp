@@ -1,6 +1,7 @@
 #include "policy/detail/lane_plan.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -17,6 +18,7 @@ std::size_t cell_of(double distance_m) {
 
 LanePlan::LanePlan(const PlanScene& scene, const LanePlanConfig& config, double horizon_m) {
     find_columns(scene.view, scene.emergency, horizon_m);
+    assert(own_ < numbers_.size());
     plan_.resize(cell_of(horizon_m) + 1, own_);
     choose(costs(scene, config), config.change_s);
 }
@@ -57,6 +59,7 @@ std::vector<std::vector<double>> LanePlan::costs(const PlanScene& scene, const L
 
 /// From the far end back: the least delay from each cell and column on.
 void LanePlan::choose(const std::vector<std::vector<double>>& cost, double change_s) {
+    assert(cost.size() == plan_.size());
     const std::size_t columns = numbers_.size();
     std::vector<std::vector<double>> rest(cost.size() + 1, std::vector<double>(columns, 0.0));
     std::vector<std::vector<std::size_t>> next(cost.size(), std::vector<std::size_t>(columns, 0));

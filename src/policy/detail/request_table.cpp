@@ -1,6 +1,7 @@
 #include "policy/detail/request_table.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace clearway::policy::detail {
 namespace {
@@ -39,6 +40,7 @@ void RequestTable::update(const View& view, std::span<const traffic::PriorityReq
 
 void RequestTable::take(const View& view, const traffic::PriorityRequest& message) {
     const RequestKey key{message.vehicle, message.signal};
+    assert(message.sent <= view.belief().time);
     const auto known = entries_.find(key);
     if (message.type == traffic::RequestType::cancellation) {
         if (known != entries_.end()) known->second.is_open = false;

@@ -1,6 +1,7 @@
 #include "policy/detail/room.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace clearway::policy::detail {
 namespace {
@@ -24,6 +25,7 @@ Room::Room(const roads::Network& network, const traffic::BelievedGraph& belief, 
 }
 
 double Room::at_start_of_m(core::LaneIndex lane) const {
+    assert(lane.exists());
     const auto rear = rear_m_.find(lane.value);
     return rear == rear_m_.end() ? network_.lane(lane).length_m : rear->second;
 }
