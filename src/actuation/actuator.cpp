@@ -1,6 +1,7 @@
 #include "actuation/actuator.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -13,38 +14,41 @@
 namespace clearway::actuation {
 namespace {
 
+using traffic::Refusal;
+
 /// Reaction time of a driver to yellow, s. Assumed to be short, because drivers expect it.
 constexpr double reaction_s = 0.5;
 /// Farther away than this, every vehicle can stop, m: 140 km/h and 4.5 m/s2 take 168 m.
 constexpr double farthest_stop_m = 200.0;
 
-/// Reason why a lease can never be carried out, or null.
-const char* check_vehicle_action(const traffic::Action& action) {
+/// Reason why a lease can never be carried out.
+std::optional<Refusal> check_vehicle_action(const traffic::Action& action) {
     if (std::holds_alternative<traffic::HoldGreen>(action) ||
         std::holds_alternative<traffic::AdjustGreen>(action))
-        return "wrong_target";
+        return Refusal::wrong_target;
     if (const auto* drive = std::get_if<traffic::DriveAt>(&action)) {
-        if (!std::isfinite(drive->speed.value)) return "speed_not_finite";
-        if (drive->speed.value < 0.0) return "speed_negative";
+        if (!std::isfinite(drive->speed.value)) return Refusal::speed_not_finite;
+        if (drive->speed.value < 0.0) return Refusal::speed_negative;
     }
-    return nullptr;
+    return std::nullopt;
 }
 
-const char* check_signal_action(const roads::Network& network, core::SignalIndex signal,
-                                const traffic::Action& action) {
-    if (signal.value >= network.signals().size()) return "no_such_signal";
+std::optional<Refusal> check_signal_action(const roads::Network& network, core::SignalIndex signal,
+                                           const traffic::Action& action) {
+    if (signal.value >= network.signals().size()) return Refusal::no_such_signal;
     const std::vector<std::uint16_t>* links = nullptr;
     if (const auto* hold = std::get_if<traffic::HoldGreen>(&action)) links = &hold->links;
     if (const auto* adjustment = std::get_if<traffic::AdjustGreen>(&action)) links = &adjustment->links;
-    if (links == nullptr) return "wrong_target";
-    if (links->empty()) return "no_links";
+    if (links == nullptr) return Refusal::wrong_target;
+    if (links->empty()) return Refusal::no_links;
     const std::size_t count = network.signal(signal).links.size();
-    if (!std::ranges::all_of(*links, [&](std::uint16_t link) { return link < count; })) return "no_such_link";
+    if (!std::ranges::all_of(*links, [&](std::uint16_t link) { return link < count; }))
+        return Refusal::no_such_link;
     const auto* const hold = std::get_if<traffic::HoldGreen>(&action);
     const bool holds_own = hold == nullptr || std::ranges::all_of(hold->own_links, [&](std::uint16_t link) {
                                return std::ranges::find(*links, link) != links->end();
                            });
-    return holds_own ? nullptr : "own_link_not_held";
+    return holds_own ? std::nullopt : std::optional(Refusal::own_link_not_held);
 }
 
 }  // namespace
@@ -55,22 +59,15 @@ struct Actuator::State {
     detail::Ledger ledger;
     std::map<core::VehicleKey, detail::VehicleControl> vehicles;
     std::map<core::SignalIndex, detail::SignalControl> signals;
-    std::vector<detail::LinkHistory> histories;  ///< By signal; empty where clearance is fixed.
+    std::vector<detail::LinkHistory> histories;                 ///< By signal.
     std::map<core::SignalIndex, detail::Clearance> clearances;  ///< Of signals that were ever asked for.
     std::optional<core::Seconds> last_step;
     std::vector<core::VehicleKey> heeding;
 
-    bool keeps_clearance() const { return config.clearance != ClearanceRule::fixed; }
     void watch(const traffic::SignalStates& shown, core::Seconds now) {
-        if (!keeps_clearance()) return;
-        histories.resize(shown.state.size());
-        for (std::size_t row = 0; row < histories.size(); ++row)
+        assert(shown.state.size() <= histories.size());
+        for (std::size_t row = 0; row < shown.state.size(); ++row)
             histories[row].watch(shown.state[row], now);
-    }
-    std::optional<detail::SignalDuties> duties_of(core::SignalIndex index) {
-        const auto clearance = clearances.find(index);
-        if (clearance == clearances.end() || index.value >= histories.size()) return std::nullopt;
-        return detail::SignalDuties{clearance->second, histories[index.value]};
     }
 
     traffic::Preemption preemption_of(core::SignalIndex signal) const {
@@ -78,9 +75,9 @@ struct Actuator::State {
                                                        : traffic::Preemption{};
     }
 
-    const char* check(const traffic::Lease& lease, core::Seconds now) const {
-        if (!std::isfinite(lease.expiry.value) || lease.expiry <= now) return "expired_on_arrival";
-        if (std::holds_alternative<traffic::Stretch>(lease.target)) return "wrong_target";
+    std::optional<Refusal> check(const traffic::Lease& lease, core::Seconds now) const {
+        if (!std::isfinite(lease.expiry.value) || lease.expiry <= now) return Refusal::expired_on_arrival;
+        if (std::holds_alternative<traffic::Stretch>(lease.target)) return Refusal::wrong_target;
         if (const auto* signal = std::get_if<core::SignalIndex>(&lease.target))
             return check_signal_action(network, *signal, lease.action);
         return check_vehicle_action(lease.action);
@@ -94,6 +91,7 @@ struct Actuator::State {
         if (left_m > farthest_stop_m) return false;
         const traffic::VehicleInfo* info = roster.find(snapshot.key[row]);
         if (info == nullptr) return false;
+        assert(info->deceleration_mps2 > 0.0F);
         const double stop_m = speed_mps * speed_mps / (2.0 * info->deceleration_mps2);
         return left_m > stop_m && left_m < stop_m + reaction_s * speed_mps + detail::stop_line_gap_m;
     }
@@ -125,10 +123,9 @@ struct Actuator::State {
         for (auto& [index, signal] : signals) {
             const bool known = index.value < snapshot.signals.state.size();
             const std::string& shown = known ? snapshot.signals.state[index.value] : none;
-            const auto duties = duties_of(index);
+            const detail::SignalDuties duties{clearances.at(index), histories[index.value]};
             const detail::SignalTiming timing = detail::timing_of(config, preemption_of(index));
-            signal.step({snapshot.time, shown, timing, occupied, look, self, duties ? &*duties : nullptr},
-                        ledger, commands);
+            signal.step({snapshot.time, shown, timing, occupied, look, self, duties}, ledger, commands);
         }
     }
     void take(const traffic::Lease& lease) {
@@ -136,35 +133,45 @@ struct Actuator::State {
             vehicles.try_emplace(*vehicle, *vehicle).first->second.offer(lease, ledger);
         } else {
             const core::SignalIndex signal = std::get<core::SignalIndex>(lease.target);
+            assert(signal.value < network.signals().size());
             signals.try_emplace(signal, signal, network).first->second.offer(lease, ledger);
-            if (keeps_clearance())
-                clearances.try_emplace(signal, config.clearance, network.signal(signal), network,
-                                       preemption_of(signal).pedestrian_clearance_s);
+            if (!clearances.contains(signal))
+                clearances.emplace(signal, detail::Clearance(config, network.signal(signal), network,
+                                                             preemption_of(signal).pedestrian_clearance_s));
         }
     }
 };
 
 Actuator::Actuator(const roads::Network& network, Config config)
-    : state_(std::make_unique<State>(State{network, config, {}, {}, {}, {}, {}, std::nullopt, {}})) {}
+    : state_(std::make_unique<State>(State{network,
+                                           config,
+                                           {},
+                                           {},
+                                           {},
+                                           std::vector<detail::LinkHistory>(network.signals().size()),
+                                           {},
+                                           {},
+                                           {}})) {}
 
 Actuator::~Actuator() = default;
 
 void Actuator::accept(std::span<const traffic::Lease> leases, core::Seconds now,
                       std::span<const core::VehicleKey> unreachable) {
+    assert(std::ranges::is_sorted(unreachable));
     for (const traffic::Lease& lease : leases) {
-        const char* reason = state_->check(lease, now);
+        std::optional<Refusal> reason = state_->check(lease, now);
         const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target);
-        if (reason == nullptr && vehicle != nullptr && std::ranges::binary_search(unreachable, *vehicle))
-            reason = "unreachable";
-        if (reason == nullptr) {
+        if (!reason && vehicle != nullptr && std::ranges::binary_search(unreachable, *vehicle))
+            reason = Refusal::unreachable;
+        if (!reason) {
             state_->take(lease);
             continue;
         }
-        refuse({&lease, 1}, reason);
+        refuse({&lease, 1}, *reason);
     }
 }
 
-void Actuator::refuse(std::span<const traffic::Lease> leases, const char* reason) {
+void Actuator::refuse(std::span<const traffic::Lease> leases, Refusal reason) {
     for (const traffic::Lease& lease : leases) {
         LeaseCounts& counts = state_->ledger.of(lease);
         ++counts.issued;
@@ -173,6 +180,7 @@ void Actuator::refuse(std::span<const traffic::Lease> leases, const char* reason
 }
 
 void Actuator::heed(std::span<const core::VehicleKey> drivers) {
+    assert(std::ranges::is_sorted(drivers));
     state_->heeding.assign(drivers.begin(), drivers.end());
 }
 
@@ -180,6 +188,7 @@ void Actuator::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
                     const truth::SelfKnowledge& self, std::vector<traffic::Command>& commands) {
     State& state = *state_;
     const core::Seconds now = snapshot.time;
+    assert(!state.last_step || now > *state.last_step);
     const core::Seconds step = state.last_step ? now - *state.last_step : core::Seconds(0.0);
     state.last_step = now;
     const detail::VehicleContext around{
@@ -219,7 +228,7 @@ std::vector<traffic::SignalStatus> Actuator::signals() const {
     return all;
 }
 
-const std::map<std::string, LeaseCounts>& Actuator::counts() const {
+const LeaseLedger& Actuator::counts() const {
     return state_->ledger.counts();
 }
 

@@ -26,26 +26,8 @@ namespace clearway::actuation {
 ///
 /// When leases for one target conflict (a target has one speed, one lane, one set of compatible links), the
 /// higher priority wins, then the earlier lease; the others wait and are counted as `outranked`. A lease that
-/// is not feasible now is judged again at every step until it expires, and is counted once per reason:
-///
-/// - never legal: `expired_on_arrival`, `speed_not_finite`, `speed_negative`, `no_links`, `no_such_link`,
-///   `no_such_signal`, `wrong_target`;
-/// - `unreachable`: commands do not reach it now; `unheard`: the message with the request was lost;
-///   `outdated`: a newer request was there before it;
-/// - the target does not exist (any more): `vehicle_gone`, `signal_gone`, `vehicle_does_not_answer`;
-/// - human drivers take no leases unless they heed them, only emergency vehicles pass red:
-/// `not_controllable`,
-///   `not_an_emergency_vehicle`;
-/// - `above_allowed_speed`: faster than the road limit or the vehicle allows;
-/// - `cannot_stop_comfortably`: a stop that needs more than the vehicle's usual deceleration;
-/// - there is no such lane for this vehicle: `on_a_junction`, `no_such_lane`, `lane_not_allowed`;
-/// - `lane_does_not_continue`: neither a best lane for its route nor drivable for over 300 m;
-/// - `no_room_beside`: the vehicle itself would not change now;
-/// - `outranked`, `hold_cap`, `lockout`: see Config;
-/// - a green that cannot be granted: `no_phase_serves`, `unknown_program` (the signal runs a program other
-///   than its initial one, or SUMO's controller NEMA), `exit_phase` (the signal has one of its own);
-/// - what the signal's controller is set to: `preemption_off`, `preemption_delay`, `priority` (see
-///   traffic::Preemption).
+/// is not feasible now is judged again at every step until it expires, and is counted once per reason
+/// (traffic::Refusal).
 ///
 /// A speed lease never brakes harder than the vehicle's usual deceleration: while the safety checks are on,
 /// SUMO limits the change per step.
@@ -68,8 +50,8 @@ class Actuator {
     /// Human drivers who take leases from now on, ordered by key. At first there are none.
     void heed(std::span<const core::VehicleKey> drivers);
 
-    /// Counts leases that never came to their targets, for a reason with static storage.
-    void refuse(std::span<const traffic::Lease> leases, const char* reason);
+    /// Counts leases that never came to their targets.
+    void refuse(std::span<const traffic::Lease> leases, traffic::Refusal reason);
 
     /// Appends the commands for this step: vehicles by key, then signals. `snapshot` and `self` are what
     /// vehicles know about themselves. Call once per step, in order of time.
@@ -84,8 +66,7 @@ class Actuator {
     /// Signals with leases in force, or not yet back in their programs and in step, by index. A signal that
     /// is missing runs its program, and a hold would begin there at once.
     std::vector<traffic::SignalStatus> signals() const;
-    /// By `policy/action`.
-    const std::map<std::string, LeaseCounts>& counts() const;
+    const LeaseLedger& counts() const;
 
   private:
     struct State;

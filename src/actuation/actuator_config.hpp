@@ -27,6 +27,7 @@ struct ActuatorConfig {
     traffic::SafetyChecks safety_checks = traffic::SafetyChecks::on;
     traffic::LateralModel lateral_model = traffic::LateralModel::lane;
     std::vector<traffic::Preemption> preemption = {};  ///< By signal; empty: none is set.
+    double friction = 1.0;  ///< Share of a dry road's grip; on a slippery road each yellow is longer.
 
     static constexpr auto fields() {
         using C = ActuatorConfig;
@@ -34,13 +35,14 @@ struct ActuatorConfig {
         return std::make_tuple(
             Field{
                 "yellow_s", "s", &C::yellow_s, 0.0, 10.0,
-                "Shortest yellow before a green is withdrawn, on a dry road; longer on slippery roads. With "
-                "`clearance` `fixed` it is the yellow",
+                "Shortest yellow before a green is withdrawn, on a dry road. With `clearance` `fixed` it is "
+                "the yellow. On a slippery road each yellow is longer, also that of the signal's own program",
                 "the shortest of ITE, MUTCD and RiLSA"},
-            Field{"all_red_s", "s", &C::all_red_s, 0.0, 10.0,
-                  "With `clearance` `fixed`: all red after yellow. With the others it comes only before a "
-                  "green to which one must yield that had right of way",
-                  "assumed: usual in towns"},
+            Field{
+                "all_red_s", "s", &C::all_red_s, 0.0, 10.0,
+                "With `clearance` `fixed`: red of a link before one that conflicts with it gets green. With "
+                "the others it comes only before a green to which one must yield that had right of way",
+                "assumed: usual in towns"},
             Field{
                 "clearing_s", "s", &C::clearing_s, 0.0, 30.0,
                 "A green that conflicts waits up to this much longer while a vehicle that has lost green is "
@@ -72,18 +74,14 @@ struct ActuatorConfig {
                 "the "
                 "signal's own program shows, or, where it shows none, what the formulas of the ITE or of "
                 "RiLSA give for speed limit and crossing, and a link waits only for those that conflict with "
-                "it; `fixed` is `yellow_s` and `all_red_s` for all, whatever the program shows",
+                "it; `fixed` is `yellow_s` and `all_red_s` for all links, whatever the program shows",
                 "no transition may be faster than the program allows, and the rule counts the whole time "
                 "between "
                 "two greens; older figures were made with `fixed`"},
-            Field{
-                "entry_green_s", "s", &C::entry_green_s, 0.0, 60.0,
-                "No green ends earlier for a hold, nor before the program's own least; without effect where "
-                "`clearance` is `fixed`",
-                "NTCIP 1202 v03, preemptMinimumGreen: set by the city; 5 s assumed"},
-            Field{"walk_s", "s", &C::walk_s, 0.0, 60.0,
-                  "No green for people on foot ends earlier for a hold; without effect where `clearance` is "
-                  "`fixed`",
+            Field{"entry_green_s", "s", &C::entry_green_s, 0.0, 60.0,
+                  "No green ends earlier for a hold, nor before the program's own least",
+                  "NTCIP 1202 v03, preemptMinimumGreen: set by the city; 5 s assumed"},
+            Field{"walk_s", "s", &C::walk_s, 0.0, 60.0, "No green for people on foot ends earlier for a hold",
                   "MUTCD 2009, 4E.06: 7 s, 4 s at the least"});
     }
 };

@@ -8,8 +8,7 @@ namespace clearway::actuation {
 
 /// Where the least yellow and red clearance of a transition come from.
 enum class ClearanceRule : std::uint8_t {
-    fixed,  ///< `yellow_s` and `all_red_s`, whatever the program shows. As in figures before `rilsa` was
-            ///< usual.
+    fixed,  ///< `yellow_s` and `all_red_s` of every link, whatever the program shows: the control of audits.
     ite,    ///< The program's own; where it shows none, by the formulas of the ITE.
     rilsa,  ///< The program's own; where it shows none, by the German RiLSA.
 };

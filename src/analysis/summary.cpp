@@ -185,7 +185,7 @@ void count_run(const std::vector<metrics::LeaseRow>& leases, IdlePart& part) {
     for (const metrics::LeaseRow& row : leases) {
         if (row.policy != part.policy || row.acted == 0) continue;
         acts = true;
-        acts_on_others = acts_on_others || row.action != traffic::own_change_lane;
+        acts_on_others = acts_on_others || row.action != traffic::LeaseKind::own_change_lane;
     }
     ++part.runs;
     if (!acts) ++part.idle_runs;

@@ -1,4 +1,4 @@
-#include "loop/attached_run.hpp"
+#include "loop/jobs.hpp"
 
 #include <chrono>
 #include <cstdlib>

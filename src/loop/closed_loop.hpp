@@ -1,37 +1,16 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
-#include "actuation/actuator.hpp"
 #include "core/units.hpp"
-#include "drivers/listeners.hpp"
-#include "drivers/privilege.hpp"
-#include "drivers/siren.hpp"
-#include "experiment/loop_config.hpp"
+#include "loop/controller.hpp"
 #include "metrics/recorder.hpp"
-#include "pipeline/decision_chain.hpp"
-#include "pipeline/green_watch.hpp"
-#include "pipeline/requests.hpp"
 #include "sumo/session.hpp"
 #include "trace/step_listener.hpp"
 
 namespace clearway::loop {
-
-using experiment::LoopConfig;
-
-/// What implements a condition, ready to run.
-struct Controller {
-    std::unique_ptr<pipeline::DecisionChain> chain;
-    std::unique_ptr<pipeline::Requests> requests;
-    std::unique_ptr<actuation::Actuator> actuator;
-    std::unique_ptr<pipeline::GreenWatch> greens;
-    std::unique_ptr<drivers::Siren> siren;                    ///< Null if no driver reacts to a siren.
-    std::unique_ptr<drivers::Listeners> listeners = nullptr;  ///< Null if no driver takes requests.
-    std::unique_ptr<drivers::Privilege> privilege = nullptr;  ///< Null without privileges.
-};
 
 /// Where the wall time of a run went, s.
 struct LoopTiming {
@@ -42,17 +21,18 @@ struct LoopTiming {
     std::uint64_t vehicle_steps = 0;
 };
 
-/// The only place that knows the order truth -> sensing -> prediction -> policy -> actuation -> simulator,
-/// with metrics alongside. Every step of every run is made here; warm-ups and solo runs leave out the part
-/// from sensing to actuation. Members throw core::SimulatorError as the session does. One run; one thread.
+/// Every step of every run is made here: the simulator, then the controller (whose types know the order of
+/// its parts), with metrics alongside; warm-ups and solo runs have no controller. Members throw
+/// core::SimulatorError as the session does. One run; one thread.
 class ClosedLoop {
   public:
     /// Both outlive the loop. Until `begin`, the simulation runs without a controller.
     ClosedLoop(sumo::Session& session, metrics::Recorder& recorder)
         : session_(session), recorder_(recorder) {}
 
-    /// From the next step on, `controller` senses, decides and acts. Resets `timing`.
-    void begin(Controller controller, const LoopConfig& config);
+    /// From the next step on, a controller of this condition senses, decides and acts. Resets `timing`.
+    /// Throws as the controller does.
+    void begin(const experiment::ConditionSpec& condition, const ControllerContext& context);
     /// From the next step on, `listener` is told of each step; it outlives the loop and may be null.
     void tell(trace::StepListener* listener) { listener_ = listener; }
 
@@ -68,10 +48,8 @@ class ClosedLoop {
 
   private:
     void step();
-    /// Returns whether a decision was made.
-    bool decide(const truth::Snapshot& snapshot);
-    void act(const truth::Snapshot& snapshot, bool decided);
-    void score(const truth::Snapshot& snapshot);
+    /// The controller's part of a step. Returns whether a decision was made.
+    bool control(const truth::Snapshot& snapshot);
     void tell_listener(const truth::Snapshot& snapshot, bool decided);
 
     sumo::Session& session_;
@@ -81,7 +59,6 @@ class ClosedLoop {
 
     metrics::TrueLinks true_links_{graph::LinkRules{}};
     std::vector<traffic::Command> commands_;
-    std::vector<traffic::SignalStatus> signals_;  ///< After the actuator's last step.
     LoopTiming timing_;
 };
 

@@ -20,7 +20,7 @@ metrics::LeaseTotals run_condition(ClosedLoop& loop, metrics::Recorder& recorder
     recorder.watch(std::move(stage.layout));
     recorder.configure(
         metrics::RecorderConfig::of_latency(core::Seconds(pipeline::observed_failure(condition).latency_s)));
-    loop.begin(make_controller(condition, stage.context), stage.context.loop);
+    loop.begin(condition, stage.context);
     loop.tell(stage.listener);
     loop.run(stage.horizon);
     return loop.finish();

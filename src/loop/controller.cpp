@@ -1,86 +1,119 @@
 #include "loop/controller.hpp"
 
-#include <algorithm>
+#include <cassert>
 
 #include "experiment/settings.hpp"
 
 namespace clearway::loop {
 namespace {
 
-/// Yellow lets a driver react and then brake, which takes longer on a slippery road (ITE's rule: reaction
-/// time + speed / (2 deceleration); 3 s on a dry road).
-double yellow_s(double dry_s, double friction) {
-    constexpr double reaction_s = 1.0;
-    constexpr double longest_s = 10.0;
-    if (dry_s <= reaction_s) return dry_s;
-    return std::min(longest_s, reaction_s + (dry_s - reaction_s) / friction);
+pipeline::ChainContext chain_context(const ControllerContext& context) {
+    return {.network = context.network,
+            .random = context.random,
+            .policy_period_s = context.loop.policy_period_s,
+            .rules = context.loop.rules(),
+            .guest = context.guest};
+}
+
+actuation::ActuatorConfig actuation_of(const experiment::ConditionSpec& condition,
+                                       const ControllerContext& context) {
+    actuation::ActuatorConfig config = experiment::actuator_config(condition, {});
+    config.friction = context.friction;
+    if (!context.has_pedestrians) config.walking_s = 0.0;
+    config.preemption = context.preemption;
+    config.safety_checks = condition.safety_checks;
+    config.lateral_model = condition.traffic_model == experiment::TrafficModel::sublane
+                               ? traffic::LateralModel::sublane
+                               : traffic::LateralModel::lane;
+    return config;
 }
 
 }  // namespace
 
-Controller make_controller(const experiment::ConditionSpec& condition, const ControllerContext& context) {
-    Controller controller;
-    const pipeline::ChainContext chain{.network = context.network,
-                                       .random = context.random,
-                                       .policy_period_s = context.loop.policy_period_s,
-                                       .rules = context.loop.rules(),
-                                       .guest = context.guest};
-    controller.chain = std::make_unique<pipeline::DecisionChain>(condition, chain);
-    controller.requests = std::make_unique<pipeline::Requests>(condition, chain);
-    actuation::ActuatorConfig actuation = experiment::actuator_config(condition, {});
-    actuation.yellow_s = yellow_s(actuation.yellow_s, context.friction);
-    if (!context.has_pedestrians) actuation.walking_s = 0.0;
-    actuation.preemption = context.preemption;
-    actuation.safety_checks = condition.safety_checks;
-    actuation.lateral_model = condition.traffic_model == experiment::TrafficModel::sublane
-                                  ? traffic::LateralModel::sublane
-                                  : traffic::LateralModel::lane;
-    controller.actuator = std::make_unique<actuation::Actuator>(context.network, actuation);
-    controller.greens = std::make_unique<pipeline::GreenWatch>(context.network);
+Controller::Controller(const experiment::ConditionSpec& condition, const ControllerContext& context)
+    : Controller(condition, context, chain_context(context), actuation_of(condition, context)) {}
+
+Controller::Controller(const experiment::ConditionSpec& condition, const ControllerContext& context,
+                       const pipeline::ChainContext& chain, const actuation::ActuatorConfig& actuation)
+    : chain_(condition, chain),
+      requests_(condition, chain),
+      actuator_(context.network, actuation),
+      greens_(context.network) {
     const traffic::SirenConfig siren = experiment::siren_config(condition, context.siren);
-    if (siren.compliance > 0.0)
-        controller.siren = std::make_unique<drivers::Siren>(context.network, context.random, siren);
+    if (siren.compliance > 0.0) siren_.emplace(context.network, context.random, siren);
     const drivers::RequestConfig requests = experiment::request_config(condition);
-    if (requests.compliance > 0.0)
-        controller.listeners = std::make_unique<drivers::Listeners>(context.random, requests);
+    if (requests.compliance > 0.0) listeners_.emplace(context.random, requests);
     const drivers::PrivilegeConfig privilege = experiment::privilege_config(condition, context.privilege);
-    if (!privilege.none())
-        controller.privilege =
-            std::make_unique<drivers::Privilege>(context.network, privilege, actuation.lateral_model);
-    return controller;
+    if (!privilege.none()) privilege_.emplace(context.network, privilege, actuation.lateral_model);
+}
+
+Step<Done::observed> Controller::observe(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
+    chain_.observe(snapshot, roster);
+    return {snapshot, roster, false};
+}
+
+Step<Done::decided> Controller::decide(Step<Done::observed> step) {
+    assert(step.snapshot_->time == chain_.observation().time);
+    const bool is_due = chain_.has_policy() && chain_.decision_is_due();
+    if (is_due) chain_.decide();
+    return {*step.snapshot_, *step.roster_, is_due};
+}
+
+Step<Done::acted> Controller::act(Step<Done::decided> step, const truth::SelfKnowledge& self,
+                                  std::vector<traffic::Command>& commands) {
+    assert(commands.empty());
+    const truth::Snapshot& snapshot = *step.snapshot_;
+    const traffic::Roster& roster = *step.roster_;
+    if (siren_) siren_->step(snapshot, roster, self, commands);
+    if (privilege_) privilege_->step(snapshot, roster, commands);
+    if (listeners_) actuator_.heed(listeners_->step(snapshot));
+    requests_.step({chain_.leases(), chain_.unreachable(), step.has_decision(), chain_.decided_there()},
+                   snapshot, roster);
+    actuator_.accept(requests_.arrived(), snapshot.time, chain_.unreachable());
+    actuator_.refuse(requests_.lost(), traffic::Refusal::unheard);
+    actuator_.refuse(requests_.outdated(), traffic::Refusal::outdated);
+    actuator_.step(snapshot, roster, self, commands);
+    return {snapshot, roster, step.has_decision()};
+}
+
+void Controller::answer(Step<Done::acted> step) {
+    signals_ = actuator_.signals();
+    greens_.step(signals_, *step.snapshot_, *step.roster_);
+    if (step.has_decision()) chain_.answer(signals_);
+}
+
+void Controller::restore_all(std::vector<traffic::Command>& commands) {
+    if (siren_) siren_->restore_all(commands);
+    if (privilege_) privilege_->restore_all(commands);
+    actuator_.restore_all(commands);
+}
+
+metrics::LeaseTotals Controller::totals() const {
+    metrics::LeaseTotals totals;
+    totals.requests = requests_.counts();
+    totals.signal_requests = chain_.signal_requests();
+    totals.greens = greens_.counts();
+    for (const auto& [sort, counts] : actuator_.counts()) {
+        totals.issued += counts.issued;
+        totals.renewed += counts.renewed;
+        totals.expired += counts.expired;
+        totals.rows.push_back({std::string(sort.policy), sort.kind, counts.issued, counts.renewed,
+                               counts.acted, counts.expired, counts.refused});
+        for (const auto& [reason, refused] : counts.refused)
+            totals.refused += refused;
+    }
+    return totals;
 }
 
 sumo::Names names_of(const roads::Network& network) {
     sumo::Names names;
-    for (const roads::Lane& lane : network.lanes()) {
+    for (const roads::Lane& lane : network.lanes())
         names.lanes.push_back(lane.id);
-    }
-    for (const roads::Edge& edge : network.edges()) {
+    for (const roads::Edge& edge : network.edges())
         names.edges.push_back(edge.id);
-    }
-    for (const roads::Signal& signal : network.signals()) {
+    for (const roads::Signal& signal : network.signals())
         names.signals.push_back(signal.id);
-    }
     return names;
-}
-
-metrics::LeaseTotals totals_of(const Controller& controller) {
-    metrics::LeaseTotals totals;
-    totals.requests = controller.requests->counts();
-    totals.signal_requests = controller.chain->signal_requests();
-    totals.greens = controller.greens->counts();
-    for (const auto& [key, counts] : controller.actuator->counts()) {
-        totals.issued += counts.issued;
-        totals.renewed += counts.renewed;
-        totals.expired += counts.expired;
-        const std::size_t slash = key.find('/');
-        totals.rows.push_back({key.substr(0, slash), key.substr(slash + 1), counts.issued, counts.renewed,
-                               counts.acted, counts.expired, counts.refused});
-        for (const auto& [reason, refused] : counts.refused) {
-            totals.refused += refused;
-        }
-    }
-    return totals;
 }
 
 }  // namespace clearway::loop

@@ -1,4 +1,4 @@
-#include "loop/dataset.hpp"
+#include "loop/jobs.hpp"
 
 #include <memory>
 #include <string>

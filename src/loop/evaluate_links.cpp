@@ -1,4 +1,4 @@
-#include "loop/evaluate_links.hpp"
+#include "loop/jobs.hpp"
 
 #include <algorithm>
 
@@ -36,8 +36,8 @@ void add_trials(const experiment::LinkJob& job, const roads::Network& network, c
     }
 }
 
-/// The traffic, in which a policy may act on what perfect sensors see. Predictors only watch. Signals change
-/// as they did when the first benchmark with a policy was frozen, so that its traffic stays what it was.
+/// The traffic, in which a policy may act on what perfect sensors see. Predictors only watch. Yellow and red
+/// are those with which the first benchmark with a policy was frozen.
 experiment::ConditionSpec traffic_of(const experiment::LinkJob& job) {
     experiment::ConditionSpec condition = detail::plain_traffic("links");
     if (!job.policy.empty()) {

@@ -1,4 +1,4 @@
-#include "loop/live_run.hpp"
+#include "loop/jobs.hpp"
 
 #include <memory>
 #include <string>

@@ -1,6 +1,7 @@
 #include "loop/road_layout.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <set>
 
 #include "core/ids.hpp"
@@ -56,6 +57,7 @@ void add_signal_ways(const roads::Network& network, metrics::RoadLayout& layout)
 void add_signal_heads(const roads::Network& network, metrics::RoadLayout& layout) {
     for (const roads::Signal& signal : network.signals()) {
         const roads::SignalNumbers numbers = roads::signal_numbers(network, signal);
+        assert(numbers.phase.size() == signal.links.size() && signal.foes.size() == signal.links.size());
         std::vector<metrics::SignalHead>& heads = layout.signal_heads.emplace_back();
         for (std::size_t link = 0; link < signal.links.size(); ++link) {
             heads.push_back({numbers.phase[link], numbers.approach[link], signal.crossings[link], {}});
@@ -100,6 +102,7 @@ metrics::WatchedRoute watched_route(const roads::Network& network, const metrics
     constexpr core::Metres to_the_end{1e9};
     for (const roads::StopLine& line : roads::signals_ahead(network, route, start, to_the_end)) {
         const roads::Signal& signal = network.signal(line.signal);
+        assert(!line.links.empty() && !signal.links[line.links.front()].empty());
         const core::LaneIndex from = signal.links[line.links.front()].front().from;
         watched.signals.push_back({line.signal, signal.id, line.links, line.distance.value,
                                    departure.depart.value + least_time_s(network, route, from),

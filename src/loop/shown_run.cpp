@@ -1,4 +1,4 @@
-#include "loop/shown_run.hpp"
+#include "loop/jobs.hpp"
 
 #include <chrono>
 #include <memory>

@@ -6,18 +6,20 @@
 #include <tuple>
 
 #include "core/fields.hpp"
+#include "traffic/lease.hpp"
+#include "traffic/refusal.hpp"
 
 namespace clearway::metrics {
 
 /// What became of the leases of one policy and one action in a run.
 struct LeaseRow {
     std::string policy;
-    std::string action;  ///< As traffic::counted_as says: `change_lane`, ...
+    traffic::LeaseKind action = traffic::LeaseKind::drive_at;
     std::uint64_t issued = 0;
     std::uint64_t renewed = 0;
     std::uint64_t acted = 0;
     std::uint64_t expired = 0;
-    std::map<std::string, std::uint64_t> refused;  ///< Reason -> leases refused for it at least once.
+    std::map<traffic::Refusal, std::uint64_t> refused;  ///< Leases refused for this at least once.
 
     bool operator==(const LeaseRow&) const = default;
 
@@ -27,6 +29,14 @@ struct LeaseRow {
         for (const auto& [reason, count] : refused)
             sum += count;
         return sum;
+    }
+
+    /// `refused` with words for the reasons, in the same order.
+    std::map<std::string, std::uint64_t> refused_words() const {
+        std::map<std::string, std::uint64_t> words;
+        for (const auto& [reason, count] : refused)
+            words.emplace(name(reason), count);
+        return words;
     }
 
     /// The numeric columns. In tables, policy and action come before them, refusals by reason after them.

@@ -1,5 +1,6 @@
 #include "metrics/link_comparison.hpp"
 
+#include <cassert>
 #include <utility>
 
 namespace clearway::metrics {
@@ -39,6 +40,7 @@ void LinkComparison::add(const truth::Snapshot& snapshot, const TrueLinks& truth
         }
     }
     now.false_negative = truth.link_count() - now.true_positive;
+    assert(now.true_positive <= truth.link_count() && now_dark.true_positive <= dark_links);
     now_dark.false_negative = dark_links - now_dark.true_positive;
     for (auto [total, part] : {std::pair(&all, &now), std::pair(&dark, &now_dark)}) {
         total->true_positive += part->true_positive;

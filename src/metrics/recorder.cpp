@@ -1,6 +1,7 @@
 #include "metrics/recorder.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <stdexcept>
 #include <tuple>
 #include <unordered_map>
@@ -14,6 +15,7 @@
 #include "metrics/detail/elements.hpp"
 #include "metrics/detail/flow_watch.hpp"
 #include "metrics/detail/hold_watch.hpp"
+#include "metrics/detail/mean.hpp"
 #include "metrics/detail/signal_log.hpp"
 #include "metrics/detail/trace_hash.hpp"
 #include "metrics/detail/traffic_watch.hpp"
@@ -24,22 +26,8 @@
 namespace clearway::metrics {
 namespace {
 
+using detail::Mean;
 using traffic::VehicleClass;
-
-struct Mean {
-    double sum = 0.0;
-    std::uint64_t count = 0;
-
-    void add(const std::optional<double>& value) {
-        if (!value) return;
-        sum += *value;
-        ++count;
-    }
-    std::optional<double> value() const {
-        if (count == 0) return std::nullopt;
-        return sum / static_cast<double>(count);
-    }
-};
 
 /// The walks of pedestrians, from the tripinfo files.
 class Walks {
@@ -221,22 +209,6 @@ void count_collision(const truth::Collision& collision, const traffic::Roster& r
     if (at_junction) ++counted.emergency_junction_collisions;
 }
 
-void describe_flow(const detail::FlowWatch& flow, RunMetrics& metrics) {
-    metrics.emergency_red_passages = flow.emergency_red_passages();
-    metrics.others_red_passages = flow.others_red_passages();
-    metrics.others_hard_brakings = flow.hard_brakings();
-    metrics.others_jerk_mps3 = flow.jerk_mps3();
-    metrics.signal_throughput_per_hour = flow.throughput_per_hour();
-    metrics.signal_queue_vehicles = flow.mean_queue_vehicles();
-    metrics.signal_longest_queue_vehicles = flow.longest_queue_vehicles();
-}
-
-void describe_conflicts(const detail::ConflictWatch& conflicts, RunMetrics& metrics) {
-    metrics.emergency_least_ttc_s = conflicts.least_ttc_s();
-    metrics.emergency_conflicts = conflicts.conflicts();
-    metrics.emergency_greatest_drac_mps2 = conflicts.greatest_drac_mps2();
-}
-
 /// `measures` end with those of all signals together.
 void describe_signals(const std::vector<SignalMeasures>& measures, RunMetrics& metrics) {
     if (measures.empty()) return;
@@ -379,12 +351,14 @@ void Recorder::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
         ++state_->teleports[vehicle];
     const double now_s = snapshot.time.value;
     const double step_s = now_s - state_->before_s.value_or(now_s);
+    assert(step_s >= 0.0);
     state_->before_s = now_s;
     for (const core::VehicleKey vehicle : snapshot.commanded_stops)
         state_->stopped_s[vehicle] += step_s;
 }
 
 void Recorder::signals(const truth::Snapshot& snapshot, std::span<const traffic::SignalStatus> asked) {
+    assert(state_->before_s == snapshot.time.value && "after step");
     if (!state_->traffic) return;
     if (!state_->signal_log) state_->signal_log.emplace(state_->layout);
     state_->signal_log->step(snapshot, asked);
@@ -392,6 +366,7 @@ void Recorder::signals(const truth::Snapshot& snapshot, std::span<const traffic:
 
 void Recorder::links(const truth::Snapshot& snapshot, const TrueLinks& truth,
                      const traffic::BelievedGraph& belief) {
+    assert(truth.graph().vehicle_count() == snapshot.size());
     state_->links.add(snapshot, truth, belief, state_->config.fresh_age_s);
 }
 
@@ -410,8 +385,8 @@ RunSummary Recorder::finish(const RunEnd& end) const {
     if (state_->traffic) {
         summary.traffic = state_->traffic->tables();
         summary.traffic.holds = state_->holds->rows();
-        describe_flow(*state_->flow, metrics);
-        describe_conflicts(*state_->conflicts, metrics);
+        state_->flow->describe(metrics);
+        state_->conflicts->describe(metrics);
         metrics.cross_street_delay_s = state_->cross_streets->delay_s();
         if (state_->signal_log) {
             summary.signal_events = state_->signal_log->events();
@@ -431,6 +406,8 @@ RunSummary Recorder::finish(const RunEnd& end) const {
     metrics.leases_renewed = end.leases.renewed;
     metrics.leases_refused = end.leases.refused;
     metrics.leases_expired = end.leases.expired;
+    metrics.commands_skipped = end.leases.commands_skipped;
+    metrics.commands_refused = end.leases.commands_refused;
     describe_requests(end.leases.requests, metrics);
     describe_signal_requests(end.leases, metrics);
     metrics.links_true_positive = link_counts().true_positive;

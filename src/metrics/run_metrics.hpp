@@ -28,13 +28,15 @@ struct LinkCounts {
     std::optional<double> f1() const;
 };
 
-/// What became of the leases of a run. `refused` counts leases, not reasons.
+/// What became of the leases and commands of a run. `refused` counts leases, not reasons.
 struct LeaseTotals {
     std::uint64_t issued = 0;  ///< New leases, including refused ones; without renewals.
     std::uint64_t renewed = 0;
     std::uint64_t refused = 0;
     std::uint64_t expired = 0;
-    std::vector<LeaseRow> rows = {};  ///< The same by policy and action.
+    std::vector<LeaseRow> rows = {};     ///< The same by policy and action.
+    std::uint64_t commands_skipped = 0;  ///< To vehicles that had left the road.
+    std::uint64_t commands_refused = 0;  ///< To stop, when that was no longer possible.
     traffic::RequestCounts requests = {};
     traffic::SignalRequestCounts signal_requests = {};
     traffic::HeldGreenCounts greens = {};
@@ -106,6 +108,8 @@ struct RunMetrics {
     std::uint64_t leases_renewed = 0;
     std::uint64_t leases_refused = 0;
     std::uint64_t leases_expired = 0;
+    std::uint64_t commands_skipped = 0;
+    std::uint64_t commands_refused = 0;
 
     std::uint64_t requests_sent = 0;
     std::uint64_t requests_heard = 0;
@@ -283,7 +287,14 @@ struct RunMetrics {
                   "actuation"},
             Field{"leases_refused", "1", &M::leases_refused, 0.0, 1e12, "Leases that were not feasible",
                   "actuation"},
-            Field{"leases_expired", "1", &M::leases_expired, 0.0, 1e12, "Leases that expired", "actuation"});
+            Field{"leases_expired", "1", &M::leases_expired, 0.0, 1e12, "Leases that expired", "actuation"},
+            Field{"commands_skipped", "1", &M::commands_skipped, 0.0, 1e12,
+                  "Commands not given to SUMO, because the vehicle had left the road", "commands"},
+            Field{
+                "commands_refused", "1", &M::commands_refused, 0.0, 1e12,
+                "Commands to stop that SUMO did not carry out, because the vehicle could no longer brake in "
+                "time on its lane",
+                "commands"});
     }
     static constexpr auto request_fields() {
         using M = RunMetrics;

@@ -3,26 +3,12 @@
 #include <map>
 #include <utility>
 
+#include "metrics/detail/mean.hpp"
+
 namespace clearway::metrics {
 namespace {
 
-struct Mean {
-    double sum_s = 0.0;
-    std::uint64_t count = 0;
-
-    void add(double value_s) {
-        sum_s += value_s;
-        ++count;
-    }
-    void add(const Mean& other) {
-        sum_s += other.sum_s;
-        count += other.count;
-    }
-    std::optional<double> value() const {
-        if (count == 0) return std::nullopt;
-        return sum_s / static_cast<double>(count);
-    }
-};
+using detail::Mean;
 
 struct Sums {
     SignalMeasures counts;

@@ -1,5 +1,7 @@
 #include "pipeline/decision_chain.hpp"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "experiment/equipped_signals.hpp"
@@ -39,6 +41,7 @@ failures::FailureConfig observed_failure(const experiment::ConditionSpec& condit
 DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const ChainContext& context)
     : equipped_(experiment::equipped_signals(condition, context.network)),
       period_s_(context.policy_period_s) {
+    assert(period_s_ > 0.0);
     const failures::FailureConfig failure = observed_failure(condition);
     if (failure.signals_known == failures::SignalsKnown::no) shown_.emplace();
     sensor_ =
@@ -63,6 +66,7 @@ DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const C
 }
 
 void DecisionChain::observe(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
+    assert(std::ranges::is_sorted(snapshot.key));
     sensor_->observe(snapshot, roster, observation_);
     if (shown_) *shown_ = snapshot.signals;
     leases_.clear();
@@ -74,6 +78,8 @@ bool DecisionChain::decision_is_due() const {
 }
 
 void DecisionChain::decide() {
+    assert(snapshot_ != nullptr && snapshot_->time == observation_.time);
+    assert(leases_.empty() && "one decision a step");
     decisions_ = static_cast<std::uint64_t>(
                      std::floor((observation_.time.value + core::clock_tolerance_s) / period_s_)) +
                  1;
@@ -103,6 +109,7 @@ void DecisionChain::exchange_messages() {
 }
 
 void DecisionChain::answer(std::span<const traffic::SignalStatus> signals) {
+    assert(snapshot_ != nullptr && std::ranges::is_sorted(signals, {}, &traffic::SignalStatus::signal));
     if (talkers_.empty()) return;
     std::vector<policy::RequestKey> open;
     if (radio_->is_perfect()) {

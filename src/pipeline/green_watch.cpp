@@ -1,6 +1,7 @@
 #include "pipeline/green_watch.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "roads/route.hpp"
 
@@ -58,6 +59,7 @@ std::optional<std::uint32_t> GreenWatch::line_ahead(const policy::RequestKey& ke
     const auto line = std::ranges::find(lines, key.second, &roads::StopLine::signal);
     if (line == lines.end()) return std::nullopt;
     const auto edge = std::find(route.begin() + state.route_edge, route.end(), line->edge);
+    assert(edge != route.end());
     return static_cast<std::uint32_t>(edge - route.begin());
 }
 

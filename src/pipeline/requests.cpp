@@ -1,6 +1,7 @@
 #include "pipeline/requests.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <variant>
 
@@ -48,6 +49,7 @@ std::size_t radio_count(const truth::Snapshot& snapshot) {
 
 /// Numbered by row, and behind the rows those beside the road.
 Radio radio(const truth::Snapshot& snapshot, std::size_t number) {
+    assert(number < radio_count(snapshot));
     if (number >= snapshot.size()) {
         const truth::BesideRoad& beside = snapshot.beside_road[number - snapshot.size()];
         return {beside.key, beside.vehicle_class, beside.state};
@@ -239,6 +241,8 @@ Requests::Hearing Requests::spread(core::VehicleKey sender, const Moment& moment
 }
 
 void Requests::transmit(core::VehicleIndex from, int hop, const truth::Snapshot& snapshot, Hearing& hearing) {
+    assert(from < snapshot.size() && hop > 0);
+    assert(hearing.size() == radio_count(snapshot));
     ++counts_.messages;
     const sensing::MessageNumber number = vehicles_.message_at(snapshot.time);
     for (std::size_t listener = 0; listener < hearing.size(); ++listener) {
@@ -252,6 +256,7 @@ void Requests::transmit(core::VehicleIndex from, int hop, const truth::Snapshot&
 }
 
 bool Requests::is_unreachable(core::VehicleKey vehicle, const Moment& moment) {
+    assert(std::ranges::is_sorted(moment.decision.unreachable));
     return std::ranges::binary_search(moment.decision.unreachable, vehicle);
 }
 
@@ -278,6 +283,7 @@ void Requests::ask_signal(const traffic::Lease& lease, core::SignalIndex signal,
 }
 
 void Requests::deliver(const traffic::Lease& lease, double latency_s, core::Seconds now) {
+    assert(latency_s >= 0.0 && lease.beneficiary != core::VehicleKey{});
     if (latency_s > 0.0) {
         on_their_way_.push_back({now, now.value + latency_s, lease});
     } else {
@@ -303,6 +309,7 @@ void Requests::judge(const Moment& moment) {
     }
     sort_unique(needed_);
     counts_.needed += needed_.size();
+    assert(heard_.size() <= sent_.size());
     counts_.useless += count_missing(sent_, needed_);
     counts_.missed += count_missing(needed_, heard_);
 }

@@ -1,6 +1,7 @@
 #include "pipeline/signal_radio.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <set>
 
@@ -51,6 +52,7 @@ void SignalRadio::exchange(std::span<const traffic::PriorityRequest> wanted,
 }
 
 void SignalRadio::want(const traffic::PriorityRequest& request) {
+    assert(request.signal.value < places_.size());
     const auto [found, is_new] = approaches_.try_emplace({request.vehicle, request.signal});
     Approach& approach = found->second;
     if (is_new || approach.cancellations_left < cancellations) {
@@ -90,6 +92,7 @@ void SignalRadio::send(core::VehicleKey vehicle, const truth::Snapshot& snapshot
 
 void SignalRadio::transmit(const traffic::PriorityRequest& message, core::VehicleIndex sender,
                            const truth::Snapshot& snapshot) {
+    assert(snapshot.key[sender] == message.vehicle);
     ++counts_.sent;
     if (message.type == traffic::RequestType::update) ++counts_.updates;
     if (message.type == traffic::RequestType::cancellation) ++counts_.cancellations;
@@ -109,6 +112,7 @@ void SignalRadio::transmit(const traffic::PriorityRequest& message, core::Vehicl
 
 double SignalRadio::apart_m(core::VehicleIndex vehicle, core::SignalIndex signal,
                             const truth::Snapshot& snapshot) const {
+    assert(places_[signal.value].has_value());
     const sensing::Place& place = *places_[signal.value];
     return std::hypot(snapshot.x_m[vehicle] - place.x_m, snapshot.y_m[vehicle] - place.y_m);
 }
@@ -148,6 +152,7 @@ void SignalRadio::receive_answers(core::Seconds now) {
         ++counts_.answers_heard;
         Approach& approach = approaches_.at(answer.key);
         const auto status = static_cast<std::size_t>(answer.status);
+        assert(status < approach.told.size());
         if (approach.last.request_id != answer.request_id || approach.told[status] || !approach.first_sent)
             continue;
         approach.told[status] = true;

@@ -86,12 +86,12 @@ Json to_json(const std::vector<metrics::LeaseRow>& leases) {
     Json rows = Json::array();
     for (const metrics::LeaseRow& lease : leases) {
         rows.push_back({{"policy", lease.policy},
-                        {"action", lease.action},
+                        {"action", name(lease.action)},
                         {"issued", lease.issued},
                         {"renewed", lease.renewed},
                         {"acted", lease.acted},
                         {"expired", lease.expired},
-                        {"refused", lease.refused}});
+                        {"refused", lease.refused_words()}});
     }
     return rows;
 }

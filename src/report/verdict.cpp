@@ -66,28 +66,38 @@ Verdict lead(const ScenarioFacts& scenario, const ConditionFacts& condition, Scr
     return {"no verdict", difference ? fmt::format("no interval ({})", amount) : "no complete pair of runs"};
 }
 
-const char* words_of(const std::string& action) {
-    static const std::map<std::string, const char*> words = {
-        {"drive_at", "asked a vehicle for a speed"},
-        {"change_lane", "asked a vehicle to change lanes"},
-        {"own_change_lane", "asked the EV itself to change lanes"},
-        {"hold_lane", "asked a vehicle to keep its lane"},
-        {"pull_aside", "asked a vehicle to pull aside"},
-        {"stop_at_line", "asked a vehicle to stop at the line"},
-        {"hold_green", "asked a signal for green"},
-        {"adjust_green", "gave time back at a signal"},
-        {"pass_red", "let the EV pass red"}};
-    const auto found = words.find(action);
-    return found == words.end() ? action.c_str() : found->second;
+const char* words_of(traffic::LeaseKind action) {
+    using traffic::LeaseKind;
+    switch (action) {
+        case LeaseKind::drive_at:
+            return "asked a vehicle for a speed";
+        case LeaseKind::change_lane:
+            return "asked a vehicle to change lanes";
+        case LeaseKind::own_change_lane:
+            return "asked the EV itself to change lanes";
+        case LeaseKind::hold_lane:
+            return "asked a vehicle to keep its lane";
+        case LeaseKind::pull_aside:
+            return "asked a vehicle to pull aside";
+        case LeaseKind::stop_at_line:
+            return "asked a vehicle to stop at the line";
+        case LeaseKind::hold_green:
+            return "asked a signal for green";
+        case LeaseKind::adjust_green:
+            return "gave time back at a signal";
+        case LeaseKind::pass_red:
+            return "let the EV pass red";
+    }
+    return "";
 }
 
 /// `no_room_beside 12, outranked 3`, the most frequent first.
 std::string reasons_of(const metrics::LeaseRow& row) {
-    std::vector<std::pair<std::string, std::uint64_t>> reasons(row.refused.begin(), row.refused.end());
-    std::ranges::stable_sort(reasons, std::greater{}, &std::pair<std::string, std::uint64_t>::second);
+    std::vector<std::pair<traffic::Refusal, std::uint64_t>> reasons(row.refused.begin(), row.refused.end());
+    std::ranges::stable_sort(reasons, std::greater{}, &std::pair<traffic::Refusal, std::uint64_t>::second);
     std::vector<std::string> words;
     for (const auto& [reason, count] : reasons)
-        words.push_back(fmt::format("{} {}", reason, grouped(count)));
+        words.push_back(fmt::format("{} {}", name(reason), grouped(count)));
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
@@ -149,7 +159,7 @@ std::string lease_sentence(const ConditionFacts& condition) {
     std::vector<std::string> found;
     bool lane_changes = false;
     for (const metrics::LeaseRow& row : *condition.leases) {
-        lane_changes = lane_changes || row.action == "change_lane";
+        lane_changes = lane_changes || row.action == traffic::LeaseKind::change_lane;
         const std::string often = row.issued == 1 ? "once" : grouped(row.issued) + " times";
         std::string text = fmt::format("{}: {} {}, {} carried out", row.policy, words_of(row.action), often,
                                        grouped(row.acted));

@@ -81,13 +81,12 @@ void append_leases(const RunRecord& run, std::string& text) {
     const std::string key = key_cells(run.key);
     if (!run.leases) return;
     for (const metrics::LeaseRow& lease : *run.leases) {
-        const std::string start =
-            fmt::format("{},{},{}", key, csv_text(lease.policy), csv_text(lease.action));
+        const std::string start = fmt::format("{},{},{}", key, csv_text(lease.policy), name(lease.action));
         core::for_each_field<metrics::LeaseRow>([&](const auto& field) {
             text += fmt::format("{},{},,{}\n", start, field.name, lease.*field.member);
         });
         for (const auto& [reason, count] : lease.refused)
-            text += fmt::format("{},refused,{},{}\n", start, csv_text(reason), count);
+            text += fmt::format("{},refused,{},{}\n", start, name(reason), count);
     }
 }
 

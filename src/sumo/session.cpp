@@ -1,6 +1,7 @@
 #include "sumo/session.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -148,6 +149,7 @@ void Session::State::take_over() {
 }
 
 void Session::State::begin() {
+    assert(is_open && !commander);
     const std::vector<std::string> signals = sumo->signal_ids();
     for (const std::string& signal : names.names().signals) {
         if (std::ranges::find(signals, signal) == signals.end())

@@ -3,6 +3,14 @@
 #include <array>
 
 namespace clearway::traffic {
+namespace {
+
+/// In the order of Action.
+constexpr std::array<LeaseKind, std::variant_size_v<Action>> kinds = {
+    LeaseKind::drive_at,     LeaseKind::change_lane, LeaseKind::hold_lane,    LeaseKind::pull_aside,
+    LeaseKind::stop_at_line, LeaseKind::hold_green,  LeaseKind::adjust_green, LeaseKind::pass_red};
+
+}  // namespace
 
 bool Stretch::has(VehicleClass vehicle_class, const MotionState& state) const {
     const bool is_meant = vehicle_class == VehicleClass::automated ||
@@ -12,16 +20,14 @@ bool Stretch::has(VehicleClass vehicle_class, const MotionState& state) const {
 }
 
 std::string_view name(const Action& action) {
-    static constexpr std::array<std::string_view, std::variant_size_v<Action>> names = {
-        "drive_at",     "change_lane", "hold_lane",    "pull_aside",
-        "stop_at_line", "hold_green",  "adjust_green", "pass_red"};
-    return names[action.index()];
+    return name(kinds[action.index()]);
 }
 
-std::string_view counted_as(const Lease& lease) {
+LeaseKind kind_of(const Lease& lease) {
     const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target);
     const bool is_own = vehicle != nullptr && *vehicle == lease.beneficiary;
-    return is_own && std::holds_alternative<ChangeLane>(lease.action) ? own_change_lane : name(lease.action);
+    return is_own && std::holds_alternative<ChangeLane>(lease.action) ? LeaseKind::own_change_lane
+                                                                      : kinds[lease.action.index()];
 }
 
 }  // namespace clearway::traffic

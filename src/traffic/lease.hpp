@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "core/spellings.hpp"
 #include "core/units.hpp"
 #include "traffic/observation.hpp"
 #include "traffic/vehicle.hpp"
@@ -86,13 +87,34 @@ struct Lease {
     core::VehicleKey beneficiary;  ///< The emergency vehicle it serves; value 0 for none.
 };
 
+/// What leases are counted by, by the alphabet, as in tables: the kinds of actions, and changes of lane that
+/// an emergency vehicle makes for itself. What others do for it is one thing, which lane it chooses another.
+enum class LeaseKind : std::uint8_t {
+    adjust_green,
+    change_lane,
+    drive_at,
+    hold_green,
+    hold_lane,
+    own_change_lane,
+    pass_red,
+    pull_aside,
+    stop_at_line,
+};
+constexpr core::Spellings<LeaseKind, 9> spellings(LeaseKind) {
+    return {{{LeaseKind::adjust_green, "adjust_green"},
+             {LeaseKind::change_lane, "change_lane"},
+             {LeaseKind::drive_at, "drive_at"},
+             {LeaseKind::hold_green, "hold_green"},
+             {LeaseKind::hold_lane, "hold_lane"},
+             {LeaseKind::own_change_lane, "own_change_lane"},
+             {LeaseKind::pass_red, "pass_red"},
+             {LeaseKind::pull_aside, "pull_aside"},
+             {LeaseKind::stop_at_line, "stop_at_line"}}};
+}
+using core::name;
+LeaseKind kind_of(const Lease& lease);
+
 /// `drive_at`, `change_lane`, ...
 std::string_view name(const Action& action);
-
-/// Name under which changes of lane are counted that an emergency vehicle makes for itself.
-inline constexpr std::string_view own_change_lane = "own_change_lane";
-/// The name of the action, or `own_change_lane`: what others do for the emergency vehicle is one thing, which
-/// lane it chooses itself another.
-std::string_view counted_as(const Lease& lease);
 
 }  // namespace clearway::traffic

@@ -36,7 +36,7 @@ TEST(AdjustGreen, starts_no_phase_of_a_program_that_another_has_replaced) {
         if (held) {
             EXPECT_FALSE(restored[0].phase.has_value()) << "by way of all red";
         }
-        EXPECT_EQ(bench.counts("policy/adjust_green").refused.at("unknown_program"), 1U);
+        EXPECT_EQ(bench.counts(LeaseKind::adjust_green).refused.at(Refusal::unknown_program), 1U);
     }
 }
 

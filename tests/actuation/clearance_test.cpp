@@ -40,6 +40,28 @@ TEST(ClearanceOfRule, has_the_red_that_the_formulas_give_for_a_crossing) {
     EXPECT_NEAR(red_of_rule_s(ClearanceRule::rilsa, {12.0, 0.0}, {1.0, false, true}, 0.0), 10.0, 0.001);
 }
 
+TEST(Yellow, is_longer_on_a_slippery_road_by_the_braking_that_takes_longer) {
+    using actuation::detail::yellow_on_road_s;
+    EXPECT_DOUBLE_EQ(yellow_on_road_s(3.0, 1.0), 3.0);
+    EXPECT_DOUBLE_EQ(yellow_on_road_s(3.0, 0.5), 5.0) << "1 s of reaction, then 2 s / 0.5";
+    EXPECT_DOUBLE_EQ(yellow_on_road_s(5.0, 0.5), 9.0);
+    EXPECT_DOUBLE_EQ(yellow_on_road_s(5.0, 0.2), 10.0) << "nobody would believe a longer one";
+    EXPECT_DOUBLE_EQ(yellow_on_road_s(12.0, 0.2), 12.0);
+    EXPECT_DOUBLE_EQ(yellow_on_road_s(0.5, 0.2), 0.5);
+}
+
+TEST(Yellow, of_the_signals_own_program_is_longer_on_a_slippery_road_and_its_red_is_not) {
+    const roads::Signal& signal = two_crossings().signals()[0];
+    const Clearance dry({}, signal, two_crossings());
+    const Clearance wet({.friction = 0.5}, signal, two_crossings());
+    EXPECT_DOUBLE_EQ(dry.yellow_s(north[1]), 4.0) << "as the program shows";
+    for (std::uint16_t link = 0; link < signal.links.size(); ++link) {
+        EXPECT_DOUBLE_EQ(wet.yellow_s(link), 1.0 + (dry.yellow_s(link) - 1.0) / 0.5);
+        for (std::uint16_t other = 0; other < signal.links.size(); ++other)
+            EXPECT_DOUBLE_EQ(wet.red_s(link, other), dry.red_s(link, other));
+    }
+}
+
 TEST(LinkHistory, knows_since_when_a_link_is_green_or_red) {
     actuation::detail::LinkHistory history;
     history.watch("Gr", core::Seconds(0.0));
@@ -109,7 +131,7 @@ TEST_P(ConformingHold, is_never_entered_or_left_faster_than_program_and_rule_all
     config.all_red_s = 0.0;
     const std::vector<Shown> history = seesaw(config);
     const roads::Signal& signal = two_crossings().signal(signal_a);
-    const Clearance clearance(GetParam(), signal, two_crossings());
+    const Clearance clearance({.clearance = GetParam()}, signal, two_crossings());
     const auto link_count = static_cast<std::uint16_t>(signal.links.size());
     int yellows = 0;
     int openings = 0;
@@ -159,7 +181,7 @@ std::vector<double> openings_s(const actuation::ActuatorConfig& config) {
 TEST(ConformingHold, opens_each_link_when_those_that_conflict_with_it_are_clear) {
     const std::vector<double> opened_s = openings_s({.clearance = ClearanceRule::ite});
     const roads::Signal& signal = two_crossings().signal(signal_a);
-    const Clearance clearance(ClearanceRule::ite, signal, two_crossings());
+    const Clearance clearance({.clearance = ClearanceRule::ite}, signal, two_crossings());
     for (std::size_t row = 0; row < west.size(); ++row) {
         double needs_s = 0.0;
         for (std::uint16_t other = 0; other < signal.links.size(); ++other) {

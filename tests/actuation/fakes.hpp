@@ -14,6 +14,9 @@
 
 namespace clearway::testing {
 
+using traffic::LeaseKind;
+using traffic::Refusal;
+
 /// Vehicles that answer as the test tells them to.
 class FakeSelfKnowledge : public truth::SelfKnowledge {
   public:
@@ -55,6 +58,8 @@ inline const roads::Network& footway() {
 inline actuation::ActuatorConfig fixed_clearance() {
     actuation::ActuatorConfig config;
     config.clearance = actuation::ClearanceRule::fixed;
+    config.entry_green_s = 0.0;
+    config.walk_s = 0.0;
     return config;
 }
 
@@ -119,7 +124,9 @@ class ActuationBench {
         actuator.accept(std::vector{lease}, now);
     }
 
-    const actuation::LeaseCounts& counts(const std::string& key) const { return actuator.counts().at(key); }
+    const actuation::LeaseCounts& counts(LeaseKind kind, const char* policy = "policy") const {
+        return actuator.counts().at({policy, kind});
+    }
 
     template <class Kind>
     static std::vector<Kind> only(const std::vector<traffic::Command>& commands) {

@@ -49,8 +49,8 @@ Course course_of(const actuation::ActuatorConfig& config, double begins_s, doubl
     return course;
 }
 
-const std::map<std::string, std::uint64_t>& refusals_of(ActuationBench& bench) {
-    return bench.counts("policy/hold_green").refused;
+const std::map<Refusal, std::uint64_t>& refusals_of(ActuationBench& bench) {
+    return bench.counts(LeaseKind::hold_green).refused;
 }
 
 TEST(Preemption, that_is_off_grants_nothing) {
@@ -58,7 +58,7 @@ TEST(Preemption, that_is_off_grants_nothing) {
     EXPECT_LT(course_of(with({.enabled = 0}), 1.0, 30.0).left_s, 0.0);
     ActuationBench bench(0.25, with({.enabled = 0}));
     watch(bench, 5.0, hold_until(west, 5.0));
-    EXPECT_EQ(refusals_of(bench).at("preemption_off"), 1U);
+    EXPECT_EQ(refusals_of(bench).at(Refusal::preemption_off), 1U);
 }
 
 TEST(Preemption, of_one_signal_leaves_the_others_as_they_are) {

@@ -7,12 +7,8 @@
 namespace clearway::testing {
 namespace {
 
-using actuation::detail::all_red_state;
 using actuation::detail::best_phase;
 using actuation::detail::hold_state;
-using actuation::detail::needs_all_red;
-using actuation::detail::needs_yellow;
-using actuation::detail::yellow_state;
 
 /// Link 0 crosses 1 and 2; 1 and 2 go together; link 3 has no way in the network.
 roads::Signal small_signal() {
@@ -68,21 +64,6 @@ TEST(HoldState, takes_letters_of_conflicting_requests_from_the_phase_that_serves
     EXPECT_EQ(hold_state(signal, "GrrG", {1, 2}), "rGgr");
     signal.program.clear();
     EXPECT_EQ(hold_state(signal, "GrrG", {1, 2}), "rGgr");
-}
-
-TEST(Transition, shows_yellow_to_those_who_lose_green_and_keeps_the_others) {
-    EXPECT_EQ(yellow_state(small_signal(), "GGrr", "rGGr"), "yGrr");
-    EXPECT_EQ(yellow_state(small_signal(), "yrrr", "rGrr"), "yrrr");
-    EXPECT_EQ(all_red_state("GGrr", "rGGr"), "rGrr");
-}
-
-TEST(Transition, needs_no_stage_that_changes_nothing) {
-    EXPECT_FALSE(needs_yellow("rGgr", "rGgr"));
-    EXPECT_FALSE(needs_all_red("rGgr", "rGgr"));
-    EXPECT_TRUE(needs_yellow("GGrr", "rGrr"));
-    EXPECT_TRUE(needs_yellow("yGrr", "rGrr"));
-    EXPECT_TRUE(needs_all_red("rrrr", "rGrr"));
-    EXPECT_FALSE(needs_all_red("GGrr", "rGrr"));
 }
 
 TEST(BestPhase, serves_most_of_the_links) {

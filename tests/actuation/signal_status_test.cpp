@@ -17,7 +17,7 @@ TEST(SignalStatus, tells_stage_and_links_of_a_hold_from_its_call_to_the_return) 
     bench.offer(signal_a, traffic::HoldGreen{west, {13, 12}}, 8.0);
     std::vector<SignalStage> stages;
     std::vector<std::uint16_t> held_at_the_end = west;
-    while (bench.now.value < 40.0) {
+    while (bench.now.value < 600.0) {
         bench.step();
         const auto signals = bench.actuator.signals();
         if (signals.empty()) break;
@@ -33,7 +33,7 @@ TEST(SignalStatus, tells_stage_and_links_of_a_hold_from_its_call_to_the_return) 
     }
     EXPECT_EQ(stages, (std::vector<SignalStage>{SignalStage::transition, SignalStage::dwell,
                                                 SignalStage::transition, SignalStage::program}))
-        << "it stays listed while no other hold may begin";
+        << "it stays listed while no other hold may begin, or it may be out of step";
     EXPECT_TRUE(held_at_the_end.empty());
     EXPECT_TRUE(bench.actuator.signals().empty());
 }

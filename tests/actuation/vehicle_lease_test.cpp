@@ -30,8 +30,8 @@ TEST_P(VehicleLeases, set_a_speed_once_and_release_it_once_at_expiry) {
     EXPECT_EQ(bench.only<traffic::ReleaseSpeed>(commands).size(), 1U);
     EXPECT_EQ(commands.size(), 2U);
     EXPECT_EQ(bench.actuator.active(), 0U);
-    EXPECT_EQ(bench.counts("policy/drive_at").expired, 1U);
-    EXPECT_EQ(bench.counts("policy/drive_at").acted, 1U) << "once, however many steps it lasts";
+    EXPECT_EQ(bench.counts(LeaseKind::drive_at).expired, 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::drive_at).acted, 1U) << "once, however many steps it lasts";
 }
 
 TEST_P(VehicleLeases, renewed_in_time_are_not_released) {
@@ -42,8 +42,8 @@ TEST_P(VehicleLeases, renewed_in_time_are_not_released) {
         const auto commands = bench.run_until(second + 1.0);
         EXPECT_EQ(commands.size(), second == 0 ? 1U : 0U);
     }
-    EXPECT_EQ(bench.counts("policy/drive_at").issued, 1U);
-    EXPECT_EQ(bench.counts("policy/drive_at").renewed, 4U);
+    EXPECT_EQ(bench.counts(LeaseKind::drive_at).issued, 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::drive_at).renewed, 4U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Steps, VehicleLeases, ::testing::Values(0.1, 0.25, 1.0));
@@ -57,12 +57,12 @@ TEST(VehicleLease, that_could_never_be_carried_out_is_refused_with_its_reason) {
     bench.offer(vehicle, drive_at(5.0), 0.0);
     bench.offer(vehicle, traffic::HoldGreen{{0}});
     EXPECT_TRUE(bench.step().empty());
-    const auto& refused = bench.counts("policy/drive_at").refused;
-    EXPECT_EQ(refused.at("speed_not_finite"), 2U);
-    EXPECT_EQ(refused.at("speed_negative"), 1U);
-    EXPECT_EQ(bench.counts("policy/drive_at").acted, 0U);
-    EXPECT_EQ(refused.at("expired_on_arrival"), 1U);
-    EXPECT_EQ(bench.counts("policy/hold_green").refused.at("wrong_target"), 1U);
+    const auto& refused = bench.counts(LeaseKind::drive_at).refused;
+    EXPECT_EQ(refused.at(Refusal::speed_not_finite), 2U);
+    EXPECT_EQ(refused.at(Refusal::speed_negative), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::drive_at).acted, 0U);
+    EXPECT_EQ(refused.at(Refusal::expired_on_arrival), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::hold_green).refused.at(Refusal::wrong_target), 1U);
     EXPECT_EQ(bench.actuator.active(), 0U);
 }
 
@@ -81,8 +81,8 @@ TEST(VehicleLease, for_a_vehicle_that_commands_do_not_reach_is_refused_and_the_r
     const auto commands = bench.run_until(2.75);
     ASSERT_EQ(commands.size(), 1U);
     EXPECT_EQ(bench.only<traffic::ReleaseSpeed>(commands)[0].vehicle, far);
-    EXPECT_EQ(bench.counts("policy/drive_at").refused.at("unreachable"), 1U);
-    EXPECT_EQ(bench.counts("policy/drive_at").renewed, 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::drive_at).refused.at(Refusal::unreachable), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::drive_at).renewed, 1U);
 }
 
 TEST(VehicleLease, above_what_the_vehicle_may_drive_is_refused_and_never_reaches_it) {
@@ -90,7 +90,7 @@ TEST(VehicleLease, above_what_the_vehicle_may_drive_is_refused_and_never_reaches
     const auto vehicle = bench.add(automated("a"));
     bench.offer(vehicle, drive_at(16.7));
     EXPECT_TRUE(bench.step().empty());
-    EXPECT_EQ(bench.counts("policy/drive_at").refused.at("above_allowed_speed"), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::drive_at).refused.at(Refusal::above_allowed_speed), 1U);
 }
 
 TEST(VehicleLease, is_released_when_the_limit_falls_below_it) {
@@ -108,7 +108,7 @@ TEST(VehicleLease, for_a_human_driver_is_refused) {
     const auto vehicle = bench.add({"h", VehicleClass::human, {"west_A", "A_B"}, 0, 100.0, 10.0});
     bench.offer(vehicle, drive_at(5.0));
     EXPECT_TRUE(bench.step().empty());
-    EXPECT_EQ(bench.counts("policy/drive_at").refused.at("not_controllable"), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::drive_at).refused.at(Refusal::not_controllable), 1U);
 }
 
 TEST(VehicleLease, of_higher_priority_wins_and_the_other_follows_when_it_ends) {
@@ -120,7 +120,7 @@ TEST(VehicleLease, of_higher_priority_wins_and_the_other_follows_when_it_ends) {
     ASSERT_EQ(speeds.size(), 2U);
     EXPECT_DOUBLE_EQ(speeds[0].speed.value, 9.0);
     EXPECT_DOUBLE_EQ(speeds[1].speed.value, 5.0);
-    EXPECT_EQ(bench.counts("low/drive_at").refused.at("outranked"), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::drive_at, "low").refused.at(Refusal::outranked), 1U);
 }
 
 TEST(VehicleLease, of_equal_priority_yields_to_the_earlier) {
@@ -139,7 +139,7 @@ TEST(VehicleLease, of_a_vehicle_that_left_is_dropped_and_what_it_set_is_given_ba
     const auto state = bench.on_road.at(vehicle);
     bench.on_road.erase(vehicle);
     EXPECT_TRUE(bench.step().empty());
-    EXPECT_EQ(bench.counts("policy/drive_at").refused.at("vehicle_gone"), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::drive_at).refused.at(Refusal::vehicle_gone), 1U);
     EXPECT_EQ(bench.actuator.active(), 0U);
     bench.on_road[vehicle] = state;
     EXPECT_EQ(bench.only<traffic::ReleaseSpeed>(bench.step()).size(), 1U);
@@ -153,10 +153,10 @@ TEST(LaneLease, of_an_emergency_vehicle_for_itself_is_counted_apart) {
     bench.offer(one, traffic::ChangeLane{1}, 4.0, 0, "policy", one);
     bench.offer(other, traffic::ChangeLane{1}, 4.0, 0, "policy", one);
     bench.offer(other, traffic::ChangeLane{1}, 4.0, 0, "policy", one);
-    EXPECT_EQ(bench.counts("policy/own_change_lane").issued, 1U);
-    EXPECT_EQ(bench.counts("policy/own_change_lane").renewed, 0U);
-    EXPECT_EQ(bench.counts("policy/change_lane").issued, 1U);
-    EXPECT_EQ(bench.counts("policy/change_lane").renewed, 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::own_change_lane).issued, 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::own_change_lane).renewed, 0U);
+    EXPECT_EQ(bench.counts(LeaseKind::change_lane).issued, 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::change_lane).renewed, 1U);
 }
 
 TEST(LaneLease, requests_the_lane_only_when_there_is_room_and_tries_again) {
@@ -165,7 +165,7 @@ TEST(LaneLease, requests_the_lane_only_when_there_is_room_and_tries_again) {
     bench.self.room_beside = false;
     bench.offer(vehicle, traffic::ChangeLane{1}, 4.0);
     EXPECT_TRUE(bench.run_until(1.0).empty());
-    EXPECT_EQ(bench.counts("policy/change_lane").refused.at("no_room_beside"), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::change_lane).refused.at(Refusal::no_room_beside), 1U);
     bench.self.room_beside = true;
     const auto requests = bench.only<traffic::RequestLane>(bench.step());
     ASSERT_EQ(requests.size(), 1U);
@@ -179,7 +179,7 @@ TEST(LaneLease, into_a_lane_that_does_not_continue_is_refused_unless_it_is_long)
     bench.self.outlook[1] = {1, 300.0F, -1};
     bench.offer(vehicle, traffic::ChangeLane{1}, 4.0);
     EXPECT_TRUE(bench.step().empty());
-    EXPECT_EQ(bench.counts("policy/change_lane").refused.at("lane_does_not_continue"), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::change_lane).refused.at(Refusal::lane_does_not_continue), 1U);
     bench.self.outlook[1].drivable_m = 301.0F;
     EXPECT_EQ(bench.only<traffic::RequestLane>(bench.step()).size(), 1U);
 }
@@ -189,7 +189,7 @@ TEST(LaneLease, to_a_lane_that_does_not_exist_is_refused) {
     const auto vehicle = bench.add(automated("a"));
     bench.offer(vehicle, traffic::ChangeLane{2}, 4.0);
     EXPECT_TRUE(bench.step().empty());
-    EXPECT_EQ(bench.counts("policy/change_lane").refused.at("no_such_lane"), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::change_lane).refused.at(Refusal::no_such_lane), 1U);
 }
 
 TEST(LaneLease, ends_with_the_edge_it_was_meant_for) {
@@ -234,7 +234,7 @@ TEST(StopAtLineLease, that_needs_hard_braking_is_refused) {
     const auto vehicle = bench.add(automated("a", 480.0, 16.0));
     bench.offer(vehicle, traffic::StopAtLine{});
     EXPECT_TRUE(bench.step().empty());
-    EXPECT_EQ(bench.counts("policy/stop_at_line").refused.at("cannot_stop_comfortably"), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::stop_at_line).refused.at(Refusal::cannot_stop_comfortably), 1U);
 }
 
 TEST(StopAtLineLease, stops_the_vehicle_on_its_lane_before_the_line_until_it_ends) {
@@ -259,7 +259,7 @@ TEST(StopAtLineLease, on_a_lane_that_does_not_continue_is_refused) {
     bench.self.outlook[two_crossings().lane(bench.on_road[vehicle].lane).number] = {0, 200.0F, 1};
     bench.offer(vehicle, traffic::StopAtLine{});
     EXPECT_TRUE(bench.step().empty());
-    EXPECT_EQ(bench.counts("policy/stop_at_line").refused.at("lane_does_not_continue"), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::stop_at_line).refused.at(Refusal::lane_does_not_continue), 1U);
 }
 
 TEST(StopAtLineLease, counts_the_way_until_the_command_acts) {
@@ -300,7 +300,7 @@ TEST(PassRedLease, is_for_emergency_vehicles_only) {
     EXPECT_EQ(set[0].vehicle, emergency);
     EXPECT_EQ(set[0].privilege, traffic::JunctionPrivilege::pass_red);
     EXPECT_EQ(set[1].privilege, traffic::JunctionPrivilege::none);
-    EXPECT_EQ(bench.counts("policy/pass_red").refused.at("not_an_emergency_vehicle"), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::pass_red).refused.at(Refusal::not_an_emergency_vehicle), 1U);
 }
 
 TEST(PullAsideLease, keeps_to_an_edge_of_the_lane_in_the_sublane_model) {
@@ -329,9 +329,9 @@ TEST(PullAsideLease, stops_beside_the_road_without_the_sublane_model_and_returns
     EXPECT_TRUE(bench.run_until(4.75).empty());
     EXPECT_EQ(bench.only<traffic::ResumeFromStop>(bench.run_until(8.0)).size(), 1U);
     EXPECT_EQ(bench.actuator.active(), 0U);
-    EXPECT_EQ(bench.counts("policy/pull_aside").acted, 1U);
-    EXPECT_EQ(bench.counts("policy/pull_aside").expired, 1U);
-    EXPECT_TRUE(bench.counts("policy/pull_aside").refused.empty());
+    EXPECT_EQ(bench.counts(LeaseKind::pull_aside).acted, 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::pull_aside).expired, 1U);
+    EXPECT_TRUE(bench.counts(LeaseKind::pull_aside).refused.empty());
 }
 
 TEST(PullAsideLease, that_is_renewed_keeps_the_vehicle_beside_the_road) {
@@ -368,8 +368,8 @@ TEST(PullAsideLease, is_refused_on_a_junction_and_where_the_lane_is_too_short_to
     bench.offer(late, traffic::PullAside{});
     bench.offer(crossing, traffic::PullAside{});
     EXPECT_TRUE(bench.step().empty());
-    EXPECT_EQ(bench.counts("policy/pull_aside").refused.at("cannot_stop_comfortably"), 1U);
-    EXPECT_EQ(bench.counts("policy/pull_aside").refused.at("on_a_junction"), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::pull_aside).refused.at(Refusal::cannot_stop_comfortably), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::pull_aside).refused.at(Refusal::on_a_junction), 1U);
 }
 
 TEST(SafetyChecks, switched_off_are_off_for_controlled_vehicles_and_come_back_with_the_last_lease) {

@@ -169,14 +169,15 @@ TEST_F(SmallStudy, AddsLeasesUpByPartAndAction) {
     add_all();
     for (RunRecord& run : results_.runs) {
         if (run.key.condition == "treated")
-            run.leases = {{"p", "change_lane", 2, 0, 1, 1, {{"outranked", 1}}},
-                          {"p", "hold_green", 1, 0, 1, 1, {}}};
+            run.leases = {
+                {"p", traffic::LeaseKind::change_lane, 2, 0, 1, 1, {{traffic::Refusal::outranked, 1}}},
+                {"p", traffic::LeaseKind::hold_green, 1, 0, 1, 1, {}}};
     }
     const ScenarioSummary summary = scenario();
     ASSERT_TRUE(summary.find("treated")->leases);
     ASSERT_EQ(summary.find("treated")->leases->size(), 2U);
     EXPECT_EQ(summary.find("treated")->leases->front().issued, 8U);
-    EXPECT_EQ(summary.find("treated")->leases->front().refused.at("outranked"), 4U);
+    EXPECT_EQ(summary.find("treated")->leases->front().refused.at(traffic::Refusal::outranked), 4U);
     EXPECT_FALSE(summary.find("baseline")->leases) << "records without them tell nothing";
 }
 
@@ -185,11 +186,12 @@ TEST_F(SmallStudy, TellsPartsThatNeverActFromThoseThatMoveTheEmergencyVehicleAlo
     add_all();
     for (RunRecord& run : results_.runs) {
         if (run.key.condition != "treated") continue;
-        run.leases = {{"vacate_lane", "own_change_lane", 3, 0, 2, 1, {}},
-                      {"vacate_lane", "change_lane", 5, 0, run.key.replication == 0 ? 1U : 0U, 4, {}},
-                      {"pull_aside", "pull_aside", 2, 0, 0, 2, {}},
-                      {"geocast", "own_change_lane", 2, 0, 1, 1, {}},
-                      {"geocast", "pull_aside", 2, 0, 1, 1, {}}};
+        run.leases = {
+            {"vacate_lane", traffic::LeaseKind::own_change_lane, 3, 0, 2, 1, {}},
+            {"vacate_lane", traffic::LeaseKind::change_lane, 5, 0, run.key.replication == 0 ? 1U : 0U, 4, {}},
+            {"pull_aside", traffic::LeaseKind::pull_aside, 2, 0, 0, 2, {}},
+            {"geocast", traffic::LeaseKind::own_change_lane, 2, 0, 1, 1, {}},
+            {"geocast", traffic::LeaseKind::pull_aside, 2, 0, 1, 1, {}}};
     }
     const std::vector<IdlePart> parts = scenario().find("treated")->idle_parts;
     ASSERT_EQ(parts.size(), 2U);

@@ -56,7 +56,7 @@ class Golden : public testing::Test {
             add(vehicle);
         }
         for (const metrics::LeaseRow& lease : record.leases.value()) {
-            all.push_back({lease.policy, lease.action, lease.refused});
+            all.push_back({lease.policy, name(lease.action), lease.refused_words()});
             add(lease);
         }
         const auto events = folder.store().read_signal_events(record.key);

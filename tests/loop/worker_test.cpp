@@ -121,7 +121,7 @@ TEST(Worker, LetsEmergencyVehiclesInWhereThereIsNoSignalAndOnlyWhereVehiclesHear
     std::uint64_t stops = 0;
     const results::RunRecord asked = record_of(folder, "city", "asking");
     for (const metrics::LeaseRow& row : asked.leases.value()) {
-        if (row.action == "stop_at_line") stops += row.acted;
+        if (row.action == traffic::LeaseKind::stop_at_line) stops += row.acted;
     }
     EXPECT_GT(stops, 0U);
     EXPECT_EQ(asked.metrics.emergency_arrived, asked.metrics.emergency_count);
@@ -131,7 +131,7 @@ TEST(Worker, LetsEmergencyVehiclesInWhereThereIsNoSignalAndOnlyWhereVehiclesHear
     EXPECT_NE(trace("asking"), trace("baseline"));
     const results::RunRecord unheard = record_of(folder, "city", "deaf");
     for (const metrics::LeaseRow& row : unheard.leases.value())
-        EXPECT_EQ(row.acted, 0U) << row.action;
+        EXPECT_EQ(row.acted, 0U) << name(row.action);
 }
 
 TEST(Worker, MeetsPedestriansAlikeInEveryConditionAndHitsNoMoreOfThem) {

@@ -90,5 +90,31 @@ TEST(GapSearch, does_not_take_the_own_vehicle_for_traffic_where_others_believe_i
     EXPECT_EQ(gap->shift_m, 0.0);
 }
 
+/// The lane that an automated vehicle on the middle one of three is to take.
+std::optional<std::uint32_t> way_out(const char* upper, const char* lower) {
+    const support::Scene scene(fmt::format(R"(
+        10 m per cell, limit 20 m/s, speed 10 m/s
+        {}
+        ...a...............
+        {}
+    )",
+                                           upper, lower));
+    const traffic::BelievedGraph belief = support::perfect_belief(scene);
+    std::vector<policy::detail::VehicleAhead> others;
+    for (const traffic::BelievedVehicle& vehicle : belief.vehicles)
+        others.push_back({&vehicle, 0.0});
+    constexpr double side_room_m = 15.0;
+    return policy::detail::View(scene.network(), belief)
+        .way_out(*belief.find(scene.key("a1")), others, side_room_m);
+}
+
+TEST(WayOut, is_the_neighbouring_lane_with_fewer_vehicles_alongside_and_the_outer_one_if_equal) {
+    EXPECT_EQ(way_out("...................", "..................."), 0U);
+    EXPECT_EQ(way_out("...h...............", "...h..............."), 0U) << "a tie";
+    EXPECT_EQ(way_out("...................", "..h................"), 2U);
+    EXPECT_EQ(way_out("..h................", "...hh.............."), 2U);
+    EXPECT_EQ(way_out("..h................", ".h...h............."), 0U) << "20 m away is not alongside";
+}
+
 }  // namespace
 }  // namespace clearway::testing

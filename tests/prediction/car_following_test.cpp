@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 /// A scene whose vehicles all report at first; afterwards one of them is dark.
 class Outage {
   public:
-    explicit Outage(const char* drawing, const core::Settings& settings = {},
+    explicit Outage(const std::string& drawing, const core::Settings& settings = {},
                     const char* predictor = "car_following")
         : scene_(drawing), predictor_(make_predictor(predictor, {scene_.network(), {}, "", {}}, settings)) {
         see();
@@ -262,6 +262,26 @@ TEST(CarFollowing, EstimatesWhatADriverShowed) {
     }
     EXPECT_LT(place_m[0], 185.0F) << "24 m/s is above the limit, to which it slows down";
     EXPECT_NEAR(place_m[1], 8.0F * 24.0F, 3.0F);
+}
+
+/// How far a driver is believed to get in 8 s in the dark, who was seen at one speed for half a minute, m.
+float believed_way_m(int speed_mps, const char* estimate) {
+    Outage outage("10 m per cell, limit 20 m/s, speed " + std::to_string(speed_mps) + " m/s\na" +
+                      std::string(79, '.'),
+                  {{"estimate", estimate}});
+    for (int second = 0; second < 30; ++second) {
+        outage.scene().pass(core::Seconds(1.0));
+        outage.see();
+    }
+    const float seen_m = outage.x_m("a1");
+    outage.pass(8.0, "a1");
+    return outage.believed("a1").x_m - seen_m;
+}
+
+TEST(CarFollowing, EstimatesThatADriverWantsNoMoreOnlyFromOneThatIsSteadyAndNotFarBelowTheLimit) {
+    EXPECT_GT(believed_way_m(17, "0"), 145.0F) << "speeds up to the limit";
+    EXPECT_NEAR(believed_way_m(17, "1"), 8.0F * 17.0F, 5.0F) << "85 % of the limit is what it wants";
+    EXPECT_EQ(believed_way_m(12, "1"), believed_way_m(12, "0")) << "60 % may be owed to the traffic";
 }
 
 TEST(CarFollowing, RefusesSettingsOutOfRange) {

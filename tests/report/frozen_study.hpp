@@ -162,9 +162,16 @@ class FrozenStudy {
         numbers.leases_issued = condition.policies.empty() ? 0 : 40 + key.replication;
         numbers.leases_refused = condition.policies.empty() ? 0 : key.replication;
         if (key.condition == "helps")
-            run.leases = {{"corridor", "change_lane", 30, 4, 21, 20, {{"no_room_beside", 9}}},
+            run.leases = {{"corridor",
+                           traffic::LeaseKind::change_lane,
+                           30,
+                           4,
+                           21,
+                           20,
+                           {{traffic::Refusal::no_room_beside, 9}}},
                           {"corridor", "hold_green", 10, 90, 10, 10, {}}};
-        if (key.condition == "hardly") run.leases = {{"dissertation<i>", "hold_green", 40, 0, 40, 40, {}}};
+        if (key.condition == "hardly")
+            run.leases = {{"dissertation<i>", traffic::LeaseKind::hold_green, 40, 0, 40, 40, {}}};
         if (condition.traffic_model != experiment::TrafficModel::free_flow && key.scenario == "crossing")
             add_traffic(key, run.traffic);
         store_.write(run, {});

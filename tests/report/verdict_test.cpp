@@ -188,10 +188,16 @@ TEST(LeaseSentence, names_lane_changes_even_where_none_was_asked) {
     condition.condition.policies = {"corridor"};
     condition.leases.emplace();
     EXPECT_EQ(lease_sentence(condition), "asked 0 vehicles to change lanes");
-    condition.leases->push_back({"corridor", "change_lane", 1200, 5, 800, 900, {{"a", 1}, {"no_room", 400}}});
+    condition.leases->push_back({"corridor",
+                                 traffic::LeaseKind::change_lane,
+                                 1200,
+                                 5,
+                                 800,
+                                 900,
+                                 {{traffic::Refusal::lockout, 1}, {traffic::Refusal::no_room_beside, 400}}});
     EXPECT_EQ(lease_sentence(condition),
               "corridor: asked a vehicle to change lanes 1,200 times, 800 carried "
-              "out, refused at some time: no_room 400, a 1");
+              "out, refused at some time: no_room_beside 400, lockout 1");
     condition.leases.reset();
     EXPECT_THAT(lease_sentence(condition), HasSubstr("older version"));
 }

@@ -1,6 +1,7 @@
 #include "actuation/detail/background_plan.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -23,6 +24,7 @@ constexpr double neighbour_m = 800.0;
 
 /// From the start of a phase in which a link is green until it loses green, s; at most one cycle.
 double green_from_s(const roads::Signal& signal, std::uint16_t link, std::uint32_t phase) {
+    assert(phase < signal.program.size());
     double green_s = 0.0;
     const std::size_t rows = signal.program.size();
     for (std::size_t row = phase; row < phase + rows && is_green_for(signal.program[row % rows].state, link);
@@ -156,6 +158,7 @@ double BackgroundPlan::least_s(std::uint32_t phase, core::Seconds least_green) c
 }
 
 double BackgroundPlan::lag_s(std::uint32_t phase, core::Seconds now) const {
+    assert(phase < signal_.program.size() && cycle_s_ > 0.0);
     double starts_s = signal_.offset_s;
     for (std::uint32_t row = 0; row < phase; ++row)
         starts_s += signal_.program[row].duration_s;

@@ -1,6 +1,7 @@
 #include "actuation/detail/clearance.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "actuation/detail/ways.hpp"
 
@@ -17,11 +18,11 @@ double turning_speed_mps(const LeavingTraffic& leaving) {
     return leaving.turns ? 7.0 : 10.0;
 }
 
-double speed_limit_mps(const std::vector<roads::SignalLink>& ways, const roads::Network& network) {
-    double limit_mps = 0.0;
+double limit_mps(const std::vector<roads::SignalLink>& ways, const roads::Network& network) {
+    double highest_mps = 0.0;
     for (const roads::SignalLink& way : ways)
-        limit_mps = std::max<double>(limit_mps, network.lane(way.from).speed_limit_mps);
-    return limit_mps;
+        highest_mps = std::max<double>(highest_mps, network.lane(way.from).speed_limit_mps);
+    return highest_mps;
 }
 
 /// A link that loses green.
@@ -55,6 +56,7 @@ double least_red_s(ClearanceRule rule, const Leaving& leaving,
 }  // namespace
 
 double yellow_of_rule_s(ClearanceRule rule, double speed_limit_mps) {
+    assert(rule != ClearanceRule::fixed && speed_limit_mps >= 0.0);
     const double speed_kmh = speed_limit_mps * kmh_per_mps;
     if (rule == ClearanceRule::rilsa) {
         constexpr double rounding_kmh = 0.1;
@@ -67,6 +69,7 @@ double yellow_of_rule_s(ClearanceRule rule, double speed_limit_mps) {
 
 double red_of_rule_s(ClearanceRule rule, const Crossing& crossing, const LeavingTraffic& leaving,
                      double yellow_s) {
+    assert(rule != ClearanceRule::fixed);
     if (leaving.on_foot) return crossing.leaving_m / (rule == ClearanceRule::ite ? 1.07 : 1.2);
     if (rule == ClearanceRule::ite) {
         constexpr double vehicle_m = 6.1;
@@ -80,20 +83,35 @@ double red_of_rule_s(ClearanceRule rule, const Crossing& crossing, const Leaving
     return std::max(0.0, intergreen_s - yellow_s);
 }
 
-Clearance::Clearance(ClearanceRule rule, const roads::Signal& signal, const roads::Network& network,
+double yellow_on_road_s(double dry_s, double friction) {
+    assert(friction > 0.0 && friction <= 1.0);
+    constexpr double reaction_s = 1.0;
+    constexpr double longest_s = 10.0;
+    if (dry_s <= reaction_s) return dry_s;
+    return std::max(dry_s, std::min(longest_s, reaction_s + (dry_s - reaction_s) / friction));
+}
+
+Clearance::Clearance(const ActuatorConfig& config, const roads::Signal& signal, const roads::Network& network,
                      std::optional<double> on_foot_s) {
+    const ClearanceRule rule = config.clearance;
+    const bool is_fixed = rule == ClearanceRule::fixed;
     const std::vector<roads::OwnClearance> own = roads::own_clearances(signal);
     const std::size_t count = signal.links.size();
     red_s_.assign(count, std::vector<double>(count, 0.0));
     for (std::size_t link = 0; link < count; ++link) {
         const bool on_foot = signal.crossings[link];
         const double shown_s = own[link].yellow_s;
-        const double limit_mps = speed_limit_mps(signal.links[link], network);
-        yellow_s_.push_back(on_foot ? 0.0 : shown_s > 0.0 ? shown_s : yellow_of_rule_s(rule, limit_mps));
+        const double ruled_s = is_fixed ? config.yellow_s
+                               : shown_s > 0.0
+                                   ? shown_s
+                                   : yellow_of_rule_s(rule, limit_mps(signal.links[link], network));
+        yellow_s_.push_back(on_foot ? 0.0
+                                    : yellow_on_road_s(std::max(config.yellow_s, ruled_s), config.friction));
         for (std::size_t other = 0; other < count; ++other) {
             if (!signal.foes[link][other]) continue;
-            const Leaving leaving{network, signal.links[link], on_foot, yellow_s_[link]};
-            red_s_[link][other] = on_foot && on_foot_s    ? std::max(*on_foot_s, own[link].red_s)
+            const Leaving leaving{network, signal.links[link], on_foot, ruled_s};
+            red_s_[link][other] = is_fixed                ? config.all_red_s
+                                  : on_foot && on_foot_s  ? std::max(*on_foot_s, own[link].red_s)
                                   : own[link].red_s > 0.0 ? own[link].red_s
                                                           : least_red_s(rule, leaving, signal.links[other]);
         }

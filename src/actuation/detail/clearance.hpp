@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "actuation/clearance_rule.hpp"
+#include "actuation/actuator_config.hpp"
 #include "roads/network.hpp"
 #include "roads/own_clearance.hpp"
 
@@ -38,13 +38,19 @@ struct LeavingTraffic {
 double red_of_rule_s(ClearanceRule rule, const Crossing& crossing, const LeavingTraffic& leaving,
                      double yellow_s);
 
-/// Least yellow and red clearance of one signal by a rule other than `fixed`: what its own program shows of a
-/// link, and where that shows none, what the rule gives for the geometry of the crossing.
+/// Yellow on a road with this share of a dry road's grip, s. It lets a driver react and then brake, which
+/// takes longer on a slippery road (ITE's rule: 1 s of reaction + speed / (2 deceleration)); at most 10 s.
+double yellow_on_road_s(double dry_s, double friction);
+
+/// Yellow and red clearance of one signal: what its own program shows of a link, and where that shows none,
+/// what the rule gives for the geometry of the crossing; with the rule `fixed`, the times of the
+/// configuration for every link. A yellow is longer on a slippery road, whoever set it; red is not, because
+/// who leaves the junction does not brake.
 class Clearance {
   public:
     /// `on_foot_s`: red of a crossing that the controller has set, instead of the rule's; never less than the
     /// program's.
-    Clearance(ClearanceRule rule, const roads::Signal& signal, const roads::Network& network,
+    Clearance(const ActuatorConfig& config, const roads::Signal& signal, const roads::Network& network,
               std::optional<double> on_foot_s = std::nullopt);
 
     /// For a link that loses green, s; 0 for crossings on foot, which have no yellow.

@@ -1,6 +1,7 @@
 #include "actuation/detail/lease_queue.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <string_view>
 
 namespace clearway::actuation::detail {
@@ -15,14 +16,8 @@ bool same_links(const traffic::Action& one, const traffic::Action& other) {
 
 }  // namespace
 
-LeaseCounts& Ledger::of(const traffic::Lease& lease) {
-    std::string key(lease.policy);
-    key += '/';
-    key += traffic::counted_as(lease);
-    return counts_[key];
-}
-
 void LeaseQueue::offer(const traffic::Lease& lease, Ledger& ledger) {
+    assert(*lease.policy != '\0');
     const auto same = std::ranges::find_if(held_, [&](const HeldLease& held) {
         return held.lease.beneficiary == lease.beneficiary &&
                std::string_view(held.lease.policy) == lease.policy;
@@ -42,6 +37,7 @@ void LeaseQueue::offer(const traffic::Lease& lease, Ledger& ledger) {
         ++counts.issued;
         held_.push_back({lease, core::EdgeIndex::none(), core::EdgeIndex::none(), {}});
     }
+    assert(held_.front().lease.target == lease.target);
     // Stable: at equal priority the earlier lease stays first.
     held_.sort([](const HeldLease& left, const HeldLease& right) {
         return left.lease.priority > right.lease.priority;
@@ -56,10 +52,8 @@ void LeaseQueue::expire(core::Seconds now, Ledger& ledger) {
     });
 }
 
-void LeaseQueue::refuse(HeldLease& held, const char* reason, Ledger& ledger) {
-    const auto known = std::ranges::find_if(
-        held.counted_refusals, [&](const char* counted) { return std::string_view(counted) == reason; });
-    if (known != held.counted_refusals.end()) return;
+void LeaseQueue::refuse(HeldLease& held, traffic::Refusal reason, Ledger& ledger) {
+    if (std::ranges::find(held.counted_refusals, reason) != held.counted_refusals.end()) return;
     held.counted_refusals.push_back(reason);
     ++ledger.of(held.lease).refused[reason];
 }
@@ -70,13 +64,14 @@ void LeaseQueue::act(HeldLease& held, Ledger& ledger) {
     ++ledger.of(held.lease).acted;
 }
 
-void LeaseQueue::drop_all(const char* reason, Ledger& ledger) {
+void LeaseQueue::drop_all(traffic::Refusal reason, Ledger& ledger) {
     for (HeldLease& held : held_)
         refuse(held, reason, ledger);
     held_.clear();
 }
 
 void LeaseQueue::end_best(Ledger& ledger) {
+    assert(!held_.empty());
     ++ledger.of(held_.front().lease).expired;
     held_.pop_front();
 }

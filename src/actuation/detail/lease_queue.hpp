@@ -14,14 +14,14 @@
 
 namespace clearway::actuation::detail {
 
-/// Counts of a run by `policy/action`.
+/// Counts of a run.
 class Ledger {
   public:
-    LeaseCounts& of(const traffic::Lease& lease);
-    const std::map<std::string, LeaseCounts>& counts() const { return counts_; }
+    LeaseCounts& of(const traffic::Lease& lease) { return counts_[{lease.policy, traffic::kind_of(lease)}]; }
+    const LeaseLedger& counts() const { return counts_; }
 
   private:
-    std::map<std::string, LeaseCounts> counts_;
+    LeaseLedger counts_;
 };
 
 /// A lease in force.
@@ -31,7 +31,7 @@ struct HeldLease {
     /// meaning on other edges.
     core::EdgeIndex edge;
     core::EdgeIndex granted_on;  ///< Edge on which a stop was found feasible; it stays so there.
-    std::vector<const char*> counted_refusals;  ///< Each reason is counted once per lease.
+    std::vector<traffic::Refusal> counted_refusals;  ///< Each reason is counted once per lease.
     bool counted_act = false;
     bool served = false;                                ///< A hold that is carried out or in transition.
     std::optional<core::Seconds> since = std::nullopt;  ///< When it was first judged.
@@ -45,11 +45,11 @@ class LeaseQueue {
     /// Ends the leases that have expired.
     void expire(core::Seconds now, Ledger& ledger);
     /// Counts a refusal, once per lease and reason. The lease stays and is judged again.
-    static void refuse(HeldLease& held, const char* reason, Ledger& ledger);
+    static void refuse(HeldLease& held, traffic::Refusal reason, Ledger& ledger);
     /// Counts that a lease is carried out, once per lease.
     static void act(HeldLease& held, Ledger& ledger);
     /// Counts a refusal and ends all leases.
-    void drop_all(const char* reason, Ledger& ledger);
+    void drop_all(traffic::Refusal reason, Ledger& ledger);
     /// Ends the best lease without counting a refusal: what it asked for is over.
     void end_best(Ledger& ledger);
     void clear() { held_.clear(); }

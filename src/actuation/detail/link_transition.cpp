@@ -1,6 +1,7 @@
 #include "actuation/detail/link_transition.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "actuation/detail/lease_queue.hpp"
 #include "traffic/signal.hpp"
@@ -9,6 +10,8 @@ namespace clearway::actuation::detail {
 
 void LinkTransition::begin(const std::string& shown, const std::string& target, const Links& gaining,
                            core::Seconds now) {
+    assert(shown.size() == target.size());
+    assert(target.size() >= signal_.links.size());
     target_ = target;
     gaining_ = gaining;
     since_ = now;
@@ -18,6 +21,7 @@ void LinkTransition::begin(const std::string& shown, const std::string& target, 
 }
 
 bool LinkTransition::keeps(std::uint16_t link) const {
+    assert(link < target_.size() && link < yields_.size());
     return traffic::is_green(target_[link]) && !yields_[link];
 }
 
@@ -74,6 +78,7 @@ char LinkTransition::next_letter(std::uint16_t link, const std::string& shown,
 }
 
 std::string LinkTransition::next_state(const std::string& shown, const TransitionContext& around) const {
+    assert(shown.size() == target_.size());
     std::string state = shown;
     for (std::size_t link = 0; link < shown.size(); ++link)
         state[link] = next_letter(static_cast<std::uint16_t>(link), shown, around);

@@ -1,6 +1,7 @@
 #include "actuation/detail/signal_control.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <functional>
 #include <utility>
 
@@ -9,6 +10,8 @@
 
 namespace clearway::actuation::detail {
 namespace {
+
+using traffic::Refusal;
 
 /// Upper bound on a cycle, s: a program that never changes has none.
 constexpr double longest_cycle_s = 180.0;
@@ -34,6 +37,8 @@ SignalControl::SignalControl(core::SignalIndex index, const roads::Network& netw
       inner_lanes_(signal_.links.size()),
       transition_(signal_),
       own_(signal_, keeps_step(index, network)) {
+    assert(signal_.foes.size() == signal_.links.size());
+    assert(signal_.crossings.size() == signal_.links.size());
     for (std::size_t link = 0; link < signal_.links.size(); ++link) {
         for (const roads::SignalLink& way : signal_.links[link]) {
             if (!way.via.exists()) continue;  // a crossing for people on foot
@@ -44,6 +49,7 @@ SignalControl::SignalControl(core::SignalIndex index, const roads::Network& netw
 }
 
 void SignalControl::offer(const traffic::Lease& lease, Ledger& ledger) {
+    assert(lease.target == traffic::Target(index_));
     const bool is_hold = std::holds_alternative<traffic::HoldGreen>(lease.action);
     (is_hold ? holds_ : adjustments_).offer(lease, ledger);
 }
@@ -93,13 +99,13 @@ traffic::RequestStatus SignalControl::status_of(const HeldLease& held, core::Sec
 Links SignalControl::requested(const SignalContext& around, Ledger& ledger) {
     std::vector<HeldLease*> order;
     for (HeldLease& held : holds_.all()) {
-        const char* const reason = reason_to_wait(held, around);
-        if (reason == nullptr) {
+        const auto reason = reason_to_wait(held, around);
+        if (!reason) {
             order.push_back(&held);
             continue;
         }
         held.served = false;
-        LeaseQueue::refuse(held, reason, ledger);
+        LeaseQueue::refuse(held, *reason, ledger);
     }
     std::ranges::stable_sort(order, std::greater{}, [](const HeldLease* held) {
         return std::pair(held->lease.priority, held->served);
@@ -114,7 +120,7 @@ Links SignalControl::requested(const SignalContext& around, Ledger& ledger) {
         held->served = links.empty() || !conflict(signal_, asked.links, links) ||
                        (!conflict(signal_, asked_own, own) && a_phase_serves(signal_, both, both_own));
         if (!held->served) {
-            LeaseQueue::refuse(*held, "outranked", ledger);
+            LeaseQueue::refuse(*held, Refusal::outranked, ledger);
             continue;
         }
         LeaseQueue::act(*held, ledger);
@@ -124,13 +130,14 @@ Links SignalControl::requested(const SignalContext& around, Ledger& ledger) {
     return links;
 }
 
-/// Why the controller does not grant a request now, or null.
-const char* SignalControl::reason_to_wait(HeldLease& held, const SignalContext& around) const {
+/// Why the controller does not grant a request now.
+std::optional<Refusal> SignalControl::reason_to_wait(HeldLease& held, const SignalContext& around) const {
     if (!held.since) held.since = around.now;
-    if (!around.timing.enabled) return "preemption_off";
-    if (held.lease.priority < around.timing.least_priority) return "priority";
+    if (!around.timing.enabled) return Refusal::preemption_off;
+    if (held.lease.priority < around.timing.least_priority) return Refusal::priority;
     const double waited_s = (around.now - *held.since).value;
-    return waited_s < around.timing.delay_s - time_tolerance_s ? "preemption_delay" : nullptr;
+    if (waited_s < around.timing.delay_s - time_tolerance_s) return Refusal::preemption_delay;
+    return std::nullopt;
 }
 
 /// Whether a hold without a request must go on: it is shorter than its least duration or dwell.
@@ -154,7 +161,7 @@ Links SignalControl::allowed_now(const SignalContext& around, Ledger& ledger) {
     }
     for (HeldLease& held : holds_.all()) {
         held.served = false;
-        LeaseQueue::refuse(held, capped_ ? "hold_cap" : "lockout", ledger);
+        LeaseQueue::refuse(held, capped_ ? Refusal::hold_cap : Refusal::lockout, ledger);
     }
     return {};
 }
@@ -164,8 +171,8 @@ void SignalControl::step(const SignalContext& around, Ledger& ledger,
     holds_.expire(around.now, ledger);
     adjustments_.expire(around.now, ledger);
     if (around.state.empty() || around.state.size() < signal_.links.size()) {
-        holds_.drop_all("signal_gone", ledger);
-        adjustments_.drop_all("signal_gone", ledger);
+        holds_.drop_all(Refusal::signal_gone, ledger);
+        adjustments_.drop_all(Refusal::signal_gone, ledger);
         stage_ = Stage::background_plan;
         return;
     }
@@ -191,7 +198,7 @@ void SignalControl::step(const SignalContext& around, Ledger& ledger,
         // A lease that joins or leaves does not restart the hold of one that is stuck.
         if (in_program || (!overlap(links, last_held_) && conflict(signal_, links, last_held_)))
             taken_since_ = around.now;
-        begin(std::move(way), around, commands);
+        begin(std::move(way), around);
     }
     proceed(around, commands);
 }
@@ -225,10 +232,9 @@ double SignalControl::owed_green_s(std::uint16_t link, std::optional<std::uint32
 
 /// Whether a link that would lose green has not had the least that it is owed.
 bool SignalControl::owes_green(const std::string& target, const SignalContext& around) const {
-    if (around.duties == nullptr) return false;
     const auto phase = green_phase(signal_, around.state);
     return std::ranges::any_of(losing_links(around.state, target), [&](std::uint16_t link) {
-        return link < signal_.links.size() && around.duties->history.green_s(link, around.now) <
+        return link < signal_.links.size() && around.duties.history.green_s(link, around.now) <
                                                   owed_green_s(link, phase, around.timing) - time_tolerance_s;
     });
 }
@@ -253,7 +259,7 @@ void SignalControl::run_background_plan(const SignalContext& around, Ledger& led
     if (!next || serves_any(around.state, std::get<traffic::AdjustGreen>(adjustment->lease.action).links))
         return;
     if (waits_for_gap(signal_.program[*next].state, around)) return;
-    if (!knows_program(around)) return LeaseQueue::refuse(*adjustment, "unknown_program", ledger);
+    if (!knows_program(around)) return LeaseQueue::refuse(*adjustment, Refusal::unknown_program, ledger);
     commands.push_back(traffic::RestoreProgram{index_, next, first_duration(*next, around.timing)});
     LeaseQueue::act(*adjustment, ledger);
     own_.disturb(around.now);
@@ -278,9 +284,9 @@ std::optional<std::uint32_t> SignalControl::phase_after_hold(const SignalTiming&
         LeaseQueue::act(*adjustment, ledger);
     else
         LeaseQueue::refuse(*adjustment,
-                           !program_known_ ? "unknown_program"
-                           : asked         ? "exit_phase"
-                                           : "no_phase_serves",
+                           !program_known_ ? Refusal::unknown_program
+                           : asked         ? Refusal::exit_phase
+                                           : Refusal::no_phase_serves,
                            ledger);
     return phase;
 }
@@ -288,7 +294,7 @@ std::optional<std::uint32_t> SignalControl::phase_after_hold(const SignalTiming&
 SignalControl::Way SignalControl::plan_return(const SignalContext& around, Ledger& ledger) {
     Way way;
     way.return_phase = phase_after_hold(around.timing, ledger);
-    if (!way.return_phase && around.duties != nullptr && program_known_) {
+    if (!way.return_phase && program_known_) {
         way.return_phase =
             own_.resume(owed_by(around.timing), core::Seconds(around.timing.least_green_s), around.now);
         way.in_turn = way.return_phase.has_value();
@@ -302,22 +308,12 @@ SignalControl::Way SignalControl::plan_return(const SignalContext& around, Ledge
     return way;
 }
 
-void SignalControl::begin(Way way, const SignalContext& around, std::vector<traffic::Command>& commands) {
+void SignalControl::begin(Way way, const SignalContext& around) {
+    assert(way.target.size() == shown_.size());
     way_ = std::move(way);
     if (!way_.links.empty()) last_held_ = way_.links;
-    if (around.duties != nullptr) {
-        transition_.begin(shown_, way_.target, way_.gaining, around.now);
-        if (stage_ == Stage::hold) stage_ = Stage::all_red;
-        return;
-    }
-    const std::string& target = way_.target;
-    const bool to_unknown = way_.links.empty() && !way_.return_phase;
-    if (needs_yellow(shown_, target))
-        enter(Stage::yellow, yellow_state(signal_, shown_, target), around.now, commands);
-    else if (to_unknown || needs_all_red(shown_, target) || !is_left_by_pedestrians(around))
-        enter(Stage::all_red, all_red_state(shown_, target), around.now, commands);
-    else
-        enter(Stage::hold, target, around.now, commands);
+    transition_.begin(shown_, way_.target, way_.gaining, around.now);
+    if (stage_ == Stage::hold) stage_ = Stage::transition;
 }
 
 void SignalControl::enter(Stage stage, const std::string& state, core::Seconds now,
@@ -330,52 +326,9 @@ void SignalControl::enter(Stage stage, const std::string& state, core::Seconds n
     shown_ = state;
 }
 
-/// Whether all ways that have lost green, or must yield from now on, are free where those of `gaining` cross
-/// them.
-template <class IsBusy>
-bool SignalControl::is_clear(const Links& gaining, IsBusy&& is_busy) const {
-    for (std::uint16_t link = 0; link < link_count(); ++link) {
-        const bool yields = shown_[link] == 'G' && way_.target[link] == 'g';
-        const bool keeps = !yields && traffic::is_green(way_.target[link]);
-        if (keeps || !conflict(signal_, {link}, gaining)) continue;
-        if (is_busy(link)) return false;
-    }
-    return true;
-}
-
-bool SignalControl::is_left_by_vehicles(const Links& gaining, const SignalContext& around) const {
-    return is_clear(gaining, [&](std::uint16_t link) {
-        return std::ranges::any_of(inner_lanes_[link], [&](core::LaneIndex lane) {
-            return std::ranges::binary_search(around.occupied, lane);
-        });
-    });
-}
-
-bool SignalControl::is_left_by_pedestrians(const SignalContext& around) const {
-    return around.timing.walking_s <= 0.0 || is_clear(way_.gaining, [&](std::uint16_t link) {
-               return signal_.crossings[link] &&
-                      std::ranges::any_of(signal_.links[link], [&](const roads::SignalLink& way) {
-                          return around.self.has_pedestrian(way.to);
-                      });
-           });
-}
-
-/// Whether the junction is clear for the links that get green, or they have waited long enough. Pedestrians
-/// wait longer for vehicles than vehicles do.
-bool SignalControl::may_open(const SignalContext& around) const {
-    const double red_s = (around.now - stage_since_).value - around.timing.all_red_s + time_tolerance_s;
-    if (red_s < 0.0) return false;
-    Links walking;
-    std::ranges::copy_if(way_.gaining, std::back_inserter(walking), [&](std::uint16_t link) {
-        return link < signal_.crossings.size() && signal_.crossings[link];
-    });
-    return (red_s >= around.timing.clearing_s || is_left_by_vehicles(way_.gaining, around)) &&
-           (red_s >= around.timing.walking_s ||
-            (is_left_by_pedestrians(around) && is_left_by_vehicles(walking, around)));
-}
-
-/// Where there are duties. What becomes red in this step may make room for what opens in it.
+/// What becomes red in this step may make room for what opens in it.
 void SignalControl::clear_link_by_link(const SignalContext& around, std::vector<traffic::Command>& commands) {
+    assert(shown_.size() == way_.target.size());
     const std::function<bool(std::uint16_t)> has_vehicle = [&](std::uint16_t link) {
         return std::ranges::any_of(inner_lanes_[link], [&](core::LaneIndex lane) {
             return std::ranges::binary_search(around.occupied, lane);
@@ -386,33 +339,21 @@ void SignalControl::clear_link_by_link(const SignalContext& around, std::vector<
             return around.self.has_pedestrian(way.to);
         });
     };
-    const TransitionContext context{around.now, around.timing, *around.duties, has_vehicle, has_pedestrian};
+    const TransitionContext context{around.now, around.timing, around.duties, has_vehicle, has_pedestrian};
     std::string state = shown_;
     for (std::string next = transition_.next_state(state, context); next != state;
          next = transition_.next_state(state, context)) {
         state = next;
-        around.duties->history.watch(state, around.now);
+        around.duties.history.watch(state, around.now);
     }
-    const Stage stage = std::ranges::any_of(state, traffic::is_yellow) ? Stage::yellow
-                        : transition_.is_over(state, context)          ? Stage::hold
-                                                                       : Stage::all_red;
-    if (stage == Stage::hold) transition_.end();
-    enter(stage, state, around.now, commands);
+    const bool is_over =
+        std::ranges::none_of(state, traffic::is_yellow) && transition_.is_over(state, context);
+    if (is_over) transition_.end();
+    enter(is_over ? Stage::hold : Stage::transition, state, around.now, commands);
 }
 
 void SignalControl::proceed(const SignalContext& around, std::vector<traffic::Command>& commands) {
-    if (around.duties != nullptr && stage_ != Stage::hold) clear_link_by_link(around, commands);
-    const auto is_over = [&](double duration_s) {
-        return (around.now - stage_since_).value >= duration_s - time_tolerance_s;
-    };
-    if (around.duties == nullptr && stage_ == Stage::yellow && is_over(around.timing.yellow_s)) {
-        const std::string red = all_red_state(shown_, way_.target);
-        const bool to_red = (way_.links.empty() && !way_.return_phase) || needs_all_red(red, way_.target) ||
-                            !is_left_by_pedestrians(around);
-        enter(to_red ? Stage::all_red : Stage::hold, to_red ? red : way_.target, around.now, commands);
-    }
-    if (around.duties == nullptr && stage_ == Stage::all_red && may_open(around))
-        enter(Stage::hold, way_.target, around.now, commands);
+    if (stage_ != Stage::hold) clear_link_by_link(around, commands);
     if (stage_ == Stage::hold && way_.links.empty()) return_to_program(around.now, around.timing, commands);
 }
 
@@ -422,6 +363,7 @@ void SignalControl::proceed(const SignalContext& around, std::vector<traffic::Co
 std::optional<core::Seconds> SignalControl::first_duration(std::uint32_t phase,
                                                            const SignalTiming& timing) const {
     if (signal_.fixed_time) return std::nullopt;
+    assert(phase < signal_.program.size());
     const roads::Phase& led_to = signal_.program[phase];
     if (led_to.least_s <= 0.0) return core::Seconds(led_to.duration_s);
     return core::Seconds(std::max(led_to.least_s, std::min(led_to.duration_s, timing.least_green_s)));
@@ -429,6 +371,7 @@ std::optional<core::Seconds> SignalControl::first_duration(std::uint32_t phase,
 
 void SignalControl::return_to_program(core::Seconds now, const SignalTiming& timing,
                                       std::vector<traffic::Command>& commands) {
+    assert(stage_ == Stage::hold && way_.links.empty());
     auto lasting = way_.return_phase ? first_duration(*way_.return_phase, timing) : std::nullopt;
     if (way_.in_turn && signal_.fixed_time)
         lasting = core::Seconds(

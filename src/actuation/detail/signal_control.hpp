@@ -32,22 +32,17 @@ struct SignalContext {
     const std::function<const Lanes&()>& pressed;
     /// Tells whether pedestrians are on crossings, and which program runs.
     const truth::SelfKnowledge& self;
-    const SignalDuties* duties = nullptr;  ///< None: `timing` is all.
+    const SignalDuties& duties;
 };
 
 /// The leases of one signal, and its transitions between the background plan and their holds.
 ///
-/// background plan -> (yellow) -> (all red) -> hold -> (yellow) -> (all red) -> background plan. Yellow is
-/// shown if a link loses green, all red if a link gains it, and longer while the junction is not clear; links
-/// that keep green keep it throughout. Crossings turn red when other links turn yellow, and a crossing is
-/// closed if it conflicts with a new green or with a green that no longer yields. The return leads to the
-/// phase that a lease asks for; without one, all links are cleared, because the position of the program by
-/// then is unknown. If the request changes during a transition, the transition starts again from what is
-/// shown now. A stage ends at a simulated step, so it is never shorter than configured. A green ends when no
-/// vehicle on it could only just stop, or after a short wait.
-///
-/// Where there are duties, no green ends before its least time, and each link has a transition of its own
-/// (LinkTransition).
+/// background plan -> transition -> hold -> transition -> background plan. In a transition each link ends,
+/// waits and opens by itself (LinkTransition); links that keep green keep it throughout, and no green ends
+/// before its least time. The return leads to the phase that a lease asks for; without one, to where the
+/// program goes on; if that is unknown, all links are cleared. If the request changes during a transition,
+/// the transition turns to the new target. A yellow or red ends at a simulated step, so it is never shorter
+/// than configured. A green ends when no vehicle on it could only just stop, or after a short wait.
 ///
 /// While the background plan runs, an AdjustGreen lease ends a green that serves none of its links once that
 /// has lasted its least time: the program goes on to its next phase, through its own yellow. Afterwards a
@@ -75,7 +70,7 @@ class SignalControl {
     traffic::SignalStatus status(core::Seconds now) const;
 
   private:
-    enum class Stage : std::uint8_t { background_plan, yellow, all_red, hold };
+    enum class Stage : std::uint8_t { background_plan, transition, hold };
     /// A transition from what is shown to a target.
     struct Way {
         Links links;         ///< Links to hold; empty on the way back.
@@ -88,22 +83,17 @@ class SignalControl {
 
     traffic::RequestStatus status_of(const HeldLease& held, core::Seconds now) const;
     std::uint16_t link_count() const { return static_cast<std::uint16_t>(inner_lanes_.size()); }
-    const char* reason_to_wait(HeldLease& held, const SignalContext& around) const;
+    std::optional<traffic::Refusal> reason_to_wait(HeldLease& held, const SignalContext& around) const;
     Links requested(const SignalContext& around, Ledger& ledger);
     Links allowed_now(const SignalContext& around, Ledger& ledger);
     bool must_go_on(const SignalContext& around) const;
     Way plan_hold(const Links& links) const;
     Way plan_return(const SignalContext& around, Ledger& ledger);
     std::optional<std::uint32_t> phase_after_hold(const SignalTiming& timing, Ledger& ledger);
-    void begin(Way way, const SignalContext& around, std::vector<traffic::Command>& commands);
+    void begin(Way way, const SignalContext& around);
     void run_background_plan(const SignalContext& around, Ledger& ledger,
                              std::vector<traffic::Command>& commands);
     void proceed(const SignalContext& around, std::vector<traffic::Command>& commands);
-    template <class IsBusy>
-    bool is_clear(const Links& gaining, IsBusy&& is_busy) const;
-    bool is_left_by_vehicles(const Links& gaining, const SignalContext& around) const;
-    bool is_left_by_pedestrians(const SignalContext& around) const;
-    bool may_open(const SignalContext& around) const;
     bool waits_for_gap(const std::string& target, const SignalContext& around);
     double owed_green_s(std::uint16_t link, std::optional<std::uint32_t> phase,
                         const SignalTiming& timing) const;
@@ -130,7 +120,7 @@ class SignalControl {
     bool capped_ = false;  ///< The hold reached its cap: it goes back, whatever leases ask for.
     std::string shown_;
     Way way_;
-    LinkTransition transition_;                 ///< Where there are duties.
+    LinkTransition transition_;
     Links last_held_;                           ///< Links of the last hold.
     std::optional<core::Seconds> gap_awaited_;  ///< Since when a green waits for a gap.
     bool asked_for_gap_ = false;                ///< In this step.

@@ -1,6 +1,7 @@
 #include "actuation/detail/signal_states.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "traffic/signal.hpp"
 
@@ -8,6 +9,7 @@ namespace clearway::actuation::detail {
 namespace {
 
 bool are_foes(const roads::Signal& signal, std::size_t left, std::size_t right) {
+    assert(left < signal.foes.size() && right < signal.foes.size());
     return signal.foes[left][right] || signal.foes[right][left];
 }
 
@@ -26,6 +28,7 @@ bool is_green_for(const std::string& state, std::size_t link) {
 }
 
 std::string hold_state(const roads::Signal& signal, const std::string& shown, const Links& links) {
+    assert(shown.size() >= signal.links.size() && std::ranges::is_sorted(links));
     std::string state(shown.size(), 'r');
     const auto add_green = [&](const std::string& from, const Links& kept) {
         for (std::size_t link = 0; link < from.size() && link < signal.links.size(); ++link) {
@@ -58,39 +61,6 @@ std::string hold_state(const roads::Signal& signal, const std::string& shown, co
     return state;
 }
 
-std::string yellow_state(const roads::Signal& signal, const std::string& shown, const std::string& target) {
-    std::string state = all_red_state(shown, target);
-    for (std::size_t link = 0; link < shown.size(); ++link) {
-        if (link < signal.crossings.size() && signal.crossings[link]) continue;
-        const bool loses = traffic::is_green(shown[link]) && !traffic::is_green(target[link]);
-        if (loses || traffic::is_yellow(shown[link])) state[link] = 'y';
-    }
-    return state;
-}
-
-std::string all_red_state(const std::string& shown, const std::string& target) {
-    std::string state(shown.size(), 'r');
-    for (std::size_t link = 0; link < shown.size(); ++link) {
-        if (traffic::is_green(shown[link]) && traffic::is_green(target[link])) state[link] = shown[link];
-    }
-    return state;
-}
-
-bool needs_yellow(const std::string& shown, const std::string& target) {
-    for (std::size_t link = 0; link < shown.size(); ++link) {
-        if (traffic::is_yellow(shown[link])) return true;
-        if (traffic::is_green(shown[link]) && !traffic::is_green(target[link])) return true;
-    }
-    return false;
-}
-
-bool needs_all_red(const std::string& shown, const std::string& target) {
-    for (std::size_t link = 0; link < shown.size(); ++link) {
-        if (traffic::is_green(target[link]) && !traffic::is_green(shown[link])) return true;
-    }
-    return false;
-}
-
 Links green_links(const std::string& state) {
     Links links;
     for (std::size_t link = 0; link < state.size(); ++link) {
@@ -121,6 +91,7 @@ std::optional<std::uint32_t> green_phase(const roads::Signal& signal, const std:
 }
 
 double least_green_s(const roads::Signal& signal, std::uint16_t link, std::optional<std::uint32_t> phase) {
+    assert(!phase || *phase < signal.program.size());
     if (phase) return signal.program[*phase].least_s;
     std::optional<double> shortest_s;
     for (const roads::Phase& row : signal.program) {

@@ -21,17 +21,6 @@ using Links = std::vector<std::uint16_t>;
 /// phase that serves them all; without one, the later link yields.
 std::string hold_state(const roads::Signal& signal, const std::string& shown, const Links& links);
 
-/// Yellow for the links that are green in `shown` and not in `target`, and for those that are yellow now; red
-/// at once for crossings, because pedestrians have no yellow.
-std::string yellow_state(const roads::Signal& signal, const std::string& shown, const std::string& target);
-/// Green only for the links that are green in `shown` and in `target`.
-std::string all_red_state(const std::string& shown, const std::string& target);
-
-/// Whether any link is yellow, or becomes yellow on the way from `shown` to `target`.
-bool needs_yellow(const std::string& shown, const std::string& target);
-/// Whether any link turns from not green to green.
-bool needs_all_red(const std::string& shown, const std::string& target);
-
 /// Links that are green in a state, ascending.
 Links green_links(const std::string& state);
 /// Links that are green in `shown` and not in `target`, ascending.

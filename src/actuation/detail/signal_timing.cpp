@@ -5,9 +5,16 @@
 namespace clearway::actuation::detail {
 
 SignalTiming timing_of(const ActuatorConfig& config, const traffic::Preemption& own) {
-    SignalTiming timing{config.yellow_s,      config.all_red_s,  config.clearing_s, config.walking_s,
-                        config.gap_wait_s,    config.hold_cap_s, config.lockout_s,  config.least_green_s,
-                        config.entry_green_s, config.walk_s};
+    SignalTiming timing{yellow_on_road_s(config.yellow_s, config.friction),
+                        config.all_red_s,
+                        config.clearing_s,
+                        config.walking_s,
+                        config.gap_wait_s,
+                        config.hold_cap_s,
+                        config.lockout_s,
+                        config.least_green_s,
+                        config.entry_green_s,
+                        config.walk_s};
     timing.enabled = own.enabled.value_or(1) != 0;
     timing.least_priority = own.priority.value_or(0);
     timing.delay_s = own.delay_s.value_or(0.0);

@@ -1,6 +1,7 @@
 #include "actuation/detail/vehicle_control.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "actuation/detail/stop_line.hpp"
@@ -8,6 +9,8 @@
 
 namespace clearway::actuation::detail {
 namespace {
+
+using traffic::Refusal;
 
 /// A lease may exceed the allowed speed by this much, m/s, because of rounding. The command does not.
 constexpr double speed_tolerance_mps = 0.01;
@@ -42,6 +45,8 @@ bool VehicleSettings::is_default() const {
 }
 
 VehicleControl::Channel VehicleControl::channel_of(const traffic::Action& action) {
+    assert(!std::holds_alternative<traffic::HoldGreen>(action));
+    assert(!std::holds_alternative<traffic::AdjustGreen>(action));
     if (std::holds_alternative<traffic::DriveAt>(action) ||
         std::holds_alternative<traffic::StopAtLine>(action))
         return speed;
@@ -49,6 +54,7 @@ VehicleControl::Channel VehicleControl::channel_of(const traffic::Action& action
 }
 
 void VehicleControl::offer(const traffic::Lease& lease, Ledger& ledger) {
+    assert(lease.target == traffic::Target(vehicle_));
     queues_[channel_of(lease.action)].offer(lease, ledger);
 }
 
@@ -64,7 +70,7 @@ bool VehicleControl::is_idle(core::Seconds now) const {
     return applied_.is_default() || (away_since_ && (now - *away_since_).value > longest_absence_s);
 }
 
-void VehicleControl::drop_all(const char* reason, Ledger& ledger) {
+void VehicleControl::drop_all(Refusal reason, Ledger& ledger) {
     for (LeaseQueue& queue : queues_)
         queue.drop_all(reason, ledger);
 }
@@ -83,14 +89,14 @@ void VehicleControl::step(const VehicleContext& around, Ledger& ledger,
     away_since_.reset();
     if (info->vehicle_class == traffic::VehicleClass::human &&
         !std::ranges::binary_search(around.heeding, vehicle_))
-        drop_all("not_controllable", ledger);
+        drop_all(Refusal::not_controllable, ledger);
     apply(judge(around, {*row, *info}, ledger), now, commands);
 }
 
 void VehicleControl::wait_off_road(core::Seconds now, Ledger& ledger,
                                    std::vector<traffic::Command>& commands) {
     if (!applied_.beside_road) {
-        drop_all("vehicle_gone", ledger);
+        drop_all(Refusal::vehicle_gone, ledger);
         if (!away_since_) away_since_ = now;
         return;
     }
@@ -100,10 +106,11 @@ void VehicleControl::wait_off_road(core::Seconds now, Ledger& ledger,
 }
 
 VehicleSettings VehicleControl::judge(const VehicleContext& around, const Place& place, Ledger& ledger) {
+    assert(around.snapshot.lane[place.row].exists());
     VehicleSettings settings;
     for (LeaseQueue& queue : queues_) {
         for (HeldLease& held : queue.all()) {
-            if (&held != queue.best()) LeaseQueue::refuse(held, "outranked", ledger);
+            if (&held != queue.best()) LeaseQueue::refuse(held, Refusal::outranked, ledger);
         }
     }
     judge_speed(around, place, settings, ledger);
@@ -113,7 +120,7 @@ VehicleSettings VehicleControl::judge(const VehicleContext& around, const Place&
             settings.privilege = traffic::JunctionPrivilege::pass_red;
             LeaseQueue::act(*held, ledger);
         } else {
-            LeaseQueue::refuse(*held, "not_an_emergency_vehicle", ledger);
+            LeaseQueue::refuse(*held, Refusal::not_an_emergency_vehicle, ledger);
         }
     }
     if (around.safety_checks == traffic::SafetyChecks::off) {
@@ -136,9 +143,9 @@ void VehicleControl::judge_speed(const VehicleContext& around, const Place& plac
     if (drive == nullptr) return judge_line(around, place, settings, *held, ledger);
     const auto allowed = around.self.allowed_speed(vehicle_);
     if (!allowed) {
-        LeaseQueue::refuse(*held, "vehicle_does_not_answer", ledger);
+        LeaseQueue::refuse(*held, Refusal::vehicle_does_not_answer, ledger);
     } else if (drive->speed.value > allowed->value + speed_tolerance_mps) {
-        LeaseQueue::refuse(*held, "above_allowed_speed", ledger);
+        LeaseQueue::refuse(*held, Refusal::above_allowed_speed, ledger);
     } else {
         settings.speed = std::min(drive->speed, *allowed);
         LeaseQueue::act(*held, ledger);
@@ -159,17 +166,18 @@ void VehicleControl::judge_line(const VehicleContext& around, const Place& place
                                 HeldLease& held, Ledger& ledger) const {
     const core::LaneIndex index = around.snapshot.lane[place.row];
     const roads::Lane& lane = around.network.lane(index);
-    if (around.network.edge(lane.edge).internal) return LeaseQueue::refuse(held, "on_a_junction", ledger);
+    if (around.network.edge(lane.edge).internal)
+        return LeaseQueue::refuse(held, Refusal::on_a_junction, ledger);
     if (held.granted_on != lane.edge) {
         const double line_m = lane.length_m - stop_line_gap_m;
         const double room_m = line_m - around.snapshot.lane_position_m[place.row];
         if (line_m < 0.0 || braking_m(around, place.row, place.info) > std::max(0.0, room_m))
-            return LeaseQueue::refuse(held, "cannot_stop_comfortably", ledger);
+            return LeaseQueue::refuse(held, Refusal::cannot_stop_comfortably, ledger);
         const auto outlook = around.self.lane_outlook(vehicle_);
         if (!outlook || lane.number >= outlook->size())
-            return LeaseQueue::refuse(held, "vehicle_does_not_answer", ledger);
+            return LeaseQueue::refuse(held, Refusal::vehicle_does_not_answer, ledger);
         if (!is_best_or_long((*outlook)[lane.number]))
-            return LeaseQueue::refuse(held, "lane_does_not_continue", ledger);
+            return LeaseQueue::refuse(held, Refusal::lane_does_not_continue, ledger);
     }
     held.granted_on = lane.edge;
     settings.line = LineStop{index, lane.length_m - stop_line_gap_m};
@@ -207,39 +215,39 @@ void VehicleControl::judge_aside(const VehicleContext& around, const Place& plac
     const roads::Lane& lane = around.network.lane(around.snapshot.lane[place.row]);
     const double room_m = lane.length_m - around.snapshot.lane_position_m[place.row] - stop_line_gap_m;
     if (!applied_.beside_road && around.network.edge(lane.edge).internal)
-        return LeaseQueue::refuse(held, "on_a_junction", ledger);
+        return LeaseQueue::refuse(held, Refusal::on_a_junction, ledger);
     if (!applied_.beside_road && braking_m(around, place.row, place.info) > room_m)
-        return LeaseQueue::refuse(held, "cannot_stop_comfortably", ledger);
+        return LeaseQueue::refuse(held, Refusal::cannot_stop_comfortably, ledger);
     settings.beside_road = true;
     LeaseQueue::act(held, ledger);
 }
 
 std::optional<LaneRequest> VehicleControl::judge_lane(const VehicleContext& around, const Place& place,
                                                       HeldLease& held, Ledger& ledger) const {
-    const auto refuse = [&](const char* reason) {
+    const auto refuse = [&](Refusal reason) {
         LeaseQueue::refuse(held, reason, ledger);
         return std::nullopt;
     };
     const roads::Lane& lane = around.network.lane(around.snapshot.lane[place.row]);
     const roads::Edge& edge = around.network.edge(lane.edge);
     const std::uint32_t target = std::get<traffic::ChangeLane>(held.lease.action).lane_number;
-    if (edge.internal) return refuse("on_a_junction");
-    if (target >= edge.lane_count) return refuse("no_such_lane");
+    if (edge.internal) return refuse(Refusal::on_a_junction);
+    if (target >= edge.lane_count) return refuse(Refusal::no_such_lane);
     const roads::Lane& target_lane = around.network.lane(around.network.lane_of(lane.edge, target));
     const bool is_emergency = place.info.vehicle_class == traffic::VehicleClass::emergency;
     if (!(is_emergency ? target_lane.allows_emergency : target_lane.allows_cars))
-        return refuse("lane_not_allowed");
+        return refuse(Refusal::lane_not_allowed);
     const bool checked = around.safety_checks == traffic::SafetyChecks::on;
     if (checked) {
         const auto outlook = around.self.lane_outlook(vehicle_);
-        if (!outlook || target >= outlook->size()) return refuse("vehicle_does_not_answer");
-        if (!is_best_or_long((*outlook)[target])) return refuse("lane_does_not_continue");
+        if (!outlook || target >= outlook->size()) return refuse(Refusal::vehicle_does_not_answer);
+        if (!is_best_or_long((*outlook)[target])) return refuse(Refusal::lane_does_not_continue);
     }
     if (target == lane.number) return LaneRequest{target, held.lease.expiry};
     const bool higher = target > lane.number;
     const auto direction = higher ? truth::Neighbour::higher : truth::Neighbour::lower;
     if (checked && !around.self.could_change_lane(vehicle_, direction).value_or(false))
-        return refuse("no_room_beside");
+        return refuse(Refusal::no_room_beside);
     return LaneRequest{higher ? lane.number + 1 : lane.number - 1, held.lease.expiry};
 }
 
@@ -302,6 +310,7 @@ void VehicleControl::apply_lane(const VehicleSettings& wanted, core::Seconds now
                       applied->until.value - now.value >= prolong_lane_request_s))
         return;
     const core::Seconds duration(std::min((wanted.lane->until - now).value, longest_lane_request_s));
+    assert(duration.value > 0.0);
     commands.push_back(traffic::RequestLane{vehicle_, wanted.lane->lane_number, duration});
     applied = LaneRequest{wanted.lane->lane_number, now + duration};
 }

@@ -78,7 +78,7 @@ class VehicleControl {
     };
     static Channel channel_of(const traffic::Action& action);
 
-    void drop_all(const char* reason, Ledger& ledger);
+    void drop_all(traffic::Refusal reason, Ledger& ledger);
     /// For a vehicle that is not on the road: it may stand beside it because of a lease.
     void wait_off_road(core::Seconds now, Ledger& ledger, std::vector<traffic::Command>& commands);
     VehicleSettings judge(const VehicleContext& around, const Place& place, Ledger& ledger);

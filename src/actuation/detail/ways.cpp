@@ -1,6 +1,7 @@
 #include "actuation/detail/ways.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -44,6 +45,7 @@ std::vector<core::LaneIndex> lanes_of_way(const roads::Network& network, const r
     core::LaneIndex lane = way.via;
     while (lane.exists()) {
         lanes.push_back(lane);
+        assert(lanes.size() < 100 && "a way across a junction does not lead in a circle");
         const auto onward = network.connections_from(lane);
         lane = onward.empty() ? core::LaneIndex::none() : onward.front().via;
     }

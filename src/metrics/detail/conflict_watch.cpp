@@ -1,6 +1,7 @@
 #include "metrics/detail/conflict_watch.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace clearway::metrics::detail {
@@ -37,6 +38,7 @@ void ConflictWatch::find_near(const truth::Snapshot& snapshot) {
 
 void ConflictWatch::judge(const truth::Snapshot& snapshot, const traffic::Roster& roster,
                           core::VehicleIndex follower, core::VehicleIndex leader) {
+    assert(snapshot.lane_position_m[follower] <= snapshot.lane_position_m[leader]);
     const double closing_mps = snapshot.speed_mps[follower] - snapshot.speed_mps[leader];
     if (closing_mps <= 0.0) return;
     const traffic::VehicleInfo* info = roster.find(snapshot.key[leader]);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "metrics/run_metrics.hpp"
 #include "traffic/vehicle.hpp"
 #include "truth/snapshot.hpp"
 
@@ -25,11 +26,13 @@ class ConflictWatch {
     /// One step; does not allocate once its buffers have grown.
     void step(const truth::Snapshot& snapshot, const traffic::Roster& roster);
 
-    /// Minimum time to collision, s; empty if no vehicle closed in on another.
-    std::optional<double> least_ttc_s() const { return least_ttc_s_; }
-    std::optional<double> greatest_drac_mps2() const { return greatest_drac_mps2_; }
-    /// A vehicle that stays below `conflict_s` for several steps is one conflict.
-    std::uint64_t conflicts() const { return conflicts_; }
+    /// Writes the least time to collision and the greatest deceleration, both empty if no vehicle closed in
+    /// on another, and conflicts: a vehicle that stays below `conflict_s` for several steps is one.
+    void describe(RunMetrics& metrics) const {
+        metrics.emergency_least_ttc_s = least_ttc_s_;
+        metrics.emergency_conflicts = conflicts_;
+        metrics.emergency_greatest_drac_mps2 = greatest_drac_mps2_;
+    }
 
   private:
     void find_near(const truth::Snapshot& snapshot);

@@ -1,6 +1,7 @@
 #include "metrics/detail/cross_watch.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace clearway::metrics::detail {
 
@@ -30,6 +31,7 @@ CrossWatch::CrossWatch(const RoadLayout& layout)
 }
 
 void CrossWatch::step(const truth::Snapshot& snapshot) {
+    assert(snapshot.time.value >= last_s_);
     const double now_s = snapshot.time.value;
     const double elapsed_s = last_s_ < 0.0 ? 0.0 : now_s - last_s_;
     last_s_ = now_s;

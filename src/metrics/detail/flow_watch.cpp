@@ -1,6 +1,7 @@
 #include "metrics/detail/flow_watch.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/match_rows.hpp"
@@ -17,6 +18,7 @@ bool is_red(const std::string& state, std::uint16_t link) {
 }  // namespace
 
 void FlowWatch::step(const truth::Snapshot& snapshot, const std::vector<std::uint32_t>& before) {
+    assert(before.size() == snapshot.size());
     const double now_s = snapshot.time.value;
     const double elapsed_s = last_s_ < 0.0 ? 0.0 : now_s - last_s_;
     last_s_ = now_s;
@@ -69,20 +71,11 @@ void FlowWatch::count_queues(const truth::Snapshot& snapshot, double elapsed_s) 
         const std::int32_t approach = layout_.approach_of_lane[lane];
         if (approach == RoadLayout::no_approach) continue;
         const auto place = static_cast<std::size_t>(approach);
+        assert(place < halted_.size());
         if (!layout_.approaches[place].signal.exists()) continue;
         longest_queue_ = std::max(longest_queue_, ++halted_[place]);
         queue_time_s_ += elapsed_s;
     }
-}
-
-std::optional<double> FlowWatch::jerk_mps3() const {
-    if (jerk_count_ == 0) return std::nullopt;
-    return std::sqrt(squared_jerk_ / static_cast<double>(jerk_count_));
-}
-
-std::optional<double> FlowWatch::throughput_per_hour() const {
-    if (layout_.signal_ways.empty() || demand_time_s_ <= 0.0) return std::nullopt;
-    return static_cast<double>(passages_of_demand_) / demand_time_s_ * 3600.0;
 }
 
 std::optional<double> FlowWatch::mean_queue_vehicles() const {
@@ -92,9 +85,18 @@ std::optional<double> FlowWatch::mean_queue_vehicles() const {
     return queue_time_s_ / demand_time_s_ / static_cast<double>(approaches);
 }
 
-std::optional<double> FlowWatch::longest_queue_vehicles() const {
-    if (layout_.signal_ways.empty()) return std::nullopt;
-    return longest_queue_;
+void FlowWatch::describe(RunMetrics& metrics) const {
+    metrics.emergency_red_passages = emergency_red_passages_;
+    metrics.others_red_passages = others_red_passages_;
+    metrics.others_hard_brakings = hard_brakings_;
+    if (jerk_count_ > 0)
+        metrics.others_jerk_mps3 = std::sqrt(squared_jerk_ / static_cast<double>(jerk_count_));
+    metrics.signal_queue_vehicles = mean_queue_vehicles();
+    if (layout_.signal_ways.empty()) return;
+    metrics.signal_longest_queue_vehicles = longest_queue_;
+    if (demand_time_s_ > 0.0)
+        metrics.signal_throughput_per_hour =
+            static_cast<double>(passages_of_demand_) / demand_time_s_ * 3600.0;
 }
 
 }  // namespace clearway::metrics::detail

@@ -6,6 +6,7 @@
 
 #include "core/ids.hpp"
 #include "metrics/road_layout.hpp"
+#include "metrics/run_metrics.hpp"
 #include "traffic/vehicle.hpp"
 #include "truth/snapshot.hpp"
 
@@ -26,20 +27,13 @@ class FlowWatch {
     /// first step only sets the clock.
     void step(const truth::Snapshot& snapshot, const std::vector<std::uint32_t>& before);
 
-    std::uint64_t hard_brakings() const { return hard_brakings_; }
-    /// Root mean square over steps and vehicles other than emergency vehicles, m/s^3; empty without any.
-    std::optional<double> jerk_mps3() const;
-    std::uint64_t emergency_red_passages() const { return emergency_red_passages_; }
-    std::uint64_t others_red_passages() const { return others_red_passages_; }
-    /// Vehicles per hour that pass the stop lines of signals while demand departs; empty without signals.
-    std::optional<double> throughput_per_hour() const;
-    /// Vehicles standing on an approach to a signal, mean over the approaches and over the time in which
-    /// demand departs.
-    std::optional<double> mean_queue_vehicles() const;
-    /// Most vehicles standing on one approach to a signal at once.
-    std::optional<double> longest_queue_vehicles() const;
+    /// Writes jerk (root mean square over steps and vehicles other than emergency vehicles), hard brakings,
+    /// passages on red, and of signals: throughput while demand departs, and standing vehicles, most at once
+    /// and mean over approaches and the time in which demand departs. Empty without any.
+    void describe(RunMetrics& metrics) const;
 
   private:
+    std::optional<double> mean_queue_vehicles() const;
     void compare(const truth::Snapshot& snapshot, core::VehicleIndex row, std::size_t before,
                  double elapsed_s);
     void pass(const truth::Snapshot& snapshot, core::VehicleIndex row, core::LaneIndex from);

@@ -1,6 +1,7 @@
 #include "metrics/detail/hold_watch.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <string>
 
 #include "traffic/signal.hpp"
@@ -20,6 +21,7 @@ HoldWatch::HoldWatch(const RoadLayout& layout) : layout_(layout), holds_(layout.
 void HoldWatch::step(const truth::Snapshot& snapshot, std::span<const traffic::Lease> leases) {
     const double now_s = snapshot.time.value;
     const double before_s = last_s_ < 0.0 ? now_s : last_s_;
+    assert(now_s >= before_s);
     last_s_ = now_s;
     for (std::size_t signal = 0; signal < holds_.size(); ++signal) {
         Hold& hold = holds_[signal];

@@ -1,6 +1,7 @@
 #include "metrics/detail/signal_log.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,6 +29,7 @@ SignalLog::SignalLog(const RoadLayout& layout)
     : layout_(layout), signals_(layout.signals.size()), lane_(layout.routes.size()) {}
 
 void SignalLog::step(const truth::Snapshot& snapshot, std::span<const traffic::SignalStatus> asked) {
+    assert(std::ranges::is_sorted(asked, {}, &traffic::SignalStatus::signal));
     const double now_s = snapshot.time.value;
     auto status = asked.begin();
     for (std::uint32_t signal = 0; signal < signals_.size(); ++signal) {
@@ -81,6 +83,7 @@ void SignalLog::end_clearances(std::uint32_t signal, const std::vector<std::uint
 
 /// A row for each group of links that changed to one colour at one time.
 void SignalLog::note_heads(std::uint32_t signal, const std::vector<std::uint16_t>& links) {
+    assert(signal < layout_.signal_heads.size() || links.empty());
     const Watched& watched = signals_[signal];
     const std::size_t first = rows_.size();
     for (const std::uint16_t link : links) {
@@ -106,6 +109,7 @@ void SignalLog::note_heads(std::uint32_t signal, const std::vector<std::uint16_t
 
 void SignalLog::open(std::uint32_t signal) {
     Watched& watched = signals_[signal];
+    assert(!watched.open && watched.calls.empty());
     watched.open = true;
     std::vector<std::uint16_t> all(watched.heads.size());
     for (std::size_t link = 0; link < all.size(); ++link)
@@ -155,6 +159,7 @@ void SignalLog::follow(const traffic::SignalStatus& status, double now_s) {
 
 /// What a program shows after it was restored is seen one step later; only then does the log say so, and end.
 void SignalLog::settle(std::uint32_t signal, bool is_settled, bool is_seen, double now_s) {
+    assert(signals_[signal].open);
     Watched& watched = signals_[signal];
     if (is_seen && is_settled && watched.settled) return close(signal, now_s);
     watched.settled = is_settled;

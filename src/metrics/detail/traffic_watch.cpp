@@ -1,6 +1,7 @@
 #include "metrics/detail/traffic_watch.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <string_view>
 
@@ -76,6 +77,7 @@ TrafficWatch::TrafficWatch(const RoadLayout& layout)
 
 void TrafficWatch::step(const truth::Snapshot& snapshot, const std::vector<std::uint32_t>& before) {
     const double now_s = snapshot.time.value;
+    assert(before.size() == snapshot.size() && now_s >= last_s_);
     const double elapsed_s = last_s_ < 0.0 ? 0.0 : now_s - last_s_;
     if (last_s_ < 0.0) first_s_ = now_s;
     last_s_ = now_s;
@@ -172,6 +174,7 @@ void TrafficWatch::pass(double now_s, std::uint32_t edge, bool inside, const Wat
 
 double TrafficWatch::others_halted(const Passage& passage, std::size_t sample) const {
     const core::SignalIndex signal = layout_.approaches[static_cast<std::size_t>(passage.approach)].signal;
+    assert(signal.exists() && sample < samples_.size());
     std::uint64_t halted = 0;
     for (std::size_t approach = 0; approach < layout_.approaches.size(); ++approach) {
         if (layout_.approaches[approach].signal == signal &&

@@ -224,7 +224,7 @@ void DatabaseWriter::add(const RunRecord& run) {
         core::for_each_field<metrics::LeaseRow>(
             [&](const auto& field) { add(run.key, lease, field.name, "", lease.*field.member); });
         for (const auto& [reason, count] : lease.refused)
-            add(run.key, lease, "refused", reason, count);
+            add(run.key, lease, "refused", name(reason), count);
     }
 }
 
@@ -233,7 +233,7 @@ void DatabaseWriter::add(const experiment::RunKey& key, const metrics::LeaseRow&
     Inserter& row = tables_->leases;
     row.add_key(key);
     row.add(std::string_view(lease.policy));
-    row.add(std::string_view(lease.action));
+    row.add(name(lease.action));
     row.add(outcome);
     row.add(reason);
     row.add(count);

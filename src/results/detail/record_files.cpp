@@ -99,9 +99,9 @@ core::Json leases_to_json(const std::vector<metrics::LeaseRow>& leases) {
     for (const metrics::LeaseRow& lease : leases) {
         core::Json row;
         row["policy"] = lease.policy;
-        row["action"] = lease.action;
+        row["action"] = name(lease.action);
         core::write_fields(row, lease);
-        row["refused"] = lease.refused;
+        row["refused"] = lease.refused_words();
         rows.push_back(std::move(row));
     }
     return rows;
@@ -119,7 +119,14 @@ std::optional<std::vector<metrics::LeaseRow>> leases_from_json(const core::Json&
         reader.read("policy", lease.policy);
         reader.read("action", lease.action);
         reader.read_fields(lease);
-        reader.read("refused", lease.refused);
+        std::map<std::string, std::uint64_t> refused;
+        reader.read("refused", refused);
+        for (const auto& [word, count] : refused) {
+            if (const auto reason = core::value_from<traffic::Refusal>(word))
+                lease.refused.emplace(*reason, count);
+            else
+                reader.problem("refused", fmt::format("\"{}\" is no reason", word));
+        }
     }
     return leases;
 }

@@ -20,10 +20,10 @@ namespace clearway::sumo::detail::gateway::LIBSUMO_NAMESPACE {
 namespace api = ::LIBSUMO_NAMESPACE;
 
 /// Calls SUMO. Its exceptions have no common base but std::exception.
-template <class Call>
-auto call(Call&& to_sumo) {
+template <class Call, class... Arguments>
+auto call(Call&& to_sumo, Arguments&&... arguments) {
     try {
-        return to_sumo();
+        return to_sumo(std::forward<Arguments>(arguments)...);
     } catch (const std::exception& fault) {
         throw core::SimulatorError(fault.what());
     }
@@ -69,40 +69,22 @@ class ApiGateway : public Sumo {
         call([] { api::Simulation::close(); });
     }
 
-    double time_s() override {
-        return call([] { return api::Simulation::getTime(); });
-    }
-
-    double step_length_s() override {
-        return call([] { return api::Simulation::getDeltaT(); });
-    }
-
-    int expected_vehicles() override {
-        return call([] { return api::Simulation::getMinExpectedNumber(); });
-    }
-
-    std::string option(const std::string& name) override {
-        return call([&] { return api::Simulation::getOption(name); });
-    }
+    double time_s() override { return call(api::Simulation::getTime); }
+    double step_length_s() override { return call(api::Simulation::getDeltaT); }
+    int expected_vehicles() override { return call(api::Simulation::getMinExpectedNumber); }
+    std::string option(const std::string& name) override { return call(api::Simulation::getOption, name); }
 
     std::string version() override {
         return call([] { return api::Simulation::getVersion().second; });
     }
 
-    std::vector<std::string> departed() override {
-        return call([] { return api::Simulation::getDepartedIDList(); });
-    }
-
-    std::vector<std::string> arrived() override {
-        return call([] { return api::Simulation::getArrivedIDList(); });
-    }
-
+    std::vector<std::string> departed() override { return call(api::Simulation::getDepartedIDList); }
+    std::vector<std::string> arrived() override { return call(api::Simulation::getArrivedIDList); }
     std::vector<std::string> teleports_started() override {
-        return call([] { return api::Simulation::getStartingTeleportIDList(); });
+        return call(api::Simulation::getStartingTeleportIDList);
     }
-
     std::vector<std::string> teleports_ended() override {
-        return call([] { return api::Simulation::getEndingTeleportIDList(); });
+        return call(api::Simulation::getEndingTeleportIDList);
     }
 
     std::vector<CollisionReport> collisions() override {
@@ -115,9 +97,7 @@ class ApiGateway : public Sumo {
         });
     }
 
-    std::vector<std::string> vehicle_ids() override {
-        return call([] { return api::Vehicle::getIDList(); });
-    }
+    std::vector<std::string> vehicle_ids() override { return call(api::Vehicle::getIDList); }
 
     Presence read(const std::string& vehicle, VehicleReading& reading) override {
         return call([&] {
@@ -141,39 +121,27 @@ class ApiGateway : public Sumo {
     }
 
     std::string route_id(const std::string& vehicle) override {
-        return call([&] { return api::Vehicle::getRouteID(vehicle); });
+        return call(api::Vehicle::getRouteID, vehicle);
     }
-
     std::vector<std::string> route_edges(const std::string& vehicle) override {
-        return call([&] { return api::Vehicle::getRoute(vehicle); });
+        return call(api::Vehicle::getRoute, vehicle);
     }
-
     std::string type_of(const std::string& vehicle) override {
-        return call([&] { return api::Vehicle::getTypeID(vehicle); });
+        return call(api::Vehicle::getTypeID, vehicle);
     }
-
     double speed_factor(const std::string& vehicle) override {
-        return call([&] { return api::Vehicle::getSpeedFactor(vehicle); });
+        return call(api::Vehicle::getSpeedFactor, vehicle);
     }
-
     std::string edge_of(const std::string& vehicle) override {
-        return call([&] { return api::Vehicle::getRoadID(vehicle); });
+        return call(api::Vehicle::getRoadID, vehicle);
     }
-
-    int lane_number(const std::string& vehicle) override {
-        return call([&] { return api::Vehicle::getLaneIndex(vehicle); });
-    }
-
+    int lane_number(const std::string& vehicle) override { return call(api::Vehicle::getLaneIndex, vehicle); }
     double lane_position_m(const std::string& vehicle) override {
-        return call([&] { return api::Vehicle::getLanePosition(vehicle); });
+        return call(api::Vehicle::getLanePosition, vehicle);
     }
-
-    double speed_mps(const std::string& vehicle) override {
-        return call([&] { return api::Vehicle::getSpeed(vehicle); });
-    }
-
+    double speed_mps(const std::string& vehicle) override { return call(api::Vehicle::getSpeed, vehicle); }
     double allowed_speed_mps(const std::string& vehicle) override {
-        return call([&] { return api::Vehicle::getAllowedSpeed(vehicle); });
+        return call(api::Vehicle::getAllowedSpeed, vehicle);
     }
 
     bool could_change_lane(const std::string& vehicle, int direction) override {
@@ -197,12 +165,9 @@ class ApiGateway : public Sumo {
         });
     }
 
-    std::vector<std::string> type_ids() override {
-        return call([] { return api::VehicleType::getIDList(); });
-    }
-
+    std::vector<std::string> type_ids() override { return call(api::VehicleType::getIDList); }
     std::string permission_class(const std::string& type) override {
-        return call([&] { return api::VehicleType::getVehicleClass(type); });
+        return call(api::VehicleType::getVehicleClass, type);
     }
 
     TypeReading read_type(const std::string& type) override {
@@ -218,20 +183,11 @@ class ApiGateway : public Sumo {
     }
 
     std::string type_parameter(const std::string& type, const std::string& parameter) override {
-        return call([&] { return api::VehicleType::getParameter(type, parameter); });
+        return call(api::VehicleType::getParameter, type, parameter);
     }
-
-    std::vector<std::string> signal_ids() override {
-        return call([] { return api::TrafficLight::getIDList(); });
-    }
-
-    int lane_count(const std::string& edge) override {
-        return call([&] { return api::Edge::getLaneNumber(edge); });
-    }
-
-    double lane_length_m(const std::string& lane) override {
-        return call([&] { return api::Lane::getLength(lane); });
-    }
+    std::vector<std::string> signal_ids() override { return call(api::TrafficLight::getIDList); }
+    int lane_count(const std::string& edge) override { return call(api::Edge::getLaneNumber, edge); }
+    double lane_length_m(const std::string& lane) override { return call(api::Lane::getLength, lane); }
 
     bool has_person(const std::string& edge) override {
         return call([&] { return !api::Edge::getLastStepPersonIDs(edge).empty(); });
@@ -239,7 +195,7 @@ class ApiGateway : public Sumo {
 
     void set_type_parameter(const std::string& type, const std::string& parameter,
                             const std::string& value) override {
-        call([&] { api::VehicleType::setParameter(type, parameter, value); });
+        call(api::VehicleType::setParameter, type, parameter, value);
     }
 
     void add(const Insertion& insertion) override {
@@ -252,31 +208,25 @@ class ApiGateway : public Sumo {
     }
 
     void set_speed(const std::string& vehicle, double speed_mps) override {
-        call([&] { api::Vehicle::setSpeed(vehicle, speed_mps); });
+        call(api::Vehicle::setSpeed, vehicle, speed_mps);
     }
-
     void set_speed_mode(const std::string& vehicle, int mode) override {
-        call([&] { api::Vehicle::setSpeedMode(vehicle, mode); });
+        call(api::Vehicle::setSpeedMode, vehicle, mode);
     }
-
     void set_lane_change_mode(const std::string& vehicle, int mode) override {
-        call([&] { api::Vehicle::setLaneChangeMode(vehicle, mode); });
+        call(api::Vehicle::setLaneChangeMode, vehicle, mode);
     }
-
     void change_lane(const std::string& vehicle, int lane_number, double duration_s) override {
-        call([&] { api::Vehicle::changeLane(vehicle, lane_number, duration_s); });
+        call(api::Vehicle::changeLane, vehicle, lane_number, duration_s);
     }
-
     std::string lateral_alignment(const std::string& vehicle) override {
-        return call([&] { return api::Vehicle::getLateralAlignment(vehicle); });
+        return call(api::Vehicle::getLateralAlignment, vehicle);
     }
-
     void set_lateral_alignment(const std::string& vehicle, const std::string& alignment) override {
-        call([&] { api::Vehicle::setLateralAlignment(vehicle, alignment); });
+        call(api::Vehicle::setLateralAlignment, vehicle, alignment);
     }
-
     void change_sublane(const std::string& vehicle, double shift_m) override {
-        call([&] { api::Vehicle::changeSublane(vehicle, shift_m); });
+        call(api::Vehicle::changeSublane, vehicle, shift_m);
     }
 
     void stop(const std::string& vehicle, const Stop& stop) override {
@@ -300,9 +250,7 @@ class ApiGateway : public Sumo {
         });
     }
 
-    void resume(const std::string& vehicle) override {
-        call([&] { api::Vehicle::resume(vehicle); });
-    }
+    void resume(const std::string& vehicle) override { call(api::Vehicle::resume, vehicle); }
 
     void cancel_stop(const std::string& vehicle, int number) override {
         call([&] { api::Vehicle::replaceStop(vehicle, number, ""); });
@@ -312,11 +260,10 @@ class ApiGateway : public Sumo {
     }
 
     std::string signal_state(const std::string& signal) override {
-        return call([&] { return api::TrafficLight::getRedYellowGreenState(signal); });
+        return call(api::TrafficLight::getRedYellowGreenState, signal);
     }
-
     std::string signal_program(const std::string& signal) override {
-        return call([&] { return api::TrafficLight::getProgram(signal); });
+        return call(api::TrafficLight::getProgram, signal);
     }
 
     std::uint32_t phase_count(const std::string& signal, const std::string& program) override {
@@ -329,23 +276,22 @@ class ApiGateway : public Sumo {
     }
 
     void set_signal_state(const std::string& signal, const std::string& state) override {
-        call([&] { api::TrafficLight::setRedYellowGreenState(signal, state); });
+        call(api::TrafficLight::setRedYellowGreenState, signal, state);
     }
-
     void set_signal_program(const std::string& signal, const std::string& program) override {
-        call([&] { api::TrafficLight::setProgram(signal, program); });
+        call(api::TrafficLight::setProgram, signal, program);
     }
 
     void set_signal_phase(const std::string& signal, std::uint32_t phase) override {
-        call([&] { api::TrafficLight::setPhase(signal, static_cast<int>(phase)); });
+        call(api::TrafficLight::setPhase, signal, static_cast<int>(phase));
     }
 
     void set_signal_phase_duration(const std::string& signal, double duration_s) override {
-        call([&] { api::TrafficLight::setPhaseDuration(signal, duration_s); });
+        call(api::TrafficLight::setPhaseDuration, signal, duration_s);
     }
 
     void colour_vehicle(const std::string& vehicle, const Colour& colour) override {
-        call([&] { api::Vehicle::setColor(vehicle, of_sumo(colour)); });
+        call(api::Vehicle::setColor, vehicle, of_sumo(colour));
     }
 
     void add_stroke(const std::string& name, const Stroke& stroke) override {
@@ -356,12 +302,10 @@ class ApiGateway : public Sumo {
     }
 
     void move_stroke(const std::string& name, const std::vector<Spot>& points) override {
-        call([&] { api::Polygon::setShape(name, of_sumo(points)); });
+        call(api::Polygon::setShape, name, of_sumo(points));
     }
 
-    void remove_stroke(const std::string& name) override {
-        call([&] { api::Polygon::remove(name, above_vehicles); });
-    }
+    void remove_stroke(const std::string& name) override { call(api::Polygon::remove, name, above_vehicles); }
 };
 
 }  // namespace clearway::sumo::detail::gateway::LIBSUMO_NAMESPACE

@@ -1,6 +1,7 @@
 #include "sumo/detail/commander.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
@@ -143,6 +144,7 @@ void Commander::run(const traffic::SetSafetyChecks& command) {
 }
 
 void Commander::set_modes(const Vehicle& vehicle) const {
+    assert(!vehicle.id.empty());
     const Controls& controls = vehicle.controls;
     if (controls.checks == traffic::SafetyChecks::off) {
         sumo_.set_speed_mode(vehicle.id, mode_without_checks);
@@ -171,6 +173,7 @@ void Commander::run(const traffic::StopOnLane& command) {
         return;
     }
     run(traffic::ResumeFromStop{command.vehicle});
+    assert(!vehicle->controls.own_stop && position_m <= length_m);
     sumo_.stop(vehicle->id, {.edge = sumo_.edge_of(vehicle->id),
                              .lane_number = sumo_.lane_number(vehicle->id),
                              .position_m = position_m,

@@ -1,6 +1,7 @@
 #include "sumo/detail/fleet.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace clearway::sumo::detail {
 namespace {
@@ -22,6 +23,7 @@ void erase_sorted(std::vector<Vehicle*>& vehicles, const Vehicle& vehicle, auto 
 Vehicle& Fleet::insert(const std::string& id) {
     const core::VehicleKey key = core::vehicle_key(id);
     Vehicle& vehicle = vehicles_[key];
+    assert((vehicle.id.empty() || vehicle.id == id) && "two ids with one key");
     vehicle.id = id;
     vehicle.key = key;
     return vehicle;
@@ -65,6 +67,7 @@ void Fleet::number_rows() {
         by_key_[row]->row = row;
     }
     rows_are_stale_ = false;
+    assert(by_id_.size() == by_key_.size());
 }
 
 }  // namespace clearway::sumo::detail

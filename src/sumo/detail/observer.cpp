@@ -1,6 +1,7 @@
 #include "sumo/detail/observer.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -42,6 +43,7 @@ truth::BesideRoad beside_road(const Vehicle& vehicle, const gateway::VehicleRead
 void Observer::observe(truth::Snapshot& snapshot, truth::Events& events) {
     const double now_s = sumo_.time_s();
     const double step_s = now_s - snapshot.time.value;
+    assert(step_s > 0.0);
     snapshot.time = core::Seconds(now_s);
     events.clear();
     events.time = snapshot.time;
@@ -147,6 +149,7 @@ bool Observer::stands(const std::string& id) {
 void Observer::register_vehicle(Vehicle& vehicle) {
     const VehicleType& type = types_.get(sumo_.type_of(vehicle.id));
     const gateway::TypeReading& dynamics = type.dynamics;
+    assert(!vehicle.on_road && dynamics.length_m > 0.0 && dynamics.deceleration_mps2 > 0.0);
     const auto declared = declared_.find(vehicle.id);
     const bool is_declared = declared != declared_.end();
     vehicle.vehicle_class = is_declared ? traffic::VehicleClass::emergency : type.vehicle_class;
@@ -232,6 +235,7 @@ void Observer::store(Vehicle& vehicle, truth::Snapshot& snapshot) {
         vehicle.opposite_of_m ? *vehicle.opposite_of_m - reading_.lane_position_m : reading_.lane_position_m);
     vehicle.speed_mps = static_cast<float>(reading_.speed_mps);
     const std::uint32_t row = vehicle.row;
+    assert(vehicle.on_road && row < snapshot.size());
     snapshot.key[row] = vehicle.key;
     snapshot.vehicle_class[row] = vehicle.vehicle_class;
     snapshot.x_m[row] = static_cast<float>(reading_.x_m);
