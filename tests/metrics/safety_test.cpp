@@ -92,8 +92,9 @@ TEST_F(Safety, MeasuresTheTimeToCollisionWithTheOneAhead) {
 
 TEST_F(Safety, CountsALastingConflictOnceAndANewOneAgain) {
     const Vehicle ahead{"h", VehicleClass::human, 0, 65.0F, 0.0F};
+    double time_s = 0.0;
     for (const float speed_mps : {10.0F, 9.0F, 1.0F, 10.0F})  // 1.0, 1.1, 10, 1.0 s
-        step(speed_mps, {emergency(0, 50.0F, speed_mps), ahead});
+        step(time_s += 1.0, {emergency(0, 50.0F, speed_mps), ahead});
     EXPECT_EQ(metrics().emergency_conflicts, 2U);
     EXPECT_DOUBLE_EQ(*metrics().emergency_least_ttc_s, 1.0);
 }

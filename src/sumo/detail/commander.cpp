@@ -16,9 +16,8 @@ namespace {
 
 constexpr int speed_mode_default = 31;
 constexpr int speed_mode_pass_red = 15;
-constexpr int lane_change_default = 1621;
-constexpr int lane_change_strategic_only = 1537;
-constexpr int lane_change_none = 1536;
+constexpr int lane_change_modes[] = {1621, 1537, 1536};                        // traffic::LaneChangeFreedom
+constexpr const char* alignments[] = {nullptr, "right", "left", "arbitrary"};  // traffic::LateralAlignment
 constexpr int mode_without_checks = 0;
 constexpr double released_speed = -1.0;
 /// A stop nearer than this to the place that was asked for is that one, m.
@@ -27,18 +26,6 @@ constexpr std::string_view signal_letters = "GgyruosO";
 
 void require(bool holds, const std::string& otherwise) {
     if (!holds) throw std::invalid_argument(otherwise);
-}
-
-int lane_change_mode(traffic::LaneChangeFreedom freedom) {
-    switch (freedom) {
-        case traffic::LaneChangeFreedom::normal:
-            return lane_change_default;
-        case traffic::LaneChangeFreedom::strategic_only:
-            return lane_change_strategic_only;
-        case traffic::LaneChangeFreedom::none:
-            return lane_change_none;
-    }
-    throw std::invalid_argument("unknown lane change freedom");
 }
 
 void require_duration(const Vehicle& vehicle, core::Seconds duration) {
@@ -101,16 +88,8 @@ void Commander::run(const traffic::SetLateralAlignment& command) {
     if (vehicle == nullptr) return;
     std::optional<std::string>& usual = vehicle->controls.usual_alignment;
     if (!usual) usual = sumo_.lateral_alignment(vehicle->id);
-    switch (command.alignment) {
-        case traffic::LateralAlignment::usual:
-            return sumo_.set_lateral_alignment(vehicle->id, *usual);
-        case traffic::LateralAlignment::right:
-            return sumo_.set_lateral_alignment(vehicle->id, "right");
-        case traffic::LateralAlignment::left:
-            return sumo_.set_lateral_alignment(vehicle->id, "left");
-        case traffic::LateralAlignment::free:
-            return sumo_.set_lateral_alignment(vehicle->id, "arbitrary");
-    }
+    const char* const side = alignments[static_cast<std::size_t>(command.alignment)];
+    sumo_.set_lateral_alignment(vehicle->id, side == nullptr ? *usual : side);
 }
 
 void Commander::run(const traffic::SteerSideways& command) {
@@ -123,23 +102,22 @@ void Commander::run(const traffic::SteerSideways& command) {
 }
 
 void Commander::run(const traffic::SetJunctionPrivilege& command) {
-    Vehicle* vehicle = present(command.vehicle);
-    if (vehicle == nullptr) return;
-    vehicle->controls.privilege = command.privilege;
-    set_modes(*vehicle);
+    control(command.vehicle, [&](Controls& controls) { controls.privilege = command.privilege; });
 }
 
 void Commander::run(const traffic::SetLaneChangeFreedom& command) {
-    Vehicle* vehicle = present(command.vehicle);
-    if (vehicle == nullptr) return;
-    vehicle->controls.freedom = command.freedom;
-    set_modes(*vehicle);
+    control(command.vehicle, [&](Controls& controls) { controls.freedom = command.freedom; });
 }
 
 void Commander::run(const traffic::SetSafetyChecks& command) {
-    Vehicle* vehicle = present(command.vehicle);
+    control(command.vehicle, [&](Controls& controls) { controls.checks = command.checks; });
+}
+
+template <class Change>
+void Commander::control(core::VehicleKey key, const Change& change) {
+    Vehicle* const vehicle = present(key);
     if (vehicle == nullptr) return;
-    vehicle->controls.checks = command.checks;
+    change(vehicle->controls);
     set_modes(*vehicle);
 }
 
@@ -153,7 +131,7 @@ void Commander::set_modes(const Vehicle& vehicle) const {
     }
     const bool may_pass_red = controls.privilege == traffic::JunctionPrivilege::pass_red;
     sumo_.set_speed_mode(vehicle.id, may_pass_red ? speed_mode_pass_red : speed_mode_default);
-    sumo_.set_lane_change_mode(vehicle.id, lane_change_mode(controls.freedom));
+    sumo_.set_lane_change_mode(vehicle.id, lane_change_modes[static_cast<std::size_t>(controls.freedom)]);
 }
 
 void Commander::run(const traffic::StopOnLane& command) {

@@ -52,6 +52,8 @@ class Commander {
     /// The same also for a vehicle that is teleported or parked.
     Vehicle* on_road(core::VehicleKey key);
     const std::string& signal_name(core::SignalIndex signal) const;
+    template <class Change>
+    void control(core::VehicleKey key, const Change& change);
     void set_modes(const Vehicle& vehicle) const;
 
     gateway::Sumo& sumo_;
