@@ -169,7 +169,7 @@ class FrozenStudy {
                            21,
                            20,
                            {{traffic::Refusal::no_room_beside, 9}}},
-                          {"corridor", "hold_green", 10, 90, 10, 10, {}}};
+                          {"corridor", traffic::LeaseKind::hold_green, 10, 90, 10, 10, {}}};
         if (key.condition == "hardly")
             run.leases = {{"dissertation<i>", traffic::LeaseKind::hold_green, 40, 0, 40, 40, {}}};
         if (condition.traffic_model != experiment::TrafficModel::free_flow && key.scenario == "crossing")
