@@ -52,7 +52,7 @@ def main():
             write_map(os.path.join(folder, "town.osm"), edges)
             started = time.monotonic()
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
-            subprocess.run([program, "import", "town.osm", "--name", "town"], cwd=folder, check=True)
+            subprocess.run([program, "scenario", "import", "town.osm", "--name", "town"], cwd=folder, check=True)
             wall_s = time.monotonic() - started
             after = resource.getrusage(resource.RUSAGE_CHILDREN)
             busy_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime

@@ -9,7 +9,7 @@ PROGRAM = os.environ.get("CLEARWAY", str(pathlib.Path(__file__).resolve().parent
 
 
 def trajectories(usage, every_s, reach_m):
-    """(replication, folder that `clearway trajectories` wrote) of every run of the condition that the only argument names."""
+    """(replication, folder that `clearway export trajectories` wrote) of every run of the condition that the only argument names."""
     if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
         sys.exit(usage)
     condition = pathlib.Path(sys.argv[1])
@@ -21,7 +21,7 @@ def trajectories(usage, every_s, reach_m):
         for recording in recordings:
             replication = int(recording.stem)
             out = pathlib.Path(work) / str(replication)
-            subprocess.run([PROGRAM, "trajectories", str(condition / str(replication)), "--every", str(every_s),
+            subprocess.run([PROGRAM, "export", "trajectories", str(condition / str(replication)), "--every", str(every_s),
                             "--reach", str(reach_m), "--out", str(out)], check=True, stdout=subprocess.DEVNULL,
                            stderr=subprocess.DEVNULL)
             yield replication, out

@@ -111,7 +111,7 @@ core::ExitCode conclude(const CommonArguments& arguments, const OutputFolder& fo
 struct Net {
     const char* name;     ///< The predictor that it drives.
     const char* summary;  ///< A line for the list of nets, which is also the head of its help.
-    const char* data;     ///< What `clearway dataset SCENARIO --out DIR` needs beside to record its data.
+    const char* data;  ///< What `clearway links dataset SCENARIO --out DIR` needs beside to record its data.
     const char* results;  ///< The files that it writes.
     /// Declares its options and returns what trains it.
     std::function<core::ExitCode()> (*configure)(CLI::App& app, CommonArguments& arguments);

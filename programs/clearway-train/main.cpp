@@ -1,5 +1,5 @@
 // clearway-train: trains link prediction. A program of its own because linking libtorch costs 0.24 s and 90
-// MB at each launch; `clearway train` becomes this program.
+// MB at each launch; `clearway links train` becomes this program.
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -28,7 +28,8 @@ std::string list_of_nets() {
     };
     return "Nets:\n" + lines(repair_nets()) + "To compare, and to repeat the dissertation:\n" +
            lines(comparison_nets()) +
-           "\nThe data set comes from `clearway dataset`; `clearway train NET --help` says how, and "
+           "\nThe data set comes from `clearway links dataset`; `clearway links train NET --help` says how, "
+           "and "
            "describes the\n"
            "options.\n";
 }
@@ -66,15 +67,16 @@ std::optional<int> parse(CLI::App& app, int argument_count, char** argument_valu
 }
 
 int run_without_net(int argument_count, char** argument_values) {
-    CLI::App app("Trains a model of link prediction: clearway train NET --data DIR --out DIR.");
-    app.name("clearway train");
+    CLI::App app("Trains a model of link prediction: clearway links train NET --data DIR --out DIR.");
+    app.name("clearway links train");
     app.set_version_flag("--version", "clearway-train " CLEARWAY_VERSION);
     app.footer(list_of_nets() +
-               "\nExample:\n  clearway train graphsage --data data/graphsage --out trained/graphsage");
+               "\nExample:\n  clearway links train graphsage --data data/graphsage --out trained/graphsage");
     const bool starts_with_word = argument_count > 1 && argument_values[1][0] != '-';
     if (!starts_with_word) app.allow_extras();
     if (const auto code = parse(app, argument_count, argument_values)) return *code;
-    fmt::print(stderr, "clearway train: which net? Name one: clearway train NET --data DIR --out DIR\n{}",
+    fmt::print(stderr,
+               "clearway links train: which net? Name one: clearway links train NET --data DIR --out DIR\n{}",
                list_of_nets());
     return static_cast<int>(core::ExitCode::usage);
 }
@@ -83,11 +85,11 @@ int run(int argument_count, char** argument_values) {
     const Net* const net = argument_count > 1 ? net_of(argument_values[1]) : nullptr;
     if (net == nullptr) return run_without_net(argument_count, argument_values);
     CLI::App app(fmt::format("Trains {}: {}.", net->name, net->summary));
-    app.name(fmt::format("clearway train {}", net->name));
+    app.name(fmt::format("clearway links train {}", net->name));
     CommonArguments arguments;
     const std::string recording = net->data[0] == '\0' ? "" : fmt::format(" {}", net->data);
     app.add_option("--data", arguments.data,
-                   fmt::format("Data set of `clearway dataset SCENARIO{} --out DIR`", recording))
+                   fmt::format("Data set of `clearway links dataset SCENARIO{} --out DIR`", recording))
         ->required()
         ->option_text("DIR (required)");
     app.add_option("--out", arguments.out, "Folder for the results; made when absent")
@@ -100,8 +102,8 @@ int run(int argument_count, char** argument_values) {
         "--json", [&] { arguments.printing = Printing::json; },
         "Print the summary as JSON, and nothing else");
     app.footer(fmt::format(
-        "Results: {0}\n\nExample:\n  clearway dataset city{1}{2} --out data/{3}\n"
-        "  clearway train {3} --data data/{3} --out trained/{3}",
+        "Results: {0}\n\nExample:\n  clearway links dataset city{1}{2} --out data/{3}\n"
+        "  clearway links train {3} --data data/{3} --out trained/{3}",
         net->results, recording, recording.empty() ? "" : " --failure B10 --seeds 10", net->name));
     const auto train = net->configure(app, arguments);
     if (const auto code = parse(app, argument_count - 1, argument_values + 1)) return *code;

@@ -1,4 +1,4 @@
-"""Data sets of ``clearway dataset`` as edge lists and feature arrays."""
+"""Data sets of ``clearway links dataset`` as edge lists and feature arrays."""
 from __future__ import annotations
 
 import dataclasses
@@ -13,7 +13,7 @@ from . import _program
 
 _GRAPH_LINE = b"clearway graph samples 1\n"
 _REPAIR_LINE = b"clearway repair samples "
-_CURE = "Record it again with `clearway dataset SCENARIO --samples --out DIR`"
+_CURE = "Record it again with `clearway links dataset SCENARIO --samples --out DIR`"
 
 
 @dataclasses.dataclass
@@ -60,7 +60,7 @@ def _numbers(file: Path, dtype: type) -> np.ndarray:
     try:
         return np.loadtxt(file, delimiter=",", dtype=dtype, ndmin=2)
     except (OSError, ValueError) as error:
-        raise _program.InputError(f"{file}: {error}. Record it again with `clearway dataset SCENARIO --out DIR`") from None
+        raise _program.InputError(f"{file}: {error}. Record it again with `clearway links dataset SCENARIO --out DIR`") from None
 
 
 def _published(folder: Path) -> Sample:
@@ -69,7 +69,7 @@ def _published(folder: Path) -> Sample:
     labels = _numbers(folder / "target_y.csv", np.float32).reshape(-1)
     if pairs.shape != (2, len(labels)) or pairs.min(initial=0) < 0 or pairs.max(initial=-1) >= len(features):
         raise _program.InputError(f"{folder}: {pairs.shape} pairs, {len(labels)} labels and {len(features)} vehicles do not fit "
-                                  "together. Record it again with `clearway dataset SCENARIO --out DIR`")
+                                  "together. Record it again with `clearway links dataset SCENARIO --out DIR`")
     return Sample(features, np.concatenate([pairs, pairs[::-1]], axis=1), pairs, labels, np.zeros((len(labels), 0), np.float32),
                   {"folder": str(folder)})
 

@@ -112,7 +112,7 @@ class Results:
     def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
         #: Names of the tables.
-        self.tables: list[str] = _program.call(["results", str(self.folder.absolute()), "--list"])[1].split()
+        self.tables: list[str] = _program.call(["export", "results", str(self.folder.absolute()), "--list"])[1].split()
         self._read: dict[str, Table] = {}
 
     def table(self, name: str) -> Table:

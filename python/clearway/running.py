@@ -31,7 +31,7 @@ class Condition:
     predictor: Part = "none"
     #: Settings that differ from their defaults: ``{"preempt_signals.lead_s": 12}`` (``clearway list settings``).
     set: Mapping[str, Any] = dataclasses.field(default_factory=dict)
-    #: A model file for a learned predictor: of ``clearway train``, or a ``.pth`` of the dissertation's net.
+    #: A model file for a learned predictor: of ``clearway links train``, or a ``.pth`` of the dissertation's net.
     model: str | Path | None = None
 
 

@@ -55,7 +55,7 @@ EquipOutcome outcome_of(const results::Results& results, const std::string& cond
 }
 
 /// Leaves no empty folder around a round that was refused.
-results::Store prepared_folder(const study::Plan& plan, const RunPlanOptions& options) {
+results::Store prepared_folder(const study::Plan& plan, const RunOptions& options) {
     try {
         return prepare_run_folder(plan, options);
     } catch (const core::InputError&) {
@@ -105,7 +105,7 @@ EquipCandidates equip_candidates(const study::StudyConfig& config, const scenari
 }
 
 EquipRounds::EquipRounds(study::StudyConfig config, experiment::ConditionSpec base,
-                         std::vector<std::string> signals, RunPlanOptions options)
+                         std::vector<std::string> signals, RunOptions options)
     : config_(std::move(config)),
       base_(std::move(base)),
       signals_(std::move(signals)),
@@ -130,13 +130,13 @@ results::Results EquipRounds::run(const std::string& round,
     conditions.insert(conditions.begin(), baseline);
     study::StudyConfig config = config_;
     config.conditions = std::move(conditions);
-    RunPlanOptions options = options_;
+    RunOptions options = options_;
     options.folder = options_.folder / round;
     const study::Plan plan = plan_for(config, options);
     const results::Store store = prepared_folder(plan, options);
     if (round != first_round) take_over(baseline.name, options_.folder / first_round, store);
-    const study::StudyResult result = run_missing(plan, store, options);
-    if (was_interrupted(result))
+    const StudyResult result = run_missing(plan, store, options);
+    if (is_interrupted(result.exit_code))
         throw core::Error(result.exit_code, fmt::format("interrupted in {}", options.folder.string()));
     results::Results results = results::read_results(store, results::VehicleRows::emergency);
     if (!results.errors.empty()) {

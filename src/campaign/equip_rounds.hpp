@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/equipment.hpp"
-#include "campaign/run_plan.hpp"
+#include "campaign/study_run.hpp"
 #include "experiment/condition.hpp"
 #include "results/store.hpp"
 #include "roads/network.hpp"
@@ -39,7 +39,7 @@ class EquipRounds {
   public:
     /// `config` has scenario, seed and replications; `base` is the condition whose signals are chosen.
     EquipRounds(study::StudyConfig config, experiment::ConditionSpec base, std::vector<std::string> signals,
-                RunPlanOptions options);
+                RunOptions options);
 
     /// Makes the first round. Throws as run_missing does, and core::Error with its exit code when
     /// interrupted.
@@ -66,7 +66,7 @@ class EquipRounds {
     study::StudyConfig config_;
     experiment::ConditionSpec base_;
     std::vector<std::string> signals_;  ///< Ids of the candidates.
-    RunPlanOptions options_;
+    RunOptions options_;
     EquipOutcome baseline_, none_, all_, alone_;
     std::map<analysis::SignalSet, EquipOutcome> sets_;
     std::size_t failed_runs_ = 0;

@@ -1,6 +1,7 @@
 #include "campaign/fitness.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <sstream>
 #include <string_view>
@@ -9,6 +10,8 @@
 
 #include "campaign/detail/abort_cure.hpp"
 #include "core/files.hpp"
+#include "experiment/conditions.hpp"
+#include "scenario/network.hpp"
 
 namespace clearway::campaign {
 namespace {
@@ -129,6 +132,24 @@ double lane_km(const roads::Network& network) {
     return sum_m / 1000.0;
 }
 
+Printout printout_of(const std::vector<Finding>& findings) {
+    Table table{"", {{"grade", "grade"}, {"finding", "finding"}, {"text", "text"}, {"advice", ""}}, {}};
+    for (const Finding& finding : findings) {
+        Row row{{word_of(finding.grade), finding.name, finding.text, finding.advice}};
+        if (!finding.advice.empty()) row.below.push_back("try: " + finding.advice);
+        table.rows.push_back(std::move(row));
+    }
+    return {.tables = {table}};
+}
+
+core::ExitCode verdict_on(const std::vector<Finding>& findings) {
+    const auto has = [&](Grade grade) {
+        return std::ranges::any_of(findings, [&](const Finding& each) { return each.grade == grade; });
+    };
+    if (has(Grade::failed)) return core::ExitCode::runs_failed;
+    return has(Grade::falls_short) ? core::ExitCode::fell_short : core::ExitCode::ok;
+}
+
 }  // namespace
 
 const char* word_of(Grade grade) {
@@ -193,6 +214,40 @@ Finding error_finding(const results::RunError& error, const std::filesystem::pat
                         folder.string(), error.command);
     if (const std::string cure = cure_of_abort(error); !cure.empty()) text += "\n" + cure;
     return {aborted ? "aborts" : "loads", Grade::failed, text};
+}
+
+core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double asked_density,
+                              std::uint64_t seed, RunOptions options) {
+    const study::StudyConfig config =
+        study_of(scenario, {experiment::built_in_condition("baseline", "check")}, seed, 1);
+    options.folder = std::filesystem::path("runs") / ("check-" + scenario.name);
+    options.workers = 1;
+    std::filesystem::remove_all(options.folder);
+    const study::Plan plan = plan_for(config, options);
+    const results::Store store = prepare_run_folder(plan, options);
+    const auto started = std::chrono::steady_clock::now();
+    const StudyResult result = run_missing(plan, store, options);
+    if (is_interrupted(result.exit_code)) return result.exit_code;
+    const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+
+    const experiment::RunKey key = plan.manifest.runs().front();
+    std::vector<Finding> findings;
+    if (const auto record = store.read(key)) {
+        const std::filesystem::path& roads = plan.units.front().unit.network_folder;
+        const scenario::BuiltNetwork built = scenario::open_network(scenario, roads);
+        findings = findings_of(*record, {scenario, built.network, asked_density,
+                                         store.scenario_folder(scenario.name) / "demand" / "0"});
+        findings.push_back(
+            {"speed", Grade::ok,
+             fmt::format("{:.1f} times real time, including loading", record->metrics.simulated_s / wall_s)});
+        const results::RunTiming timing = store.read_timing(key).value_or(results::RunTiming{});
+        findings.push_back({"memory", Grade::ok, fmt::format("{} MiB", timing.peak_kib / 1024)});
+        std::filesystem::remove_all(options.folder);
+    } else {
+        findings = {error_finding(store.read_error(key).value_or(results::RunError{}), options.folder)};
+    }
+    print(printout_of(findings), options.publish.printing);
+    return verdict_on(findings);
 }
 
 }  // namespace clearway::campaign

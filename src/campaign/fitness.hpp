@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/study_run.hpp"
 #include "results/record.hpp"
 #include "roads/network.hpp"
 #include "scenario/config.hpp"
@@ -16,7 +17,7 @@ enum class Grade : std::uint8_t { ok, note, falls_short, failed };
 /// `ok`, `note`, `short`, `FAILED`.
 const char* word_of(Grade grade);
 
-/// One line of `clearway check`.
+/// One line of `clearway scenario check`.
 struct Finding {
     std::string name;
     Grade grade = Grade::ok;
@@ -54,5 +55,11 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
 
 /// What a run that failed says about it. Its inputs are kept in `folder`.
 Finding error_finding(const results::RunError& error, const std::filesystem::path& folder);
+
+/// Makes one run of the baseline in `runs/check-SCENARIO`, which is kept only if the run fails, judges it and
+/// prints the findings. `asked_density` is that of the options by which the scenario was loaded. Returns ok,
+/// fell_short or runs_failed, or how the run was interrupted.
+core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double asked_density,
+                              std::uint64_t seed, RunOptions options);
 
 }  // namespace clearway::campaign

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <map>
-#include <string_view>
 #include <thread>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "campaign/detail/run_cost.hpp"
 #include "core/progress.hpp"
@@ -108,69 +106,60 @@ std::string policy_of(const experiment::ConditionSpec& condition) {
            (is_checked ? "" : ", safety checks off (!)") + (settings.empty() ? "" : ", " + settings);
 }
 
-}  // namespace
-
-std::string plan_text(const study::Plan& plan, const std::filesystem::path& folder, unsigned workers) {
-    const std::vector<Cell> cells = cells_of(plan, folder);
-    std::size_t scenario_width = std::string_view("scenario").size();
-    std::size_t condition_width = std::string_view("condition").size();
-    for (const Cell& cell : cells) {
-        scenario_width = std::max(scenario_width, cell.scenario.size());
-        condition_width = std::max(condition_width, cell.condition.name.size());
-    }
-    std::string text =
-        fmt::format("{:{}}  {:{}}  {:9} {:>5} {:>9}  {}\n", "scenario", scenario_width, "condition",
-                    condition_width, "traffic", "runs", "complete", "failure, predictor, policy");
+Table table_of(const std::vector<Cell>& cells) {
+    Table table{"cells",
+                {{"scenario", "scenario"},
+                 {"condition", "condition"},
+                 {"traffic_model", "traffic"},
+                 {"failure", ""},
+                 {"settings", ""},
+                 {"model", ""},
+                 {"predictor", ""},
+                 {"policy", ""},
+                 {"safety_checks", ""},
+                 {"runs", "runs"},
+                 {"complete_runs", "complete"},
+                 {"", "failure, predictor, policy"},
+                 {"estimated_run_s", ""},
+                 {"estimated_run_disk_bytes", ""},
+                 {"estimate_measured", ""}},
+                {}};
     for (const Cell& cell : cells) {
         const experiment::ConditionSpec& condition = cell.condition;
-        text +=
-            fmt::format("{:{}}  {:{}}  {:9} {:5} {:9}  {}, {}, {}\n", cell.scenario, scenario_width,
-                        condition.name, condition_width, experiment::name(condition.traffic_model), cell.runs,
-                        cell.complete, condition.failure, condition.predictor, policy_of(condition));
+        table.rows.push_back(
+            {{cell.scenario, condition.name, experiment::name(condition.traffic_model), condition.failure,
+              condition.settings, condition.model_file, condition.predictor, condition.policies,
+              experiment::name(condition.safety_checks), cell.runs, cell.complete,
+              fmt::format("{}, {}, {}", condition.failure, condition.predictor, policy_of(condition)),
+              core::to_json_value(cell.cost.wall_s), cell.cost.disk_bytes, cell.cost.measured}});
     }
+    return table;
+}
+
+}  // namespace
+
+Printout plan_printout(const study::Plan& plan, const std::filesystem::path& folder, unsigned workers) {
+    const std::vector<Cell> cells = cells_of(plan, folder);
     const Rest rest = rest_of(cells, workers);
-    text += fmt::format("\n{} cells, {} runs in {} processes, {} complete in {}\nthe rest: ", cells.size(),
-                        plan.run_count(), plan.units.size(), rest.complete, folder.string());
+    std::string text =
+        fmt::format("\n{} cells, {} runs in {} processes, {} complete in {}\nthe rest: ", cells.size(),
+                    plan.run_count(), plan.units.size(), rest.complete, folder.string());
     text += rest.wall_s ? fmt::format("about {} (h:m:s)", core::clock_text(*rest.wall_s))
                         : "time unknown: the size of measured demand is only in its files";
     text += fmt::format(
         ", about {} on the disk ({})\n", size_text(rest.disk_bytes),
         rest.measured ? "from runs of these scenarios here" : "rough: accurate to a factor of about three");
     if (plan.manifest.precision) text += precision_text(*plan.manifest.precision);
-    return text;
-}
-
-std::string plan_json(const study::Plan& plan, const std::filesystem::path& folder, unsigned workers) {
-    using Json = nlohmann::ordered_json;
-    const std::vector<Cell> cells = cells_of(plan, folder);
-    Json list = Json::array();
-    for (const Cell& cell : cells) {
-        list.push_back({{"scenario", cell.scenario},
-                        {"condition", cell.condition.name},
-                        {"traffic_model", experiment::name(cell.condition.traffic_model)},
-                        {"failure", cell.condition.failure},
-                        {"settings", cell.condition.settings},
-                        {"model", cell.condition.model_file},
-                        {"predictor", cell.condition.predictor},
-                        {"policy", cell.condition.policies},
-                        {"safety_checks", experiment::name(cell.condition.safety_checks)},
-                        {"runs", cell.runs},
-                        {"complete_runs", cell.complete},
-                        {"estimated_run_s", cell.cost.wall_s ? Json(*cell.cost.wall_s) : Json(nullptr)},
-                        {"estimated_run_disk_bytes", cell.cost.disk_bytes},
-                        {"estimate_measured", cell.cost.measured}});
-    }
-    const Rest rest = rest_of(cells, workers);
-    const Json plan_object = {{"study", plan.manifest.study},
-                              {"folder", folder.string()},
-                              {"study_seed", plan.manifest.study_seed},
-                              {"replications", plan.manifest.replications},
-                              {"runs", plan.run_count()},
-                              {"complete_runs", rest.complete},
-                              {"estimated_time_left_s", rest.wall_s ? Json(*rest.wall_s) : Json(nullptr)},
-                              {"estimated_disk_left_bytes", rest.disk_bytes},
-                              {"cells", std::move(list)}};
-    return plan_object.dump(2) + "\n";
+    return {{{"study", plan.manifest.study},
+             {"folder", folder.string()},
+             {"study_seed", plan.manifest.study_seed},
+             {"replications", plan.manifest.replications},
+             {"runs", plan.run_count()},
+             {"complete_runs", rest.complete},
+             {"estimated_time_left_s", core::to_json_value(rest.wall_s)},
+             {"estimated_disk_left_bytes", rest.disk_bytes}},
+            {table_of(cells)},
+            text};
 }
 
 std::optional<double> estimated_time_left_s(const study::Plan& plan, const std::filesystem::path& folder,

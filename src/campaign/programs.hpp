@@ -12,11 +12,15 @@ namespace clearway::campaign {
 /// `program` is a path or a name looked up in PATH.
 std::optional<std::string> output_of(const std::string& program, const std::vector<std::string>& arguments);
 
+/// Exit code of a program that cannot be started, as a shell has it.
+inline constexpr int program_not_started = 127;
+
 /// Path of another of Clearway's programs, in the folder of this one.
 std::string sister_program(const std::string& name);
 
 inline constexpr const char* why_no_trainer =
-    "only training needs libtorch and XGBoost: `./clearway train` installs them and builds it. Without the "
+    "only training needs libtorch and XGBoost: `./clearway links train` installs them and builds it. Without "
+    "the "
     "launcher install the "
     "packages of part `train` in packaging/packages.txt and build anew";
 

@@ -56,7 +56,7 @@ experiment::RunJob unit_of(const study::Plan& plan, const experiment::ConditionS
     throw std::logic_error("the shown condition is not in the plan");
 }
 
-core::ExitCode show_and_print(const study::Plan& plan, const RunPlanOptions& options,
+core::ExitCode show_and_print(const study::Plan& plan, const RunOptions& options,
                               const experiment::ConditionSpec& shown, const experiment::WindowSpec& window) {
     require_display();
     const bool is_new = !std::filesystem::exists(options.folder / "manifest.json");
@@ -69,8 +69,7 @@ core::ExitCode show_and_print(const study::Plan& plan, const RunPlanOptions& opt
         if (is_new) std::filesystem::remove_all(options.folder, ignored);
         return code;
     }
-    const study::StudyResult result = run_missing(plan, store, options);
-    return was_interrupted(result) ? result.exit_code : publish(store, how_to_publish(options));
+    return complete(plan, store, options);
 }
 
 }  // namespace clearway::campaign

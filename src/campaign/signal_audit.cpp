@@ -4,7 +4,6 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "report/text.hpp"
 #include "results/run_name.hpp"
@@ -65,25 +64,36 @@ Totals totals_of(const AuditReport& report) {
     return totals;
 }
 
-nlohmann::ordered_json json_of(const AuditReport& report) {
-    const Totals totals = totals_of(report);
-    nlohmann::ordered_json json{{"audited", report.runs.size()},
-                                {"without_requests", report.without_requests},
-                                {"failed", report.failed},
-                                {"yellows", totals.yellows},
-                                {"red_clearances", totals.reds},
-                                {"greens", totals.greens},
-                                {"findings", nlohmann::ordered_json::array()}};
-    for (const AuditedRun& run : report.runs)
+core::Json json_of(const std::vector<AuditedRun>& runs) {
+    core::Json findings = core::Json::array();
+    for (const AuditedRun& run : runs)
         for (const analysis::SignalFinding& finding : run.audit.findings)
-            json["findings"].push_back({{"run", run.run},
-                                        {"time_s", finding.ended_s},
-                                        {"signal", finding.signal},
-                                        {"link", finding.link},
-                                        {"what", core::name(finding.what)},
-                                        {"lasted_s", finding.lasted_s},
-                                        {"least_s", finding.least_s}});
-    return json;
+            findings.push_back({{"run", run.run},
+                                {"time_s", finding.ended_s},
+                                {"signal", finding.signal},
+                                {"link", finding.link},
+                                {"what", core::name(finding.what)},
+                                {"lasted_s", finding.lasted_s},
+                                {"least_s", finding.least_s}});
+    return findings;
+}
+
+/// The first findings of each run, in words, then the runs that failed.
+std::string text_of(const AuditReport& report) {
+    std::string text;
+    for (const AuditedRun& run : report.runs) {
+        if (run.audit.findings.empty()) continue;
+        text += fmt::format("{}{}: {} too short\n", run.run, run.repeated ? " (made again)" : "",
+                            run.audit.findings.size());
+        const std::size_t shown = std::min(shown_findings, run.audit.findings.size());
+        for (std::size_t row = 0; row < shown; ++row)
+            text += fmt::format("  {}\n", text_of(run.audit.findings[row]));
+        if (shown < run.audit.findings.size())
+            text += fmt::format("  and {} more: --json has all\n", run.audit.findings.size() - shown);
+    }
+    for (const std::string& failed : report.failed)
+        text += fmt::format("failed     {}\n", failed);
+    return text;
 }
 
 }  // namespace
@@ -120,28 +130,22 @@ AuditReport audit_runs(const results::Store& store, const std::vector<experiment
     return report;
 }
 
-void print_audit(const AuditReport& report, Printing printing) {
-    if (printing == Printing::json) {
-        fmt::print("{}\n",
-                   json_of(report).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
-        return;
-    }
-    for (const AuditedRun& run : report.runs) {
-        if (run.audit.findings.empty()) continue;
-        fmt::print("{}{}: {} too short\n", run.run, run.repeated ? " (made again)" : "",
-                   run.audit.findings.size());
-        const std::size_t shown = std::min(shown_findings, run.audit.findings.size());
-        for (std::size_t row = 0; row < shown; ++row)
-            fmt::print("  {}\n", text_of(run.audit.findings[row]));
-        if (shown < run.audit.findings.size())
-            fmt::print("  and {} more: --json has all\n", run.audit.findings.size() - shown);
-    }
-    for (const std::string& failed : report.failed)
-        fmt::print("failed     {}\n", failed);
+Printout audit_printout(const AuditReport& report) {
     const Totals totals = totals_of(report);
-    fmt::print("{} audited, {} without requests to signals: {}, {} and {} checked, {} too short\n",
-               counted(report.runs.size(), "run"), report.without_requests, counted(totals.yellows, "yellow"),
-               counted(totals.reds, "red clearance"), counted(totals.greens, "green"), totals.findings);
+    return {
+        {{"audited", report.runs.size()},
+         {"without_requests", report.without_requests},
+         {"failed", report.failed},
+         {"yellows", totals.yellows},
+         {"red_clearances", totals.reds},
+         {"greens", totals.greens},
+         {"findings", json_of(report.runs)}},
+        {},
+        text_of(report) +
+            fmt::format("{} audited, {} without requests to signals: {}, {} and {} checked, {} too short\n",
+                        counted(report.runs.size(), "run"), report.without_requests,
+                        counted(totals.yellows, "yellow"), counted(totals.reds, "red clearance"),
+                        counted(totals.greens, "green"), totals.findings)};
 }
 
 bool nothing_audited(const AuditReport& report) {
@@ -157,7 +161,7 @@ std::string nothing_audited_text(const AuditReport& report, const std::string& w
             what);
     return fmt::format(
         "{}: nothing to audit: no signal showed a whole colour that its program states in {}. "
-        "`clearway signals SCENARIO` lists the signals of a scenario",
+        "`clearway scenario signals SCENARIO` lists the signals of a scenario",
         what, counted(report.runs.size(), "run"));
 }
 

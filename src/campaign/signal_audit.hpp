@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/signal_audit.hpp"
-#include "campaign/printing.hpp"
+#include "campaign/printout.hpp"
 #include "core/error.hpp"
 #include "results/store.hpp"
 
@@ -34,7 +34,7 @@ using Repeat = std::function<results::Store(const std::vector<experiment::RunKey
 AuditReport audit_runs(const results::Store& store, const std::vector<experiment::RunKey>& keys,
                        const Repeat& repeat);
 
-void print_audit(const AuditReport& report, Printing printing);
+Printout audit_printout(const AuditReport& report);
 /// Whether no run failed and yet not one colour was checked, so that the audit says nothing of any signal.
 bool nothing_audited(const AuditReport& report);
 /// Why, and what to do. `what` is the folder or run that was named.

@@ -16,20 +16,6 @@
 namespace clearway::campaign {
 namespace {
 
-/// Lines of a failed worker's log that are shown.
-constexpr int shown_lines = 10;
-constexpr int program_not_started = 127;
-
-/// Exit code of the command after a worker failed.
-core::ExitCode exit_code_of(const core::Exit& exit) {
-    constexpr std::array told = {core::ExitCode::bad_input, core::ExitCode::environment,
-                                 core::ExitCode::incomplete, core::ExitCode::conflict};
-    if (exit.code == program_not_started) return core::ExitCode::environment;
-    const auto code = static_cast<core::ExitCode>(exit.code);
-    if (exit.signal == 0 && std::ranges::find(told, code) != told.end()) return code;
-    return core::ExitCode::runs_failed;
-}
-
 class JobList : public core::TaskList {
   public:
     JobList(const std::vector<WorkerJob>& jobs, const std::string& title)
@@ -109,6 +95,15 @@ class JobList : public core::TaskList {
 };
 
 }  // namespace
+
+core::ExitCode exit_code_of(const core::Exit& exit) {
+    constexpr std::array told = {core::ExitCode::bad_input, core::ExitCode::environment,
+                                 core::ExitCode::incomplete, core::ExitCode::conflict};
+    if (exit.code == program_not_started) return core::ExitCode::environment;
+    const auto code = static_cast<core::ExitCode>(exit.code);
+    if (exit.signal == 0 && std::ranges::find(told, code) != told.end()) return code;
+    return core::ExitCode::runs_failed;
+}
 
 WorkerResult work_on(const std::vector<WorkerJob>& jobs, unsigned processes, const std::string& title) {
     const core::InterruptionWatch interruption;

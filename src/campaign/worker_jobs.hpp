@@ -5,10 +5,17 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/process.hpp"
 #include "experiment/dataset_job.hpp"
 #include "experiment/job.hpp"
 
 namespace clearway::campaign {
+
+/// Lines of a failed worker's log that are shown.
+inline constexpr int shown_lines = 10;
+
+/// Exit code of a command after one of its workers ended so.
+core::ExitCode exit_code_of(const core::Exit& exit);
 
 /// A job for one worker process and where its files are.
 struct WorkerJob {

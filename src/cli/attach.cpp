@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "campaign/names.hpp"
-#include "campaign/run_plan.hpp"
+#include "campaign/study_run.hpp"
 #include "campaign/worker_jobs.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
@@ -22,8 +22,7 @@ struct Arguments {
     std::string folder;
     experiment::AttachJob job;
     DescribedCondition described;
-    Printing printing = Printing::text;
-    report::Tables tables = report::Tables::essential;
+    campaign::PublishOptions publish;
 };
 
 /// Sets host and port of `HOST:PORT`, `:PORT` or `PORT`.
@@ -63,7 +62,7 @@ core::ExitCode attach(const Arguments& arguments) {
                           1, "simulations");
     if (result.exit_code != core::ExitCode::ok) return result.exit_code;
     std::filesystem::remove_all(jobs);
-    return campaign::publish(results::Store::open(job.output), {arguments.printing, arguments.tables});
+    return campaign::publish(results::Store::open(job.output), arguments.publish);
 }
 
 }  // namespace
@@ -86,8 +85,8 @@ Action configure_attach(CLI::App& app) {
         ->option_text("FILE [as SUMO says]");
     add_seed_option(app, job.study_seed);
     app.add_option("--out", arguments->folder, "Run folder")->option_text("DIR [runs/attached-PORT]");
-    add_json_option(app, arguments->printing, "the tables");
-    add_tables_option(app, arguments->tables);
+    add_json_option(app, arguments->publish.printing, "the tables");
+    add_tables_option(app, arguments->publish.tables);
     return [arguments](const Invocation&) { return attach(*arguments); };
 }
 

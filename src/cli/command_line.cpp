@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,61 +21,80 @@
 namespace clearway::cli {
 namespace {
 
+constexpr std::array study_parts = {
+    Verb{"status", "Show the progress of a study, also while it runs elsewhere",
+         "clearway study status runs/mine --json", configure_status},
+    Verb{"submit", "Divide a study into shards for a cluster, GNU parallel or local processes",
+         "clearway study submit my-study.toml --engine slurm --out /shared/mine --go", configure_submit},
+    Verb{"merge", "Merge the shards of a study", "clearway study merge /shared/mine --out runs/mine",
+         configure_merge},
+};
+
+constexpr std::array export_parts = {
+    Verb{"figures", "Write every figure and table of a report as SVG, PNG, CSV and LaTeX",
+         "clearway export figures runs/parts --out figures", configure_figures},
+    Verb{"results", "Print any table of a run folder as CSV or JSON",
+         "clearway export results runs/parts vehicles --csv", configure_results},
+    Verb{"trajectories", "Write where EVs and their neighbours drove, as GeoJSON and CSV",
+         "clearway export trajectories runs/city-1a2b3c/city/corridor/0", configure_trajectories},
+};
+
+constexpr std::array links_parts = {
+    Verb{"dataset", "Record a data set for link prediction from a scenario",
+         "clearway links dataset city --out data/city", configure_dataset},
+    Verb{"train", "Train the net of link prediction that is named",
+         "clearway links train graphsage --data data/graphsage --out trained/graphsage", configure_train},
+    Verb{"evaluate", "Evaluate predictors by their links, on seeds kept for this purpose",
+         "clearway links evaluate --benchmark eval_v1 --quick", configure_evaluate},
+};
+
+constexpr std::array scenario_parts = {
+    Verb{"init", "Copy a scenario into a folder of your own to edit",
+         "clearway scenario init my-crossing --from intersection", configure_init},
+    Verb{"import", "Make a scenario from an OpenStreetMap extract or a SUMO scenario",
+         "clearway scenario import monaco.osm.pbf --name monaco", configure_import},
+    Verb{"check", "Run a scenario briefly and check whether it is fit for a study",
+         "clearway scenario check ./monaco", configure_check},
+    Verb{"signals", "List a scenario's signals, draw them, write their preemption parameters",
+         "clearway scenario signals city --svg signals.svg --out preemption.csv", configure_signals},
+};
+
+constexpr std::array python_parts = {
+    Verb{"environment", "Serve episodes to clearway.env of the Python package, which starts it",
+         "clearway python environment intersection --out /tmp/env --channel 3 4 5", configure_environment},
+};
+
 constexpr std::array all_verbs = {
-    Verb{"reproduce", "Run the dissertation's scenarios and print its tables with intervals",
-         "clearway reproduce --quick --out runs/first", configure_reproduce},
     Verb{"run", "Run one scenario under chosen conditions",
          "clearway run intersection --dense --policy dissertation --failure B10 --predictor dead_reckoning",
          configure_run},
     Verb{"study", "Run a study file: scenarios x conditions x factors x replications",
-         "clearway study my-study.toml --out runs/mine", configure_study},
-    Verb{"status", "Show the progress of a study, also while it runs elsewhere",
-         "clearway status runs/mine --json", configure_status},
-    Verb{"submit", "Divide a study into shards for a cluster, GNU parallel or local processes",
-         "clearway submit my-study.toml --engine slurm --out /shared/mine --go", configure_submit},
-    Verb{"merge", "Merge the shards of a study", "clearway merge /shared/mine --out runs/mine",
-         configure_merge},
-    Verb{"report", "Print the tables of a run folder and write its report.html",
-         "clearway report runs/reproduce", configure_report},
-    Verb{"figures", "Write every figure and table of a report as SVG, PNG, CSV and LaTeX",
-         "clearway figures runs/reproduce --out figures", configure_figures},
+         "clearway study my-study.toml --out runs/mine", configure_study, study_parts},
+    Verb{"report", "Print the tables of a run folder and write its report.html", "clearway report runs/parts",
+         configure_report},
     Verb{"compare", "Compare the conditions of a run folder, or two run folders, pair by pair",
          "clearway compare runs/old runs/new --tolerance 1 --tolerance collisions=0.5", configure_compare},
-    Verb{"results", "Print any table of a run folder as CSV or JSON",
-         "clearway results runs/reproduce vehicles --csv", configure_results},
+    Verb{"export", "Write figures, tables or trajectories of finished runs as files",
+         "clearway export figures runs/parts --out figures", nullptr, export_parts},
+    Verb{"verify", "Repeat stored runs and compare every number",
+         "clearway verify runs/parts/city/corridor/7", configure_verify},
     Verb{"replay", "Replay a recorded run in a browser, otherwise predicted, or as CSV",
          "clearway replay runs/city-1a2b3c/city/corridor/0 --predictor dead_reckoning", configure_replay},
     Verb{"live", "Run a scenario and show it in a browser while it happens",
          "clearway live city --policy corridor --against baseline", configure_live},
-    Verb{"verify", "Repeat stored runs and compare every number",
-         "clearway verify runs/reproduce/city/baseline/7", configure_verify},
-    Verb{"dataset", "Record a data set for link prediction from a scenario",
-         "clearway dataset city --out data/city", configure_dataset},
-    Verb{"train", "Train the net of link prediction that is named",
-         "clearway train graphsage --data data/graphsage --out trained/graphsage", configure_train},
-    Verb{"links", "Evaluate link prediction: links evaluate",
-         "clearway links evaluate --benchmark eval_v1 --quick", configure_links},
-    Verb{"list", "List scenarios, conditions, failures, predictors, policies and settings",
-         "clearway list --json", configure_list},
-    Verb{"init", "Copy a scenario into a folder of your own to edit",
-         "clearway init my-crossing --from intersection", configure_init},
-    Verb{"import", "Make a scenario from an OpenStreetMap extract or a SUMO scenario",
-         "clearway import monaco.osm.pbf --name monaco", configure_import},
-    Verb{"signals", "List a scenario's signals, draw them, write their preemption parameters",
-         "clearway signals city --svg signals.svg --out preemption.csv", configure_signals},
-    Verb{"equip", "Find out which signals to equip first for EVs, and what that is worth",
-         "clearway equip city --budget 5 --out runs/equip-city", configure_equip},
-    Verb{"check", "Run a scenario briefly and check whether it is fit for a study", "clearway check ./monaco",
-         configure_check},
     Verb{"attach", "Take over a SUMO that was started elsewhere, with a policy of Clearway",
          "clearway attach localhost:8813 --policy corridor --failure B10 --predictor graphsage",
          configure_attach},
-    Verb{"trajectories", "Write where EVs and their neighbours drove, as GeoJSON and CSV",
-         "clearway trajectories runs/city-1a2b3c/city/corridor/0", configure_trajectories},
-    Verb{"environment", "Serve episodes to clearway.env of the Python package, which starts it",
-         "clearway environment intersection --out /tmp/env --channel 3 4 5", configure_environment},
+    Verb{"equip", "Find out which signals to equip first for EVs, and what that is worth",
+         "clearway equip city --budget 5 --out runs/equip-city", configure_equip},
+    Verb{"links", "Record data for link prediction, train it, evaluate it",
+         "clearway links evaluate --benchmark eval_v1 --quick", nullptr, links_parts},
+    Verb{"scenario", "Copy, import or check a scenario, list its signals",
+         "clearway scenario import monaco.osm.pbf --name monaco", nullptr, scenario_parts},
+    Verb{"list", "List scenarios, conditions, failures, predictors, policies and settings",
+         "clearway list --json", configure_list},
     Verb{"python", "Install the Python package: `import clearway`", "clearway python --venv ./venv",
-         configure_python},
+         configure_python, python_parts},
     Verb{"doctor", "Check that this machine has what Clearway needs", "clearway doctor", configure_doctor},
 };
 
@@ -83,7 +103,7 @@ const char* const purpose =
     "at what cost to everybody else, and how much of it survives when sensors fail?";
 
 const char* const footer =
-    "Example:\n  clearway reproduce\n\n"
+    "Example:\n  clearway study studies/parts.toml\n\n"
     "Results go to standard output, progress and messages to standard error. Units are SI unless an option\n"
     "says otherwise. Exit codes: 0 ok, 1 runs failed, 2 usage, 3 bad input, 4 environment, 5 incomplete,\n"
     "6 a comparison fell short, 7 conflicting results, 130 and 143 interrupted.\n"
@@ -95,12 +115,26 @@ Invocation invocation_of(int argument_count, const char* const* arguments) {
     return {core::shell_text(words)};
 }
 
-std::vector<std::string> verb_names() {
+std::string names_of(std::span<const Verb> verbs) {
     std::vector<std::string> names;
-    for (const Verb& verb : all_verbs) {
+    for (const Verb& verb : verbs)
         names.emplace_back(verb.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// `study status` for `status` and what is nearly that; a part is found without the word before it.
+std::string meant(const std::string& word) {
+    std::map<std::string, std::string> commands;
+    for (const Verb& verb : all_verbs) {
+        commands.emplace(verb.name, verb.name);
+        for (const Verb& part : verb.parts)
+            commands.emplace(part.name, fmt::format("{} {}", verb.name, part.name));
     }
-    return names;
+    std::vector<std::string> names;
+    for (const auto& [name, command] : commands)
+        names.push_back(name);
+    const std::string near = core::nearest(word, names);
+    return near.empty() ? "" : commands.at(near);
 }
 
 /// The message for a command line that cannot be parsed, as the verb that was called states it.
@@ -114,14 +148,61 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
     return core::usage_message(*deepest, name, error);
 }
 
-/// What is wrong with the first word, if it is not a verb.
+/// What is wrong with the words that should be a verb and, where it needs one, a part of it.
 std::optional<std::string> verb_problem(int argument_count, const char* const* arguments) {
-    const std::vector<std::string> names = verb_names();
-    if (argument_count < 2) return fmt::format("which verb? One of {}", fmt::join(names, ", "));
-    const std::string word = arguments[1];
-    if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return std::nullopt;
-    return fmt::format("`{}` is not a verb. {}", word,
-                       core::did_you_mean(word, names, "Verbs are " + core::listed(names)));
+    std::span<const Verb> known = all_verbs;
+    std::string before;
+    for (int at = 1; at < argument_count; ++at) {
+        const std::string word = arguments[at];
+        if (word.starts_with('-')) return std::nullopt;
+        const auto found =
+            std::ranges::find(known, word, [](const Verb& verb) { return std::string(verb.name); });
+        if (found == known.end()) {
+            const std::string near = meant(word);
+            return fmt::format("`{}{}` is not a verb{}", before, word,
+                               near.empty() ? fmt::format("; verbs are {}", names_of(known))
+                                            : fmt::format(". Did you mean '{}'?", near));
+        }
+        if (found->configure != nullptr) return std::nullopt;
+        known = found->parts;
+        before = word + " ";
+    }
+    return fmt::format("which verb? One of {}", names_of(known));
+}
+
+/// The required options of a verb with parts, which the parser must not ask for any more: to it, the name of
+/// a part would be the value of a required argument.
+std::vector<CLI::Option*> waived_options(CLI::App& command) {
+    std::vector<CLI::Option*> waived;
+    for (CLI::Option* const option : command.get_options()) {
+        if (option->get_required()) waived.push_back(option);
+        option->required(false);
+    }
+    return waived;
+}
+
+/// Declares the verbs on `app`. A verb that has parts and an action of its own asks for its arguments only
+/// where no part is named.
+void declare(CLI::App& app, std::span<const Verb> verbs, Action& action) {
+    for (const Verb& verb : verbs) {
+        CLI::App* const command = app.add_subcommand(verb.name, verb.summary);
+        command->footer(fmt::format("Example:\n  {}", verb.example));
+        declare(*command, verb.parts, action);
+        if (verb.configure == nullptr) {
+            command->require_subcommand(1);
+            continue;
+        }
+        const Action own = verb.configure(*command);
+        const std::vector<CLI::Option*> required =
+            verb.parts.empty() ? std::vector<CLI::Option*>{} : waived_options(*command);
+        // The callbacks of parts come first.
+        command->callback([&action, own, required] {
+            if (action) return;
+            for (const CLI::Option* const option : required)
+                if (option->count() == 0) throw CLI::RequiredError(option->get_name());
+            action = own;
+        });
+    }
 }
 
 void declare(CLI::App& app, Action& action) {
@@ -131,12 +212,7 @@ void declare(CLI::App& app, Action& action) {
                          fmt::format("clearway " CLEARWAY_VERSION "\nbuild {}", core::build_stamp()));
     app.formatter(std::make_shared<core::HelpFormatter>());
     app.require_subcommand(1);
-    for (const Verb& verb : all_verbs) {
-        CLI::App* const command = app.add_subcommand(verb.name, verb.summary);
-        command->footer(fmt::format("Example:\n  {}", verb.example));
-        const Action verb_action = verb.configure(*command);
-        command->callback([&action, verb_action] { action = verb_action; });
-    }
+    declare(app, all_verbs, action);
 }
 
 /// Never throws: standard error may be on the same full disk.

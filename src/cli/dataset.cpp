@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "campaign/names.hpp"
 #include "campaign/worker_jobs.hpp"
@@ -67,20 +66,14 @@ void apply_policies(const std::vector<std::string>& settings, experiment::Datase
     job.settings = condition.settings;
 }
 
-void print_files(const std::vector<std::string>& lines, Printing printing) {
-    if (printing == Printing::text) {
-        for (const std::string& line : lines) {
-            fmt::print("{}\n", line);
-        }
-        return;
-    }
-    nlohmann::json files = nlohmann::json::array();
+/// Of the lines `FILE: what it holds` of the workers.
+campaign::Printout printout_of(const std::vector<std::string>& lines) {
+    campaign::Table files{"files", {{"path", "file"}, {"content", "content"}}, {}};
     for (const std::string& line : lines) {
         const std::size_t end = line.find(": ");
-        files.push_back({{"path", line.substr(0, end)},
-                         {"content", end == std::string::npos ? "" : line.substr(end + 2)}});
+        files.rows.push_back({{line.substr(0, end), end == std::string::npos ? "" : line.substr(end + 2)}});
     }
-    fmt::print("{}\n", nlohmann::json({{"files", std::move(files)}}).dump(2));
+    return {.tables = {files}};
 }
 
 /// Data for nets and trees that take the radius as an input: only such as their trainings take.
@@ -114,7 +107,7 @@ core::ExitCode record(Arguments arguments, const Invocation& invocation) {
     scenario::store(config, jobs.front().scenario_file.parent_path());
     scenario::build_network(config, jobs.front().network_folder);
     const campaign::WorkerResult result = campaign::record_jobs(jobs, arguments.jobs);
-    print_files(result.lines, arguments.printing);
+    campaign::print(printout_of(result.lines), arguments.printing);
     if (result.exit_code == core::ExitCode::interrupted || result.exit_code == core::ExitCode::terminated) {
         fmt::print(stderr,
                    "clearway: interrupted; what is complete is kept in {}. To record the rest:\n  {}\n",

@@ -9,7 +9,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "campaign/programs.hpp"
@@ -135,28 +134,22 @@ std::vector<Check> all_checks() {
              std::to_string(std::thread::hardware_concurrency()), ""}};
 }
 
-void print_json(const std::vector<Check>& checks) {
-    nlohmann::json list = nlohmann::json::array();
-    for (const Check& check : checks) {
-        list.push_back({{"check", check.name},
-                        {"passed", check.passed()},
-                        {"required", check.severity == Severity::required},
-                        {"found", check.found}});
-    }
-    fmt::print("{}\n", list.dump(2));
-}
-
 const char* mark_of(const Check& check) {
     if (check.passed()) return "ok";
     if (check.finding == Finding::unfit) return "UNFIT";
     return check.severity == Severity::required ? "MISSING" : "missing";
 }
 
-void print_text(const std::vector<Check>& checks) {
+campaign::Printout printout_of(const std::vector<Check>& checks) {
+    campaign::Table table{
+        "", {{"", "state"}, {"check", "check"}, {"passed", ""}, {"required", ""}, {"found", "found"}}, {}};
     for (const Check& check : checks) {
-        fmt::print("{:8} {:15} {}\n", mark_of(check), check.name, check.found);
-        if (!check.passed()) fmt::print("{:8} {:15} {}\n", "", "", check.cure);
+        campaign::Row row{
+            {mark_of(check), check.name, check.passed(), check.severity == Severity::required, check.found}};
+        if (!check.passed()) row.below.push_back(check.cure);
+        table.rows.push_back(std::move(row));
     }
+    return {.tables = {table}};
 }
 
 }  // namespace
@@ -166,7 +159,7 @@ Action configure_doctor(CLI::App& app) {
     add_json_option(app, *printing, "the findings");
     return [printing](const Invocation&) {
         const std::vector<Check> checks = all_checks();
-        *printing == Printing::json ? print_json(checks) : print_text(checks);
+        campaign::print(printout_of(checks), *printing);
         const bool healthy = std::ranges::all_of(checks, [](const Check& check) {
             return check.passed() || check.severity == Severity::optional;
         });

@@ -8,7 +8,7 @@
 
 #include "campaign/names.hpp"
 #include "campaign/programs.hpp"
-#include "campaign/run_plan.hpp"
+#include "campaign/study_run.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/detail/scenario_options.hpp"
@@ -51,7 +51,7 @@ core::ExitCode serve(const Arguments& arguments, const Invocation& invocation) {
     config.scenarios = {scenario::load(arguments.scenario, arguments.options)};
     config.name = "environment";
     config.conditions = {experiment::baseline_for(condition)};
-    campaign::RunPlanOptions options;
+    campaign::RunOptions options;
     options.folder = arguments.folder;
     options.command = invocation.command;
     const study::Plan plan = campaign::plan_for(config, options);

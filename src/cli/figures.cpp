@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "campaign/programs.hpp"
 #include "cli/verb.hpp"
 #include "core/error.hpp"
 #include "core/number_range.hpp"
@@ -41,7 +42,7 @@ void draw_pixels(const std::vector<std::filesystem::path>& drawings) {
                        .arguments = {"--zoom", scale, "--output", picture.string(), drawing.string()},
                        .output = log});
         if (exit.ok()) continue;
-        if (exit.code == 127)
+        if (exit.code == campaign::program_not_started)
             throw core::EnvironmentError(
                 fmt::format("{} cannot be started; it draws PNG files. Install the package librsvg2-bin, or "
                             "give --no-png. "
@@ -68,7 +69,7 @@ core::ExitCode write(const Arguments& arguments) {
 
 Action configure_figures(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    app.add_option("folder", arguments->folder, "Run folder of run, study or reproduce, complete or not")
+    app.add_option("folder", arguments->folder, "Run folder of run or study, complete or not")
         ->required()
         ->option_text("DIR (required)");
     app.add_option("--out", arguments->output, "Folder for the files; made if it does not exist")

@@ -7,7 +7,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
@@ -37,19 +36,20 @@ std::string text_of(const study::MergeResult& result, const std::string& out) {
     return text;
 }
 
-std::string json_of(const study::MergeResult& result, const std::string& out) {
-    nlohmann::ordered_json missing = nlohmann::ordered_json::array();
+campaign::Printout printout_of(const study::MergeResult& result, const std::string& out) {
+    std::vector<std::string> missing;
     for (const experiment::RunKey& key : result.missing)
         missing.push_back(experiment::to_text(key));
-    const nlohmann::ordered_json object = {{"folder", out},
-                                           {"complete_runs", result.counts.complete},
-                                           {"failed_runs", result.counts.failed},
-                                           {"missing_runs", result.counts.missing},
-                                           {"new_runs", result.adopted},
-                                           {"runs_seen_before", result.duplicates},
-                                           {"absent_shards", result.absent_shards},
-                                           {"first_missing", std::move(missing)}};
-    return object.dump(2) + "\n";
+    return {{{"folder", out},
+             {"complete_runs", result.counts.complete},
+             {"failed_runs", result.counts.failed},
+             {"missing_runs", result.counts.missing},
+             {"new_runs", result.adopted},
+             {"runs_seen_before", result.duplicates},
+             {"absent_shards", result.absent_shards},
+             {"first_missing", missing}},
+            {},
+            text_of(result, out)};
 }
 
 core::ExitCode merge(const Arguments& arguments) {
@@ -62,8 +62,7 @@ core::ExitCode merge(const Arguments& arguments) {
         study::merge(sources, arguments.out, [&](std::size_t done) { progress.update(done, 0); });
     progress.update(folders, 0);
     progress.finish();
-    fmt::print("{}", arguments.printing == Printing::json ? json_of(result, arguments.out)
-                                                          : text_of(result, arguments.out));
+    campaign::print(printout_of(result, arguments.out), arguments.printing);
     if (result.counts.missing > 0) return core::ExitCode::incomplete;
     return result.counts.failed > 0 ? core::ExitCode::runs_failed : core::ExitCode::ok;
 }

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "campaign/run_plan.hpp"
+#include "campaign/study_run.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
@@ -17,7 +17,7 @@ Action configure_report(CLI::App& app) {
         campaign::PublishOptions how;
     };
     const auto arguments = std::make_shared<Arguments>();
-    app.add_option("folder", arguments->folder, "Run folder of run, study or reproduce, complete or not")
+    app.add_option("folder", arguments->folder, "Run folder of run or study, complete or not")
         ->required()
         ->option_text("DIR (required)");
     app.add_option("--least-difference", arguments->how.least_relevant_s,

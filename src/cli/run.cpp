@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,8 +8,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "campaign/run_plan.hpp"
 #include "campaign/shown_run.hpp"
+#include "campaign/study_run.hpp"
 #include "cli/detail/chosen_conditions.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/scenario_options.hpp"
@@ -32,13 +31,7 @@ struct Arguments {
     Floor floor = Floor::solo;
     std::uint32_t seeds = usual_seeds;
     std::uint64_t seed = 1;
-    std::string folder;
-    unsigned jobs = 0;
-    experiment::StepRecording recording = experiment::StepRecording::off;
-    experiment::RunLimits limits;
-    Printing printing = Printing::text;
-    report::Tables tables = report::Tables::essential;
-    std::optional<double> response_threshold_s;
+    campaign::RunOptions run;
     scenario::Options options;
     bool is_shown = false;
     double delay_ms = 50.0;  ///< With steps of 0.25 s: five times real time.
@@ -76,27 +69,20 @@ std::filesystem::path window_settings(const std::string& file) {
                             "view settings of sumo-gui (its Edit Visualization window saves them)", ""});
 }
 
-study::StudyConfig study_of(const Arguments& arguments, std::vector<experiment::ConditionSpec> chosen) {
-    study::StudyConfig config;
-    config.seed = arguments.seed;
-    config.replications = arguments.seeds;
-    config.scenarios = {scenario::load(arguments.scenario, arguments.options)};
-    config.name = config.scenarios.front().name;
-    config.conditions = conditions_of(arguments, std::move(chosen));
-    return config;
-}
-
 core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
-    campaign::RunPlanOptions options{
-        arguments.folder,   arguments.jobs,      arguments.limits, arguments.printing,
-        invocation.command, arguments.recording, arguments.tables, arguments.response_threshold_s};
+    campaign::RunOptions options = arguments.run;
+    options.command = invocation.command;
+    const auto study_of = [&](std::vector<experiment::ConditionSpec> conditions) {
+        return campaign::study_of(scenario::load(arguments.scenario, arguments.options),
+                                  conditions_of(arguments, std::move(conditions)), arguments.seed,
+                                  arguments.seeds);
+    };
     const std::vector<experiment::ConditionSpec> chosen = chosen_conditions(arguments.conditions);
-    if (!arguments.is_shown)
-        return campaign::run_and_print(campaign::plan_for(study_of(arguments, chosen), options), options);
+    if (!arguments.is_shown) return campaign::run_study(study_of(chosen), options);
     const experiment::ConditionSpec shown = shown_condition(chosen, "--gui");
     const experiment::WindowSpec window{.delay_s = arguments.delay_ms / 1000.0,
                                         .settings_file = window_settings(arguments.window_settings)};
-    const study::Plan plan = campaign::plan_for(study_of(arguments, {shown}), options);
+    const study::Plan plan = campaign::plan_for(study_of({shown}), options);
     return campaign::show_and_print(plan, options, shown, window);
 }
 
@@ -132,14 +118,15 @@ Action configure_run(CLI::App& app) {
         "Leave out the runs of emergency vehicles alone and the gap closed [with them]");
     const CLI::Option* const seeds = add_seeds_option(app, arguments->seeds);
     add_seed_option(app, arguments->seed);
-    app.add_option("--out", arguments->folder, "Run folder; a study that was interrupted there is continued")
+    app.add_option("--out", arguments->run.folder,
+                   "Run folder; a study that was interrupted there is continued")
         ->option_text("DIR [runs/SCENARIO-xxxxxx, a hash of what is run]");
-    add_jobs_option(app, arguments->jobs);
-    add_record_option(app, arguments->recording);
-    add_limit_options(app, arguments->limits);
-    add_json_option(app, arguments->printing, "the tables");
-    add_tables_option(app, arguments->tables);
-    add_response_option(app, arguments->response_threshold_s);
+    add_jobs_option(app, arguments->run.workers);
+    add_record_option(app, arguments->run.recording);
+    add_limit_options(app, arguments->run.limits);
+    add_json_option(app, arguments->run.publish.printing, "the tables");
+    add_tables_option(app, arguments->run.publish.tables);
+    add_response_option(app, arguments->run.publish.response_threshold_s);
     add_own_condition_options(app, arguments->conditions.own);
     add_scenario_options(app, arguments->options);
     add_window_options(app, arguments);

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/scenario_options.hpp"
@@ -25,7 +24,7 @@
 namespace clearway::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using core::Json;
 using scenario::SecondsRange;
 using scenario::SignalSheet;
 
@@ -67,33 +66,6 @@ std::string approach_text(const SignalSheet& sheet, const scenario::SignalPhase&
     return report::printable(fmt::format("{}", fmt::join(names, ", ")));
 }
 
-void print_text(const std::vector<SignalSheet>& sheets) {
-    if (sheets.empty()) {
-        fmt::print("The network has no signals.\n");
-        return;
-    }
-    fmt::print("{:>3}  {:24} {:12} {:>7} {:>9} {:>9} {:>11} {:>10}\n", "No.", "Signal", "Controller",
-               "Cycle s", "Yellow s", "Red s", "Min green s", "Crossings");
-    for (std::size_t row = 0; row < sheets.size(); ++row) {
-        const SignalSheet& sheet = sheets[row];
-        fmt::print("{:>3}  {:24} {:12} {:>7g} {:>9} {:>9} {:>11} {:>10}\n", row + 1,
-                   report::short_signal_name(sheet.signal), sheet.controller, sheet.cycle_s,
-                   text_of(sheet.yellow), text_of(sheet.red_clearance), text_of(sheet.least_green),
-                   sheet.crossings);
-        for (const scenario::SignalPhase& phase : sheet.phases) {
-            if (!phase.green) continue;
-            fmt::print("{:>8}  {:>5g} s  {}\n", fmt::format("phase {}", phase.number), phase.duration_s,
-                       approach_text(sheet, phase));
-        }
-        const std::string set = text_of(sheet.set);
-        if (set != "-") fmt::print("{:>8}  {}\n", "set", set);
-    }
-    fmt::print(
-        "\n{} signal{}. Yellow, red clearance and least green as their programs show them; -: none, so "
-        "that a\nhold takes them from a formula (actuation.clearance) or setting.\n",
-        sheets.size(), sheets.size() == 1 ? "" : "s");
-}
-
 Json range_json(const std::optional<SecondsRange>& times) {
     if (!times) return nullptr;
     return Json{{"shortest", times->shortest_s}, {"longest", times->longest_s}};
@@ -108,11 +80,15 @@ Json set_json(const traffic::Preemption& set) {
     return json;
 }
 
-Json sheet_json(const SignalSheet& sheet, std::size_t number) {
+Json approaches_json(const SignalSheet& sheet) {
     Json approaches = Json::array();
     for (const scenario::SignalApproach& approach : sheet.approaches)
         approaches.push_back(
             {{"edge", approach.edge}, {"street", approach.street}, {"links", approach.links}});
+    return approaches;
+}
+
+Json phases_json(const SignalSheet& sheet) {
     Json phases = Json::array();
     for (const scenario::SignalPhase& phase : sheet.phases)
         phases.push_back({{"phase", phase.number},
@@ -123,30 +99,78 @@ Json sheet_json(const SignalSheet& sheet, std::size_t number) {
                           {"green", phase.green},
                           {"on_foot", phase.on_foot},
                           {"approaches", phase.edges}});
-    return {{"number", number},
-            {"signal", sheet.signal},
-            {"x_m", sheet.place.x_m},
-            {"y_m", sheet.place.y_m},
-            {"controller", sheet.controller},
-            {"program", sheet.program},
-            {"fixed_time", sheet.coordinated},
-            {"cycle_s", sheet.cycle_s},
-            {"offset_s", sheet.offset_s},
-            {"crossings", sheet.crossings},
-            {"yellow_s", range_json(sheet.yellow)},
-            {"red_clearance_s", range_json(sheet.red_clearance)},
-            {"minimum_green_s", range_json(sheet.least_green)},
-            {"approaches", approaches},
-            {"phases", phases},
-            {"set", set_json(sheet.set)}};
+    return phases;
 }
 
-void print_json(const std::string& name, const std::vector<SignalSheet>& sheets) {
-    Json rows = Json::array();
+/// The green phases and what is set, in words.
+std::vector<std::string> lines_of(const SignalSheet& sheet) {
+    std::vector<std::string> lines;
+    for (const scenario::SignalPhase& phase : sheet.phases)
+        if (phase.green)
+            lines.push_back(fmt::format("phase {}  {:>5g} s  {}", phase.number, phase.duration_s,
+                                        approach_text(sheet, phase)));
+    const std::string set = text_of(sheet.set);
+    if (set != "-") lines.push_back("set  " + set);
+    return lines;
+}
+
+campaign::Table table_of(const std::vector<SignalSheet>& sheets) {
+    campaign::Table table{"signals",
+                          {{"number", "No."},
+                           {"signal", ""},
+                           {"", "Signal"},
+                           {"x_m", ""},
+                           {"y_m", ""},
+                           {"controller", "Controller"},
+                           {"program", ""},
+                           {"fixed_time", ""},
+                           {"cycle_s", "Cycle s"},
+                           {"offset_s", ""},
+                           {"yellow_s", ""},
+                           {"red_clearance_s", ""},
+                           {"minimum_green_s", ""},
+                           {"", "Yellow s"},
+                           {"", "Red s"},
+                           {"", "Min green s"},
+                           {"crossings", "Crossings"},
+                           {"approaches", ""},
+                           {"phases", ""},
+                           {"set", ""}},
+                          {}};
     for (const SignalSheet& sheet : sheets)
-        rows.push_back(sheet_json(sheet, rows.size() + 1));
-    const Json json = {{"scenario", name}, {"signals", rows}};
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+        table.rows.push_back({{table.rows.size() + 1,
+                               sheet.signal,
+                               report::short_signal_name(sheet.signal),
+                               sheet.place.x_m,
+                               sheet.place.y_m,
+                               sheet.controller,
+                               sheet.program,
+                               sheet.coordinated,
+                               sheet.cycle_s,
+                               sheet.offset_s,
+                               range_json(sheet.yellow),
+                               range_json(sheet.red_clearance),
+                               range_json(sheet.least_green),
+                               text_of(sheet.yellow),
+                               text_of(sheet.red_clearance),
+                               text_of(sheet.least_green),
+                               sheet.crossings,
+                               approaches_json(sheet),
+                               phases_json(sheet),
+                               set_json(sheet.set)},
+                              lines_of(sheet)});
+    return table;
+}
+
+campaign::Printout printout_of(const std::string& name, const std::vector<SignalSheet>& sheets) {
+    const std::string text =
+        sheets.empty()
+            ? "The network has no signals.\n"
+            : fmt::format(
+                  "\n{}. Yellow, red clearance and least green as their programs show them; -: none, "
+                  "so that a\nhold takes them from a formula (actuation.clearance) or setting.\n",
+                  report::counted(sheets.size(), "signal"));
+    return {{{"scenario", name}}, {table_of(sheets)}, text};
 }
 
 /// What is set in the scenario's file; for signals without a row what the network tells.
@@ -175,10 +199,7 @@ core::ExitCode show(const Arguments& arguments) {
         core::write_atomically(arguments.picture, scenario::signals_picture(built.network, config.title));
     if (!arguments.parameters.empty())
         core::write_atomically(arguments.parameters, scenario::preemption_csv(built.network, to_edit(built)));
-    if (arguments.printing == Printing::json)
-        print_json(config.name, sheets);
-    else
-        print_text(sheets);
+    campaign::print(printout_of(config.name, sheets), arguments.printing);
     if (!arguments.picture.empty())
         fmt::print(stderr, "clearway: map of the signals in {}\n", arguments.picture.string());
     if (!arguments.parameters.empty() && sheets.empty())

@@ -4,12 +4,10 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "analysis/headline.hpp"
 #include "analysis/summary.hpp"
@@ -21,7 +19,7 @@
 namespace clearway::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using core::Json;
 using study::CellStatus;
 using study::State;
 using study::StudyStatus;
@@ -66,32 +64,6 @@ StudyStatus sum_of(const std::vector<StudyStatus>& parts, const std::filesystem:
     return total;
 }
 
-std::string text_of(const StudyStatus& status, const std::string& headline) {
-    constexpr std::string_view mark = " (!)";
-    std::size_t scenario_width = std::string_view("scenario").size();
-    std::size_t condition_width = std::string_view("condition").size();
-    for (const CellStatus& cell : status.cells) {
-        scenario_width = std::max(scenario_width, cell.scenario.size());
-        condition_width = std::max(condition_width, cell.condition.size() + mark.size());
-    }
-    std::string text = fmt::format("{:{}}  {:{}} {:>8} {:>9} {:>7}\n", "scenario", scenario_width,
-                                   "condition", condition_width, "runs", "complete", "failed");
-    bool any_unsafe = false;
-    for (const CellStatus& cell : status.cells) {
-        const bool is_unsafe = cell.safety_checks == traffic::SafetyChecks::off;
-        any_unsafe = any_unsafe || is_unsafe;
-        text += fmt::format("{:{}}  {:{}} {:8} {:9} {:7}\n", cell.scenario, scenario_width,
-                            fmt::format("{}{}", cell.condition, is_unsafe ? mark : ""), condition_width,
-                            cell.runs, cell.complete, cell.failed);
-    }
-    if (any_unsafe) text += "(!): the simulator's safety checks were off in this condition.\n";
-    text += fmt::format("\n{}: {}", status.folder.string(), study::name(status.state));
-    if (!status.holder.empty()) text += fmt::format(" ({})", status.holder);
-    text += fmt::format("; {} of {} runs complete, {} failed", status.complete, status.runs, status.failed);
-    if (status.time_left_s) text += ", " + core::clock_text(*status.time_left_s) + " left";
-    return text + "\n" + (headline.empty() ? "" : headline + "\n");
-}
-
 Json json_of(const analysis::Headline& headline) {
     const auto estimate = headline.estimate();
     if (!estimate) return nullptr;
@@ -106,25 +78,47 @@ Json json_of(const analysis::Headline& headline) {
             {"n", estimate->n}};
 }
 
-std::string json_of(const StudyStatus& status, const analysis::Headline* headline) {
-    Json cells = Json::array();
-    for (const CellStatus& cell : status.cells)
-        cells.push_back({{"scenario", cell.scenario},
-                         {"condition", cell.condition},
-                         {"safety_checks", experiment::name(cell.safety_checks)},
-                         {"runs", cell.runs},
-                         {"complete_runs", cell.complete},
-                         {"failed_runs", cell.failed}});
-    const Json object = {{"folder", status.folder.string()},
-                         {"state", study::name(status.state)},
-                         {"holder", status.holder.empty() ? Json(nullptr) : Json(status.holder)},
-                         {"runs", status.runs},
-                         {"complete_runs", status.complete},
-                         {"failed_runs", status.failed},
-                         {"time_left_s", status.time_left_s ? Json(*status.time_left_s) : Json(nullptr)},
-                         {"headline", headline == nullptr ? Json(nullptr) : json_of(*headline)},
-                         {"cells", std::move(cells)}};
-    return object.dump(2) + "\n";
+campaign::Table table_of(const std::vector<CellStatus>& cells) {
+    campaign::Table table{"cells",
+                          {{"scenario", "scenario"},
+                           {"condition", ""},
+                           {"", "condition"},
+                           {"safety_checks", ""},
+                           {"runs", "runs"},
+                           {"complete_runs", "complete"},
+                           {"failed_runs", "failed"}},
+                          {}};
+    for (const CellStatus& cell : cells) {
+        const bool is_unsafe = cell.safety_checks == traffic::SafetyChecks::off;
+        table.rows.push_back({{cell.scenario, cell.condition, cell.condition + (is_unsafe ? " (!)" : ""),
+                               experiment::name(cell.safety_checks), cell.runs, cell.complete, cell.failed}});
+    }
+    return table;
+}
+
+std::string text_of(const StudyStatus& status, const std::string& headline) {
+    std::string text;
+    if (std::ranges::find(status.cells, traffic::SafetyChecks::off, &CellStatus::safety_checks) !=
+        status.cells.end())
+        text = "(!): the simulator's safety checks were off in this condition.\n";
+    text += fmt::format("\n{}: {}", status.folder.string(), study::name(status.state));
+    if (!status.holder.empty()) text += fmt::format(" ({})", status.holder);
+    text += fmt::format("; {} of {} runs complete, {} failed", status.complete, status.runs, status.failed);
+    if (status.time_left_s) text += ", " + core::clock_text(*status.time_left_s) + " left";
+    return text + "\n" + (headline.empty() ? "" : headline + "\n");
+}
+
+campaign::Printout printout_of(const StudyStatus& status, const analysis::Headline* headline) {
+    return {{{"folder", status.folder.string()},
+             {"state", study::name(status.state)},
+             {"holder", status.holder.empty() ? Json(nullptr) : Json(status.holder)},
+             {"runs", status.runs},
+             {"complete_runs", status.complete},
+             {"failed_runs", status.failed},
+             {"time_left_s", core::to_json_value(status.time_left_s)},
+             {"headline", headline == nullptr ? Json(nullptr) : json_of(*headline)}},
+            {table_of(status.cells)},
+            text_of(status, headline == nullptr ? "" : headline->text())};
 }
 
 core::ExitCode print_status(const std::filesystem::path& path, Printing printing) {
@@ -139,8 +133,7 @@ core::ExitCode print_status(const std::filesystem::path& path, Printing printing
         headline.emplace(results::Store::open(folders.front()));
         headline->refresh();
     }
-    fmt::print("{}", printing == Printing::json ? json_of(status, headline ? &*headline : nullptr)
-                                                : text_of(status, headline ? headline->text() : ""));
+    campaign::print(printout_of(status, headline ? &*headline : nullptr), printing);
     return core::ExitCode::ok;
 }
 

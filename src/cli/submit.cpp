@@ -1,192 +1,39 @@
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <iterator>
+#include "campaign/submit.hpp"
+
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "campaign/names.hpp"
-#include "campaign/plan_text.hpp"
-#include "campaign/run_plan.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/verb.hpp"
-#include "core/files.hpp"
-#include "core/process.hpp"
-#include "study/submission.hpp"
 
 namespace clearway::cli {
-namespace {
 
-namespace fs = std::filesystem;
-
-/// Work per shard, s, when the user gives no number of shards: long enough to outweigh its start, short
-/// enough to lose little with a node.
-constexpr double usual_shard_s = 300.0;
-/// Number of shards when the time cannot be estimated.
-constexpr std::uint32_t usual_shards = 16;
-/// Slurm's default MaxArraySize is 1001, so the largest index is 1000. Larger arrays need its administrator.
-constexpr std::uint32_t most_shards = 1000;
-/// Slurm's time limit for a shard as a multiple of its estimated time. The estimate is accurate to a factor
-/// of three.
-constexpr double limit_factor = 6.0;
-constexpr double least_limit_s = 600.0;
-
-enum class Start : std::uint8_t { write_only, go };
-
-struct Arguments {
-    std::string file;
-    std::string out;
-    study::SubmitEngine engine = study::SubmitEngine::local;
-    std::uint32_t shards = 0;
-    std::vector<std::string> models;
-    Start start = Start::write_only;
-    experiment::RunLimits limits;
-    Printing printing = Printing::text;
-};
-
-const std::map<std::string, study::SubmitEngine>& engines() {
-    static const std::map<std::string, study::SubmitEngine> all = {
+Action configure_submit(CLI::App& app) {
+    struct Arguments {
+        campaign::SubmitRequest request;
+        std::vector<std::string> models;
+    };
+    static const std::map<std::string, study::SubmitEngine> engines = {
         {"slurm", study::SubmitEngine::slurm},
         {"parallel", study::SubmitEngine::parallel},
         {"local", study::SubmitEngine::local}};
-    return all;
-}
-
-std::uint32_t shard_count(const Arguments& arguments, const study::Plan& plan, std::optional<double> time_s) {
-    const auto units = static_cast<std::uint32_t>(plan.units.size());
-    if (arguments.shards != 0) {
-        if (arguments.shards <= units) return arguments.shards;
-        throw core::InputError({"--shards",
-                                fmt::format("{} is more than the study has units", arguments.shards),
-                                fmt::format("1 to {}", units), ""});
-    }
-    if (!time_s) return std::min(usual_shards, units);
-    const double wanted = std::clamp(std::ceil(*time_s / usual_shard_s), 1.0, double{most_shards});
-    return std::min(static_cast<std::uint32_t>(wanted), units);
-}
-
-/// Fixes the number of shards at the first submission: shards of two divisions would repeat much work.
-void claim(const fs::path& folder, std::uint32_t shards) {
-    const fs::path file = folder / "shards.txt";
-    const std::string text = fmt::format("{}\n", shards);
-    if (!fs::exists(file)) return core::write_atomically(file, text);
-    const std::string held = core::read_file(file);
-    if (held == text) return;
-    throw core::InputError(
-        {folder.string(),
-         fmt::format("is already divided into {} shards, not {}", held.substr(0, held.find('\n')), shards),
-         "the same --shards, or another folder", "Choose another folder with --out"});
-}
-
-std::vector<std::string> limit_options(const experiment::RunLimits& limits) {
-    const experiment::RunLimits usual;
-    std::vector<std::string> options = {"--jobs", "1"};
-    if (limits.wall_s != usual.wall_s) {
-        options.insert(options.end(), {"--run-time-limit", fmt::format("{}", limits.wall_s)});
-    }
-    if (limits.memory_mib != usual.memory_mib) {
-        options.insert(options.end(), {"--memory-limit", fmt::format("{}", limits.memory_mib)});
-    }
-    return options;
-}
-
-/// `--model PREDICTOR=FILE` for each model that the command line has given to conditions. The path is
-/// absolute, because a shard runs in another folder.
-std::vector<std::string> model_options(const std::vector<experiment::ConditionSpec>& in_file,
-                                       const std::vector<experiment::ConditionSpec>& conditions) {
-    std::map<std::string, std::string> models;
-    for (std::size_t at = 0; at < conditions.size(); ++at) {
-        const experiment::ConditionSpec& condition = conditions[at];
-        if (condition.model_file != in_file[at].model_file)
-            models[condition.predictor] = condition.model_file;
-    }
-    std::vector<std::string> options;
-    for (const auto& [predictor, file] : models)
-        options.insert(options.end(), {"--model", predictor + "=" + file});
-    return options;
-}
-
-study::Submission submission_of(const Arguments& arguments, const study::Plan& plan) {
-    const auto time_s = campaign::estimated_time_left_s(plan, arguments.out, 1);
-    study::Submission submission;
-    submission.engine = arguments.engine;
-    submission.shards = shard_count(arguments, plan, time_s);
-    submission.program = core::program_folder() / "clearway";
-    submission.study = fs::absolute(arguments.file);
-    submission.folder = fs::absolute(arguments.out);
-    submission.shard_limit_s =
-        std::max(least_limit_s, limit_factor * time_s.value_or(0.0) / submission.shards);
-    submission.study_options = limit_options(arguments.limits);
-    return submission;
-}
-
-void write_scripts(const study::Submission& submission) {
-    for (const study::Script& script : study::scripts_of(submission)) {
-        const fs::path file = submission.folder / script.name;
-        core::write_atomically(file, script.text);
-        fs::permissions(file, fs::perms::owner_exec | fs::perms::group_exec, fs::perm_options::add);
-    }
-}
-
-void print_submission(const study::Submission& submission, const study::Plan& plan, Printing printing) {
-    const std::string script = (submission.folder / "submit.sh").string();
-    if (printing == Printing::json) {
-        const nlohmann::ordered_json object = {{"script", script},
-                                               {"shards", submission.shards},
-                                               {"runs", plan.run_count()},
-                                               {"shard_limit_s", submission.shard_limit_s}};
-        fmt::print("{}\n", object.dump(2));
-    } else {
-        fmt::print("{}: {} runs in {} shards\n", script, plan.run_count(), submission.shards);
-    }
-}
-
-core::ExitCode submit(const Arguments& arguments, const Invocation& invocation) {
-    study::StudyConfig config = study::read_study(arguments.file);
-    const std::vector<experiment::ConditionSpec> in_file = config.conditions;
-    apply_models(arguments.models, config.conditions);
-    if (config.precision)
-        throw core::InputError({arguments.file, "has a precision target, which needs all its runs at once",
-                                "a study with replications", "Give the number of replications"});
-    campaign::check_seed(config, arguments.file, arguments.out);
-    campaign::RunPlanOptions options{arguments.out, 1, arguments.limits, arguments.printing,
-                                     invocation.command};
-    const study::Plan plan = campaign::plan_for(config, options);
-    study::Submission submission = submission_of(arguments, plan);
-    std::ranges::move(model_options(in_file, config.conditions),
-                      std::back_inserter(submission.study_options));
-    core::make_folder(submission.folder);
-    claim(submission.folder, submission.shards);
-    write_scripts(submission);
-    print_submission(submission, plan, arguments.printing);
-    std::fflush(stdout);
-    if (arguments.start == Start::write_only) return core::ExitCode::ok;
-    const core::Exit exit = core::run({.program = "bash", .arguments = {submission.folder / "submit.sh"}});
-    return exit.signal != 0 ? core::ExitCode::terminated : static_cast<core::ExitCode>(exit.code);
-}
-
-}  // namespace
-
-Action configure_submit(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    app.add_option("file", arguments->file, "Study file")->required()->option_text("FILE (required)");
-    app.add_option("--out", arguments->out, "Folder on a file system that all machines share")
+    campaign::SubmitRequest& request = arguments->request;
+    app.add_option("file", request.file, "Study file")->required()->option_text("FILE (required)");
+    app.add_option("--out", request.out, "Folder on a file system that all machines share")
         ->required()
         ->option_text("DIR (required)");
     app.add_option_function<std::string>(
-           "--engine", [arguments](const std::string& name) { arguments->engine = engines().at(name); },
+           "--engine", [&request](const std::string& name) { request.engine = engines.at(name); },
            "What runs the shards")
-        ->check(CLI::IsMember(engines()))
+        ->check(CLI::IsMember(engines))
         ->option_text("slurm|parallel|local [local]");
-    app.add_option("--shards", arguments->shards, "Number of shards; 0: about five minutes of work each")
+    app.add_option("--shards", request.shards, "Number of shards; 0: about five minutes of work each")
         ->check(CLI::Range(0U, 1000000U))
         ->option_text("N, 0 to 1000000 [0]");
     app.add_option("--model", arguments->models,
@@ -194,10 +41,17 @@ Action configure_submit(CLI::App& app) {
                    "system; can be repeated")
         ->option_text("[PREDICTOR=]FILE ... [as the study file says]");
     app.add_flag_callback(
-        "--go", [arguments] { arguments->start = Start::go; }, "Also run submit.sh [only write it]");
-    add_limit_options(app, arguments->limits);
-    add_json_option(app, arguments->printing, "what was written");
-    return [arguments](const Invocation& invocation) { return submit(*arguments, invocation); };
+        "--go", [&request] { request.start = campaign::SubmitRequest::Start::go; },
+        "Also run submit.sh [only write it]");
+    add_limit_options(app, request.limits);
+    add_json_option(app, request.printing, "what was written");
+    return [arguments](const Invocation& invocation) {
+        arguments->request.command = invocation.command;
+        const study::StudyConfig in_file = study::read_study(arguments->request.file);
+        study::StudyConfig config = in_file;
+        apply_models(arguments->models, config.conditions);
+        return campaign::submit(in_file, config, arguments->request);
+    };
 }
 
 }  // namespace clearway::cli

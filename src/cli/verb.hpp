@@ -22,9 +22,10 @@ using Action = std::function<core::ExitCode(const Invocation& invocation)>;
 /// A verb of the command line: `configure` declares its options on `app` and returns what to do with them.
 struct Verb {
     const char* name;
-    const char* summary;  ///< One line for `clearway --help`.
-    const char* example;  ///< Shown at the end of the verb's own help.
-    Action (*configure)(CLI::App& app);
+    const char* summary;               ///< One line for `clearway --help`.
+    const char* example;               ///< Shown at the end of the verb's own help.
+    Action (*configure)(CLI::App&);    ///< Null: one of the parts must be named.
+    std::span<const Verb> parts = {};  ///< `status` of `study status`.
 };
 
 /// All verbs, in the order of the help.
@@ -33,7 +34,6 @@ std::span<const Verb> verbs();
 /// The whole program: parses, runs the verb, prints errors on standard error. Returns the exit code.
 int run_command_line(int argument_count, const char* const* arguments);
 
-Action configure_reproduce(CLI::App& app);
 Action configure_run(CLI::App& app);
 Action configure_study(CLI::App& app);
 Action configure_submit(CLI::App& app);
@@ -47,7 +47,7 @@ Action configure_replay(CLI::App& app);
 Action configure_verify(CLI::App& app);
 Action configure_dataset(CLI::App& app);
 Action configure_train(CLI::App& app);
-Action configure_links(CLI::App& app);
+Action configure_evaluate(CLI::App& app);
 Action configure_live(CLI::App& app);
 Action configure_list(CLI::App& app);
 Action configure_init(CLI::App& app);

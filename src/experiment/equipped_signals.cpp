@@ -54,8 +54,9 @@ std::vector<bool> equipped_signals(const ConditionSpec& condition, const roads::
             equipped[signal->value] = true;
             continue;
         }
-        problems.push_back({where, fmt::format("the network has no signal \"{}\"", id), allowed,
-                            core::did_you_mean(id, known, "`clearway signals SCENARIO` lists them")});
+        problems.push_back(
+            {where, fmt::format("the network has no signal \"{}\"", id), allowed,
+             core::did_you_mean(id, known, "`clearway scenario signals SCENARIO` lists them")});
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
     return equipped;

@@ -321,7 +321,8 @@ void set(ConditionSpec& condition, const std::string& name, const std::string& v
 void set_model(ConditionSpec& condition, const std::string& file, const std::string& where) {
     if (!std::filesystem::is_regular_file(file))
         throw core::InputError({where, fmt::format("{} is not a file", file),
-                                "a file of clearway train or of torch.save", "`clearway train` writes one"});
+                                "a file of clearway links train or of torch.save",
+                                "`clearway links train` writes one"});
     condition.model_file = std::filesystem::absolute(file).lexically_normal().string();
     condition.model_hash = core::content_hash(core::read_file(file));
 }

@@ -18,8 +18,8 @@ std::unique_ptr<Predictor> make_graphsage(const PredictorContext& context);
 void check_graphsage(const Weights& weights);
 
 /// Boosted trees on a pair's own numbers, its ends' and what their neighbours tell (tree_inputs.hpp), trained
-/// by `clearway train gradient_boosting`. They pass no messages. Believed places are those of the twins, or
-/// of the kinematics along the route, in which a vehicle that stands stays where it stood
+/// by `clearway links train gradient_boosting`. They pass no messages. Believed places are those of the
+/// twins, or of the kinematics along the route, in which a vehicle that stands stays where it stood
 /// (MotionContextBuilder without start at green).
 std::unique_ptr<Predictor> make_gradient_boosting(const PredictorContext& context);
 void check_gradient_boosting(const Weights& weights);

@@ -58,11 +58,11 @@ const FeatureSchema& features_of(const StateDictKind& kind, std::uint32_t inputs
 Weights weights_from_pth(const std::string& predictor, std::string_view bytes, const std::string& source) {
     const auto kind = std::ranges::find(state_dict_kinds(), predictor, &StateDictKind::predictor);
     if (kind == state_dict_kinds().end())
-        throw core::InputError({source,
-                                fmt::format("is a file of torch.save, which {} does not take", predictor),
-                                fmt::format("a .weights file of clearway train; files of torch.save for {}",
-                                            fmt::join(pth_predictors(), ", ")),
-                                "Choose the predictor that the net is for"});
+        throw core::InputError(
+            {source, fmt::format("is a file of torch.save, which {} does not take", predictor),
+             fmt::format("a .weights file of clearway links train; files of torch.save for {}",
+                         fmt::join(pth_predictors(), ", ")),
+             "Choose the predictor that the net is for"});
     const std::vector<std::string> names = parameter_names(kind->convolution);
     std::vector<Tensor> tensors =
         renamed_parameters(parse_pth(bytes, source), names, std::string(kind->net), source);

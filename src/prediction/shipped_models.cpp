@@ -16,7 +16,7 @@ Weights shipped_model(const std::string& predictor) {
     if (found == models.end()) {
         throw core::InputError({"model of " + predictor, "this program carries no model for it",
                                 fmt::format("{}", fmt::join(shipped_model_names(), ", ")),
-                                "train one with `clearway train` and name its file"});
+                                "train one with `clearway links train` and name its file"});
     }
     return parse_weights(found->text, fmt::format("shipped model {}", predictor));
 }

@@ -58,7 +58,7 @@ class Reader {
 
     [[noreturn]] void fail(const std::string& what, const std::string& allowed = "") const {
         throw core::InputError({fmt::format("{}:{}", source_, number_), what, allowed,
-                                "export the net again with `clearway train`"});
+                                "export the net again with `clearway links train`"});
     }
 
   private:

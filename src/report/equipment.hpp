@@ -12,7 +12,7 @@ namespace clearway::report {
 
 /// A signal that was chosen.
 struct EquippedSignal {
-    std::size_t number = 0;                    ///< As `clearway signals` counts, from 1.
+    std::size_t number = 0;                    ///< As `clearway scenario signals` counts, from 1.
     std::string signal;                        ///< Its id; text from a file.
     std::optional<analysis::Estimate> gain;    ///< Over those of better rank, s of EV time.
     std::optional<analysis::Estimate> so_far;  ///< Over no signal equipped.

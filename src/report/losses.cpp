@@ -19,7 +19,7 @@ namespace {
     throw core::InputError(core::Problem{
         where, what,
         "epoch,train_loss_nat,test_loss_nat and a row of numbers for each epoch; empty where not finite",
-        "Train again with clearway train, or remove the folder from training/."});
+        "Train again with clearway links train, or remove the folder from training/."});
 }
 
 double loss_from(std::string_view cell, const std::string& where) {
@@ -54,8 +54,8 @@ void add_summary(const std::filesystem::path& file, LossCurve& curve) {
     if (!std::filesystem::exists(file)) return;
     const auto summary = nlohmann::json::parse(core::read_file(file), nullptr, false);
     if (!summary.is_object()) {
-        throw core::InputError(
-            core::Problem{file.string(), "is not a JSON object", "", "Train again with clearway train."});
+        throw core::InputError(core::Problem{file.string(), "is not a JSON object", "",
+                                             "Train again with clearway links train."});
     }
     const std::string pairs = text_of(summary, "pairs");
     const std::string mode = text_of(summary, "mode");

@@ -135,7 +135,8 @@ ScenarioFacts scenario_facts(const analysis::ScenarioSummary& summary, const ana
                              double least_relevant_s) {
     ScenarioFacts facts;
     facts.name = summary.scenario;
-    if (study.manifest.study == "dissertation") facts.published_as = published_scenario(summary.scenario);
+    if (study.manifest.study == "dissertation" || study.manifest.study == "dissertation-quick")
+        facts.published_as = published_scenario(summary.scenario);
     facts.title = summary.title;
     facts.replications = study.manifest.replications;
     facts.least_relevant_s = least_relevant_s;

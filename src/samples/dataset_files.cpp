@@ -200,7 +200,7 @@ PairDataset read_pair_dataset(const std::filesystem::path& folder) {
             problems.add({(folder / name).string(), "cannot be read",
                           "a folder with edge_list.csv, vehicle_features.csv "
                           "and target_y.csv",
-                          "Make one with `clearway dataset SCENARIO --out DIR`"});
+                          "Make one with `clearway links dataset SCENARIO --out DIR`"});
             return {};
         }
     };

@@ -106,9 +106,10 @@ GraphSampleFile read_graph_samples(const std::filesystem::path& file) {
 }
 
 std::vector<std::filesystem::path> find_graph_samples(const std::filesystem::path& folder) {
-    return detail::find_files(folder, graph_sample_extension, "graph samples",
-                              "Record them with `clearway dataset SCENARIO --samples --out DIR`, for `train "
-                              "graphsage` with `--net graphsage`");
+    return detail::find_files(
+        folder, graph_sample_extension, "graph samples",
+        "Record them with `clearway links dataset SCENARIO --samples --out DIR`, for `train "
+        "graphsage` with `--net graphsage`");
 }
 
 }  // namespace clearway::samples

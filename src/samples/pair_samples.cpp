@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view first_words = "# clearway pair samples 2 ";
 constexpr std::size_t most_pair_problems = 20;
 constexpr const char* cure_record_pairs =
-    "Record the pairs again with `clearway dataset SCENARIO --samples --net logistic`";
+    "Record the pairs again with `clearway links dataset SCENARIO --samples --net logistic`";
 
 std::string header_line() {
     return fmt::format("{},linked", fmt::join(prediction::pair_feature_names, ","));
@@ -111,7 +111,7 @@ PairSampleFile read_pair_samples(const std::filesystem::path& file) {
 std::vector<std::filesystem::path> find_pair_samples(const std::filesystem::path& folder) {
     return detail::find_files(
         folder, pair_sample_ending, "pair samples",
-        "Record them with `clearway dataset SCENARIO --samples --net logistic --out DIR`");
+        "Record them with `clearway links dataset SCENARIO --samples --net logistic --out DIR`");
 }
 
 }  // namespace clearway::samples

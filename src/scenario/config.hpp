@@ -98,9 +98,10 @@ struct NetworkSource {
                         "none: the network as it is"},
             core::Field{"attribution", "", &S::attribution, 0, 0, "Whom users of the map data must name.",
                         "licence"},
-            core::Field{"preemption", "", &S::preemption, 0, 0,
-                        "CSV of the signals' preemption parameters (clearway signals writes it); optional.",
-                        "none: the settings of the condition"});
+            core::Field{
+                "preemption", "", &S::preemption, 0, 0,
+                "CSV of the signals' preemption parameters (clearway scenario signals writes it); optional.",
+                "none: the settings of the condition"});
     }
 };
 

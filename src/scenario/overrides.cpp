@@ -95,10 +95,11 @@ void apply_emergency_kinds(const Override& row, const Given& given, ScenarioConf
     set_kinds(given, config.emergency_kinds, problems);
     config.origins[row.key] = given.where;
     if (config.demand.emergency == 0)
-        problems.push_back({given.where, "has no effect, because demand.emergency is 0",
-                            "scenarios with demand.emergency above 0",
-                            "In a copy of the scenario (clearway init), set demand.emergency or the kind "
-                            "of each [[emergency_trip]]"});
+        problems.push_back(
+            {given.where, "has no effect, because demand.emergency is 0",
+             "scenarios with demand.emergency above 0",
+             "In a copy of the scenario (clearway scenario init), set demand.emergency or the kind "
+             "of each [[emergency_trip]]"});
 }
 
 /// An override that has the type, range and meaning of a key.

@@ -206,7 +206,7 @@ void check(const traffic::Preemption& row, const std::string& where, const roads
         {fmt::format("{}: exit_phase", where),
          fmt::format("{} {} of signal '{}'", phase,
                      phase < signal.program.size() ? "is no green phase" : "is no phase", signal.id),
-         core::listed(greens), "clearway signals lists the phases"});
+         core::listed(greens), "clearway scenario signals lists the phases"});
 }
 
 }  // namespace
@@ -219,8 +219,8 @@ PreemptionRows read_preemption_rows(const std::filesystem::path& file, std::vect
     std::size_t line = 1;
     try {
         if (!reader.next()) {
-            problems.push_back(
-                {file.string(), "is empty", header_line(), "clearway signals SCENARIO --out FILE writes it"});
+            problems.push_back({file.string(), "is empty", header_line(),
+                                "clearway scenario signals SCENARIO --out FILE writes it"});
             return rows;
         }
         reading.read_header(reader.cells());

@@ -347,30 +347,6 @@ void read_quick(StrictTable& root, Extent extent, StudyConfig& config) {
 
 }  // namespace
 
-StudyConfig dissertation_study(std::uint32_t replications, std::uint64_t seed,
-                               const scenario::Options& options) {
-    StudyConfig config;
-    config.name = "dissertation";
-    config.seed = seed;
-    config.replications = replications;
-    Problems problems;
-    add_scenario("merge", options, "", problems, config);
-    // Where nobody waits, TABLE II is all zeros; in the dense merge there is something to gain.
-    const std::string variant = "variant";
-    if (!options.overrides.contains(variant)) {
-        scenario::Options dense = options;
-        dense.set(variant, std::string(core::name(scenario::Variant::dense)));
-        add_scenario("merge", dense, "_dense", problems, config);
-    }
-    for (const char* name : {"intersection", "city"})
-        add_scenario(name, options, "", problems, config);
-    if (!problems.empty()) throw core::InputError(problems);
-    for (const char* name : {"baseline", "graph_simulation", "graph_graphsage", "graph_graphsage_improved",
-                             "graph_graphsage_as_published", "b10_no_repair", "b10_dead_reckoning", "solo"})
-        config.conditions.push_back(experiment::built_in_condition(name, "conditions"));
-    return config;
-}
-
 StudyConfig read_study(const std::filesystem::path& file, Extent extent) {
     TomlReading reading{file.string(), {}, {}};
     const toml::table table = core::parse_toml(core::read_file(file), reading.file);

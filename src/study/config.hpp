@@ -31,11 +31,6 @@ struct StudyConfig {
 /// a study with a precision target.
 inline constexpr std::uint32_t least_replications = 10;
 
-/// The dissertation's study: its three scenarios and, unless all are dense, the dense merge; the baseline,
-/// its graph from simulation attributes and the one of each GraphSAGE, two controls and solo.
-StudyConfig dissertation_study(std::uint32_t replications, std::uint64_t seed,
-                               const scenario::Options& options = {});
-
 /// How much of a study file runs.
 enum class Extent : std::uint8_t {
     whole,

@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "study/detail/folder_lock.hpp"
+#include "study/folder_lock.hpp"
 #include "study/shard.hpp"
 
 namespace clearway::study {
@@ -143,7 +143,7 @@ MergeResult merge(const std::vector<fs::path>& sources, const fs::path& out,
     for (const fs::path& folder : folders)
         require_same_study(first, results::Store::open(folder));
     claim(out, {});
-    const detail::FolderLock lock(out);
+    const FolderLock lock(out);
     const results::Store target = results::Store::create(out, first.manifest());
     MergeResult result;
     for (std::size_t number = 0; number < folders.size(); ++number) {

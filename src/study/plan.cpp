@@ -12,8 +12,8 @@
 #include "experiment/conditions.hpp"
 #include "experiment/settings.hpp"
 #include "scenario/network.hpp"
-#include "study/detail/folder_lock.hpp"
 #include "study/detail/situation.hpp"
+#include "study/folder_lock.hpp"
 
 namespace clearway::study {
 namespace {
@@ -182,7 +182,7 @@ void check_roads(const Plan& plan) {
 
 results::Store prepare_folder(const Plan& plan, const fs::path& folder) {
     check_roads(plan);
-    const detail::FolderLock lock(folder);
+    const FolderLock lock(folder);
     results::Store store = results::Store::create(folder, plan.manifest);
     for (const scenario::ScenarioConfig& config : plan.scenarios)
         prepare_scenario(config, store.scenario_folder(config.name));

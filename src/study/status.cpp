@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "study/detail/folder_lock.hpp"
+#include "study/folder_lock.hpp"
 #include "study/shard.hpp"
 
 namespace clearway::study {
@@ -34,7 +34,7 @@ State state_of(const StudyStatus& status) {
 }
 
 /// Estimated from the start time and the number of ended runs that the running process noted.
-std::optional<double> time_left_s(const StudyStatus& status, const detail::LockNote& note) {
+std::optional<double> time_left_s(const StudyStatus& status, const LockNote& note) {
     const double elapsed_s =
         std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count() -
         note.started_unix_s;
@@ -79,7 +79,7 @@ StudyStatus read_status(const std::filesystem::path& folder) {
         status.complete += cell.complete;
         status.failed += cell.failed;
     }
-    const auto note = detail::holder_of(folder);
+    const auto note = holder_of(folder);
     if (note) status.holder = note->holder;
     status.state = state_of(status);
     if (note) status.time_left_s = time_left_s(status, *note);

@@ -52,7 +52,7 @@ exit "$code"
 }
 
 std::string merge_command(const Submission& submission) {
-    return fmt::format("{} merge {} --out {}", word(submission.program), word(submission.folder),
+    return fmt::format("{} study merge {} --out {}", word(submission.program), word(submission.folder),
                        word(submission.folder / "merged"));
 }
 
@@ -108,7 +108,7 @@ std::string submit_script(const Submission& submission) {
         // The merge runs even if shards failed: it says what is missing.
         return text + fmt::format(R"(array=$(sbatch --parsable {0}/array.sbatch)
 merge=$(sbatch --parsable --dependency="afterany:${{array%%;*}}" {0}/merge.sbatch)
-echo "job array ${{array%%;*}}, merge ${{merge%%;*}}; squeue shows them, and: {1} status {0}"
+echo "job array ${{array%%;*}}, merge ${{merge%%;*}}; squeue shows them, and: {1} study status {0}"
 )",
                                   folder, word(submission.program));
     }

@@ -19,7 +19,7 @@ nlohmann::ordered_json read_json(const std::filesystem::path& file, const char* 
     try {
         return nlohmann::ordered_json::parse(core::read_file(file));
     } catch (const nlohmann::json::exception& error) {
-        throw core::InputError({file.string(), error.what(), "a file of clearway train", cure_damaged});
+        throw core::InputError({file.string(), error.what(), "a file of clearway links train", cure_damaged});
     }
 }
 

@@ -57,7 +57,7 @@ Json json_of(const std::vector<GroupQuality>& groups, const char* reference) {
 /// What a model says of its training.
 std::vector<std::string> notes_of(const TrainingResult& result, const Json& summary) {
     std::vector<std::string> notes = {fmt::format(
-        "trained by clearway train {}, seed {}, data {}", summary["mode"].get<std::string>(),
+        "trained by clearway links train {}, seed {}, data {}", summary["mode"].get<std::string>(),
         summary["configuration"]["seed"].get<std::uint64_t>(), summary["data_hash"].get<std::string>())};
     if (!result.groups.empty()) {
         notes.push_back(fmt::format("threshold of greatest F1 on validation seeds {:.4f}", result.threshold));

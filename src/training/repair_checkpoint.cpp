@@ -58,7 +58,8 @@ std::vector<std::string> content_hashes(const Checkpoint& checkpoint, const Repa
         require_same_training(head, identity_of(config, checkpoint.data_hash), file);
         return head.at("content_hashes").get<std::vector<std::string>>();
     } catch (const Json::exception& error) {
-        throw core::InputError({file.string(), error.what(), "a checkpoint of clearway train", cure_anew});
+        throw core::InputError(
+            {file.string(), error.what(), "a checkpoint of clearway links train", cure_anew});
     }
 }
 
@@ -119,7 +120,7 @@ bool read_checkpoint(const Checkpoint& checkpoint, const RepairConfig& config, R
     const StateDict best = part_of(all, "best_epoch");
     if (losses.size() != 1 || best.size() != 1 || best.front().values.size() != 2) {
         throw core::InputError({tensors_of(checkpoint).string(), "lacks its losses",
-                                "a checkpoint of clearway train", cure_anew});
+                                "a checkpoint of clearway links train", cure_anew});
     }
     progress.losses.clear();
     for (std::size_t at = 0; at + 1 < losses.front().values.size(); at += 2) {

@@ -48,7 +48,7 @@ SeedSplit split_seeds(std::vector<DataSeed> seeds, const SplitShares& shares) {
 SeedSplit split_files(const Origins& origins, const SplitShares& shares, const std::string& recording) {
     if (origins.empty())
         throw core::InputError(
-            {"--data", "no samples", "", "Record some with clearway dataset " + recording});
+            {"--data", "no samples", "", "Record some with clearway links dataset " + recording});
     std::vector<DataSeed> seeds;
     for (const samples::SampleOrigin* const origin : origins)
         seeds.push_back({origin->study_seed, origin->replication});

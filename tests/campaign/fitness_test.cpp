@@ -1,4 +1,4 @@
-// What verbs say: what `clearway check` thinks of a baseline run, cures, pages that were written.
+// What verbs say: what `clearway scenario check` thinks of a baseline run, cures, pages that were written.
 #include "campaign/fitness.hpp"
 
 #include <gmock/gmock.h>

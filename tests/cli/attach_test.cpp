@@ -53,13 +53,13 @@ TEST_F(AttachTest, a_simulation_goes_on_under_a_policy_and_becomes_a_run_folder)
         {"attach", place(sumo.port()), "--policy", "corridor", "--automated", "robot", "--out", "out"});
     ASSERT_EQ(ended.code, 0) << ended.err << read("sumo.log");
     EXPECT_THAT(ended.out, HasSubstr("attached"));
-    const Ended runs = clearway({"results", "out", "runs", "--json"});
+    const Ended runs = clearway({"export", "results", "out", "runs", "--json"});
     const auto run = nlohmann::json::parse(runs.out).at(0);
     EXPECT_EQ(run.at("vehicle_count"), 60) << run;
     EXPECT_EQ(run.at("emergency_count"), 1);
     EXPECT_EQ(run.at("emergency_arrived"), 1);
     EXPECT_GT(run.at("leases_issued"), 0);
-    const Ended vehicles = clearway({"results", "out", "vehicles", "--csv"});
+    const Ended vehicles = clearway({"export", "results", "out", "vehicles", "--csv"});
     EXPECT_THAT(vehicles.out, AllOf(HasSubstr("automated"), HasSubstr("human"), HasSubstr("emergency")));
     EXPECT_FALSE(std::filesystem::exists(folder() / "out.job"));
     EXPECT_EQ(clearway({"attach", place(sumo.port()), "--out", "out"}).code, 3) << "the folder exists";

@@ -120,7 +120,7 @@ TEST_F(BadInputTest, fields_of_a_failure_are_checked_before_anything_runs) {
                                            "failure `B10,dark_share=1.5,onbord_range_m=50`"),
                                  HasSubstr("Did you mean 'onboard_range_m'?")));
     const Ended data =
-        clearway({"dataset", "line", "--out", "data", "--samples", "--failure", "loss_rate=2"});
+        clearway({"links", "dataset", "line", "--out", "data", "--samples", "--failure", "loss_rate=2"});
     EXPECT_EQ(data.code, 3);
     EXPECT_THAT(data.err, AllOf(HasSubstr("--failure `loss_rate=2`"), HasSubstr("2 is out of range")));
 }
@@ -171,9 +171,10 @@ TEST_F(BadInputTest, a_planned_study_is_refused_after_a_look_at_its_seed_with_ot
     EXPECT_EQ(clearway({"study", "my.toml", "--dry-run"}).code, 0) << "the same study again";
     write("my.toml", planned_study + std::string("[overrides]\ndensity = 2\n"));
     for (const char* const out : {"runs/first", "runs/second"}) {
-        for (const char* const verb : {"study", "submit"}) {
-            const Ended ended = clearway({verb, "my.toml", "--out", out});
-            EXPECT_EQ(ended.code, 3) << verb << ' ' << out;
+        for (std::vector<std::string> words : {std::vector<std::string>{"study"}, {"study", "submit"}}) {
+            words.insert(words.end(), {"my.toml", "--out", out});
+            const Ended ended = clearway(words);
+            EXPECT_EQ(ended.code, 3) << words[1] << ' ' << out;
             EXPECT_THAT(ended.err, AllOf(HasSubstr("77 was used before, by"),
                                          HasSubstr("runs/first: different scenarios"),
                                          HasSubstr("take a seed that was never run")));
@@ -184,7 +185,7 @@ TEST_F(BadInputTest, a_planned_study_is_refused_after_a_look_at_its_seed_with_ot
 
 TEST_F(BadInputTest, a_data_set_says_once_whether_exits_are_known) {
     write_line_scenario();
-    const Ended ended = clearway({"dataset", "line", "--out", "data", "--samples", "--failure",
+    const Ended ended = clearway({"links", "dataset", "line", "--out", "data", "--samples", "--failure",
                                   "B10,exits=unknown", "--exits", "known"});
     EXPECT_EQ(ended.code, 3);
     EXPECT_THAT(ended.err, AllOf(HasSubstr("--failure `B10,exits=unknown`"), HasSubstr("--exits unknown")));
@@ -230,7 +231,7 @@ TEST_F(BadInputTest, report_of_a_folder_without_runs_is_refused) {
 
 TEST_F(BadInputTest, compare_and_results_refuse_what_is_no_run_folder) {
     EXPECT_EQ(clearway({"compare", "."}).code, 3);
-    const Ended ended = clearway({"results", "."});
+    const Ended ended = clearway({"export", "results", "."});
     EXPECT_EQ(ended.code, 3);
     EXPECT_THAT(ended.err, HasSubstr("manifest.json"));
     EXPECT_THAT(ended.out, IsEmpty());
@@ -247,12 +248,12 @@ TEST_F(BadInputTest, compare_names_unknown_metrics_and_tolerances_that_are_none)
         EXPECT_THAT(ended.err, HasSubstr("--tolerance")) << none;
     }
     EXPECT_EQ(clearway({"report", ".", "--least-difference", "-1"}).code, 2);
-    EXPECT_EQ(clearway({"results", ".", "--csv", "--json"}).code, 2);
+    EXPECT_EQ(clearway({"export", "results", ".", "--csv", "--json"}).code, 2);
 }
 
 TEST_F(BadInputTest, init_refuses_a_folder_that_is_in_use) {
     write("mine/notes.txt", "keep me");
-    const Ended ended = clearway({"init", "mine"});
+    const Ended ended = clearway({"scenario", "init", "mine"});
     EXPECT_EQ(ended.code, 3);
     EXPECT_EQ(read("mine/notes.txt"), "keep me");
 }
@@ -285,11 +286,13 @@ TEST_F(BadInputTest, a_missing_netconvert_exits_with_4) {
 }
 
 TEST_F(BadInputTest, a_published_data_set_is_one_snapshot) {
-    const Ended ended = clearway({"dataset", "merge", "--out", "data", "--seeds", "3"});
+    const Ended ended = clearway({"links", "dataset", "merge", "--out", "data", "--seeds", "3"});
     EXPECT_EQ(ended.code, 3);
     EXPECT_THAT(ended.err, AllOf(HasSubstr("--seeds"), HasSubstr("--samples")));
-    EXPECT_EQ(clearway({"dataset", "merge", "--out", "data", "--samples", "--features", "2"}).code, 2);
-    EXPECT_EQ(clearway({"dataset", "merge", "--out", "data", "--samples", "--failure", "B11"}).code, 3);
+    EXPECT_EQ(clearway({"links", "dataset", "merge", "--out", "data", "--samples", "--features", "2"}).code,
+              2);
+    EXPECT_EQ(clearway({"links", "dataset", "merge", "--out", "data", "--samples", "--failure", "B11"}).code,
+              3);
     EXPECT_FALSE(std::filesystem::exists(folder() / "data"));
 }
 

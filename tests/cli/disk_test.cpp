@@ -70,8 +70,8 @@ TEST_F(DiskTest, that_is_read_only_exits_with_4_and_can_still_be_looked_at) {
     const Ended again = study("disk/out");
     EXPECT_EQ(again.code, 4);
     EXPECT_THAT(again.err, HasSubstr("ead-only"));
-    EXPECT_THAT(clearway({"status", "disk/out"}).out, HasSubstr("complete; 32 of 32"));
-    EXPECT_EQ(clearway({"merge", "disk/out", "--out", "merged"}).code, 0)
+    EXPECT_THAT(clearway({"study", "status", "disk/out"}).out, HasSubstr("complete; 32 of 32"));
+    EXPECT_EQ(clearway({"study", "merge", "disk/out", "--out", "merged"}).code, 0)
         << "copied, for links cannot leave a disk";
     expect_tables_of_an_undisturbed_study();
 }
@@ -99,8 +99,8 @@ TEST_F(DiskTest, with_a_folder_of_another_version_is_refused_and_left_alone) {
     for (const std::vector<std::string>& words :
          {std::vector<std::string>{"study", "my.toml", "--out", "out"},
           {"report", "out"},
-          {"status", "out"},
-          {"merge", "out", "--out", "merged"}}) {
+          {"study", "status", "out"},
+          {"study", "merge", "out", "--out", "merged"}}) {
         const Ended ended = clearway(words);
         EXPECT_EQ(ended.code, 3) << words.front();
         EXPECT_THAT(ended.err, AllOf(HasSubstr("format: is 99"), HasSubstr("version"))) << words.front();

@@ -56,7 +56,7 @@ TEST_F(EquipTest, leaves_out_signals_that_no_emergency_vehicle_passes_or_that_ar
     const auto turned = nlohmann::json::parse(equip({"--json"}).out);
     EXPECT_EQ(turned.at("not_passed"), 1);
     EXPECT_LE(turned.at("ranked").size(), 1U);
-    ASSERT_EQ(clearway({"signals", "./crossings", "--out", "p.csv"}).code, 0);
+    ASSERT_EQ(clearway({"scenario", "signals", "./crossings", "--out", "p.csv"}).code, 0);
     const std::string text = read("p.csv");
     write("crossings/p.csv", text.substr(0, text.find('\n') + 1) + "A,0,,,,,,,,,,\n");
     write_scenario("A_north_a", "preemption = \"p.csv\"\n");

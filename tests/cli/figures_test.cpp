@@ -37,7 +37,7 @@ class FiguresTest : public UserTest {
 
 TEST_F(FiguresTest, every_drawing_becomes_svg_and_png_and_every_table_csv_and_latex) {
     run();
-    const Ended ended = clearway({"figures", "study", "--out", "new/figures"});
+    const Ended ended = clearway({"export", "figures", "study", "--out", "new/figures"});
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_THAT(ended.out, IsEmpty());
     const auto count = files("new/figures");
@@ -56,11 +56,11 @@ TEST_F(FiguresTest, every_drawing_becomes_svg_and_png_and_every_table_csv_and_la
 TEST_F(FiguresTest, without_png_no_other_program_is_needed) {
     run();
     const Environment bare = without_rasteriser();
-    const Ended ended = clearway({"figures", "study", "--out", "figures", "--no-png"}, bare);
+    const Ended ended = clearway({"export", "figures", "study", "--out", "figures", "--no-png"}, bare);
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_THAT(ended.err, AllOf(HasSubstr("figures as SVG, "), Not(HasSubstr("PNG"))));
     EXPECT_EQ(files("figures").count(".png"), 0U);
-    const Ended lacking = clearway({"figures", "study", "--out", "others"}, bare);
+    const Ended lacking = clearway({"export", "figures", "study", "--out", "others"}, bare);
     EXPECT_EQ(lacking.code, 4);
     EXPECT_THAT(lacking.err, AllOf(HasSubstr("rsvg-convert cannot be started"), HasSubstr("librsvg2-bin"),
                                    HasSubstr("--no-png"), HasSubstr("SVG, CSV and LaTeX files are written")));
@@ -69,8 +69,8 @@ TEST_F(FiguresTest, without_png_no_other_program_is_needed) {
 
 TEST_F(FiguresTest, a_second_time_gives_the_same_bytes) {
     run();
-    ASSERT_EQ(clearway({"figures", "study", "--out", "one", "--no-png"}).code, 0);
-    ASSERT_EQ(clearway({"figures", "study", "--out", "two", "--no-png"}).code, 0);
+    ASSERT_EQ(clearway({"export", "figures", "study", "--out", "one", "--no-png"}).code, 0);
+    ASSERT_EQ(clearway({"export", "figures", "study", "--out", "two", "--no-png"}).code, 0);
     for (const auto& entry : std::filesystem::directory_iterator(folder() / "one")) {
         const std::string name = entry.path().filename();
         EXPECT_EQ(read("one/" + name), read("two/" + name)) << name;
@@ -79,7 +79,7 @@ TEST_F(FiguresTest, a_second_time_gives_the_same_bytes) {
 
 TEST_F(FiguresTest, what_cannot_be_read_or_written_is_told_and_nothing_is_written) {
     const auto refused = [&](const std::vector<std::string>& words, int code, const std::string& said) {
-        std::vector<std::string> all = {"figures"};
+        std::vector<std::string> all = {"export", "figures"};
         all.insert(all.end(), words.begin(), words.end());
         const Ended ended = clearway(all);
         EXPECT_EQ(ended.code, code) << ended.err;

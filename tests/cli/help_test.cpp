@@ -10,10 +10,26 @@
 namespace clearway::cli {
 namespace {
 
-const std::vector<std::string> every_verb = {"reproduce", "run",     "study",   "status", "submit",  "merge",
-                                             "report",    "compare", "results", "replay", "live",    "verify",
-                                             "dataset",   "train",   "list",    "init",   "doctor",  "links",
-                                             "import",    "check",   "attach",  "python", "signals", "equip"};
+const std::vector<std::string> every_verb = {"run",    "study",    "report", "compare", "export",
+                                             "verify", "replay",   "live",   "attach",  "equip",
+                                             "links",  "scenario", "list",   "python",  "doctor"};
+
+/// The verbs and their parts, as `study` and `study status`.
+const std::vector<std::vector<std::string>> every_command = [] {
+    std::vector<std::vector<std::string>> all = {
+        {"study", "status"},     {"study", "submit"},        {"study", "merge"},     {"export", "figures"},
+        {"export", "results"},   {"export", "trajectories"}, {"links", "dataset"},   {"links", "train"},
+        {"links", "evaluate"},   {"scenario", "init"},       {"scenario", "import"}, {"scenario", "check"},
+        {"scenario", "signals"}, {"python", "environment"}};
+    for (const std::string& verb : every_verb)
+        all.push_back({verb});
+    return all;
+}();
+
+std::vector<std::string> with_help(std::vector<std::string> words) {
+    words.emplace_back("--help");
+    return words;
+}
 
 class HelpTest : public UserTest {};
 
@@ -43,13 +59,14 @@ TEST_F(HelpTest, names_every_verb_and_the_exit_codes) {
 
 TEST_F(HelpTest, of_every_verb_shows_an_example_and_a_default_for_each_option_with_a_value) {
     const std::regex flag("^  -[-a-z,]+(  |$)");
-    for (const std::string& verb : every_verb) {
-        if (verb == "train" && !has_trainer()) continue;
-        const Ended help = clearway({verb, "--help"});
+    for (const std::vector<std::string>& command : every_command) {
+        const std::string verb = core::shell_text(command);
+        if (verb == "links train" && !has_trainer()) continue;
+        const Ended help = clearway(with_help(command));
         EXPECT_EQ(help.code, 0) << verb;
-        EXPECT_THAT(help.out, HasSubstr("clearway " + verb)) << verb;
         EXPECT_THAT(help.out, testing::ContainsRegex("Examples?:")) << verb;
-        if (verb == "train") continue;  // the trainer prints its own help
+        if (verb == "links train") continue;  // the trainer prints its own help
+        EXPECT_THAT(help.out, HasSubstr("clearway " + verb)) << verb;
         for (const std::string& option : options_in(help.out)) {
             if (std::regex_search(option, flag)) continue;
             EXPECT_TRUE(option.find('[') != std::string::npos ||
@@ -61,10 +78,9 @@ TEST_F(HelpTest, of_every_verb_shows_an_example_and_a_default_for_each_option_wi
 }
 
 TEST_F(HelpTest, of_every_verb_and_the_list_fit_80_columns) {
-    std::vector<std::vector<std::string>> calls = {
-        {"--help"}, {"list"}, {"trajectories", "--help"}, {"links", "evaluate", "--help"}};
-    for (const std::string& verb : every_verb)
-        if (verb != "train" || has_trainer()) calls.push_back({verb, "--help"});
+    std::vector<std::vector<std::string>> calls = {{"--help"}, {"list"}};
+    for (const std::vector<std::string>& command : every_command)
+        if (command.back() != "train" || has_trainer()) calls.push_back(with_help(command));
     for (const std::vector<std::string>& call : calls) {
         std::istringstream lines(clearway(call).out);
         std::size_t count = 0;
@@ -96,7 +112,7 @@ TEST_F(HelpTest, tells_units_where_an_option_has_one) {
         EXPECT_THAT(option, HasSubstr("km/h"));
     }
     EXPECT_THAT(run, AllOf(HasSubstr("--step-length"), HasSubstr("--road-limit")));
-    EXPECT_THAT(clearway({"dataset", "--help"}).out, testing::ContainsRegex("--interval SECONDS"));
+    EXPECT_THAT(clearway({"links", "dataset", "--help"}).out, testing::ContainsRegex("--interval SECONDS"));
 }
 
 TEST_F(HelpTest, version_is_told_with_the_build_as_the_worker_does) {
@@ -106,16 +122,29 @@ TEST_F(HelpTest, version_is_told_with_the_build_as_the_worker_does) {
 }
 
 TEST_F(HelpTest, an_unknown_verb_names_the_nearest) {
-    const Ended ended = clearway({"reproduse"});
+    const Ended ended = clearway({"compaer"});
     EXPECT_EQ(ended.code, 2);
-    EXPECT_THAT(ended.err, HasSubstr("Did you mean 'reproduce'?"));
+    EXPECT_THAT(ended.err, HasSubstr("Did you mean 'compare'?"));
     EXPECT_THAT(ended.out, IsEmpty());
+}
+
+TEST_F(HelpTest, a_part_of_a_verb_is_found_without_the_verb_and_with_another) {
+    EXPECT_THAT(clearway({"study", "status", "out"}).err,
+                HasSubstr("`status` is not a verb. Did you mean 'study status'?"));
+    EXPECT_THAT(clearway({"links", "figurs"}).err,
+                HasSubstr("`links figurs` is not a verb. Did you mean 'export figures'?"));
+    EXPECT_THAT(clearway({"scenario", "zzz"}).err, HasSubstr("verbs are init, import, check, signals"));
+}
+
+TEST_F(HelpTest, a_study_asks_for_its_file_and_its_parts_for_their_own) {
+    EXPECT_THAT(clearway({"study"}).err, HasSubstr("FILE"));
+    EXPECT_THAT(clearway({"study", "status"}).err, HasSubstr("DIR"));
 }
 
 TEST_F(HelpTest, no_verb_lists_them) {
     const Ended ended = clearway({});
     EXPECT_EQ(ended.code, 2);
-    EXPECT_THAT(ended.err, AllOf(HasSubstr("reproduce"), HasSubstr("doctor")));
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("study"), HasSubstr("doctor")));
 }
 
 TEST_F(HelpTest, an_unknown_option_names_the_nearest) {
@@ -147,7 +176,7 @@ TEST_F(HelpTest, negative_and_fractional_counts_are_refused) {
 
 TEST_F(HelpTest, numbers_that_are_not_finite_are_refused) {
     const std::vector<std::vector<std::string>> calls = {
-        {"dataset", "merge", "--out", "data", "--samples", "--interval"},
+        {"links", "dataset", "merge", "--out", "data", "--samples", "--interval"},
         {"run", "merge", "--out", "out", "--run-time-limit"},
         {"report", "out", "--least-difference"}};
     for (const std::vector<std::string>& call : calls) {
@@ -160,12 +189,6 @@ TEST_F(HelpTest, numbers_that_are_not_finite_are_refused) {
         }
     }
     EXPECT_FALSE(std::filesystem::exists(folder() / "data"));
-}
-
-TEST_F(HelpTest, quick_excludes_a_number_of_seeds) {
-    const Ended ended = clearway({"reproduce", "--quick", "--seeds", "3"});
-    EXPECT_EQ(ended.code, 2);
-    EXPECT_THAT(ended.err, AllOf(HasSubstr("--quick"), HasSubstr("--seeds")));
 }
 
 TEST_F(HelpTest, list_shows_what_can_be_named) {
@@ -229,14 +252,14 @@ TEST_F(HelpTest, without_the_trainer_train_says_what_to_do_and_doctor_finds_all_
     for (const char* const program : {"clearway", "clearway-run"})
         std::filesystem::copy(std::filesystem::path(CLEARWAY_BINARY_DIR) / "bin" / program, folder());
     const core::Exit trained =
-        core::run({folder() / "clearway", {"train", "graphsage"}, {}, folder() / "train.txt"});
+        core::run({folder() / "clearway", {"links", "train", "graphsage"}, {}, folder() / "train.txt"});
     EXPECT_EQ(trained.code, 4);
     EXPECT_THAT(read("train.txt"),
-                AllOf(HasSubstr("clearway-train is not built"), HasSubstr("./clearway train")));
+                AllOf(HasSubstr("clearway-train is not built"), HasSubstr("./clearway links train")));
     const core::Exit fit = core::run({folder() / "clearway", {"doctor"}, {}, folder() / "doctor.txt"});
     EXPECT_EQ(fit.code, 0);
-    EXPECT_THAT(read("doctor.txt"),
-                AllOf(testing::ContainsRegex("missing +clearway-train"), HasSubstr("./clearway train")));
+    EXPECT_THAT(read("doctor.txt"), AllOf(testing::ContainsRegex("missing +clearway-train"),
+                                          HasSubstr("./clearway links train")));
 }
 
 TEST_F(HelpTest, doctor_tells_a_missing_sumo) {

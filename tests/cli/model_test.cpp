@@ -1,4 +1,5 @@
-// A net of one's own, from the command line: of `clearway train` and of Python, in every verb that takes one.
+// A net of one's own, from the command line: of `clearway links train` and of Python, in every verb that
+// takes one.
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -57,9 +58,9 @@ class ModelTest : public UserTest {
 
 TEST_F(ModelTest, a_net_drives_run_replay_and_links_from_either_file) {
     if (!has_trainer()) GTEST_SKIP() << "clearway-train is not built, or libtorch is not installed";
-    ASSERT_EQ(clearway({"dataset", "line", "--out", "data"}).code, 0);
-    const Ended trained = clearway(
-        {"train", "graphsage_as_published", "--data", "data", "--out", "m", "--epochs", "30", "--quiet"});
+    ASSERT_EQ(clearway({"links", "dataset", "line", "--out", "data"}).code, 0);
+    const Ended trained = clearway({"links", "train", "graphsage_as_published", "--data", "data", "--out",
+                                    "m", "--epochs", "30", "--quiet"});
     ASSERT_EQ(trained.code, 0) << trained.err;
     for (const auto& [file, out] : {std::pair("m/GraphSAGENet.pth", "by_pth"),
                                     std::pair("m/graphsage_as_published.weights", "by_weights")}) {
@@ -103,14 +104,14 @@ TEST_F(ModelTest, a_study_gives_a_net_to_the_conditions_whose_predictor_it_is_of
 }
 
 TEST_F(ModelTest, a_submission_passes_a_net_on_to_its_shards) {
-    const Ended ended = clearway({"submit", "my.toml", "--model", "good.pth", "--shards", "1", "--out", "sub",
-                                  "--engine", "local", "--go"});
+    const Ended ended = clearway({"study", "submit", "my.toml", "--model", "good.pth", "--shards", "1",
+                                  "--out", "sub", "--engine", "local", "--go"});
     ASSERT_EQ(ended.code, 0) << ended.err;
     const std::string net = std::filesystem::absolute(folder() / "good.pth").lexically_normal().string();
     EXPECT_THAT(read("sub/shard.sh"), HasSubstr("--model graphsage_as_published=" + net));
     EXPECT_EQ(model_of("sub/merged", "published").at("file"), net);
     EXPECT_TRUE(model_of("sub/merged", "rule").is_null());
-    expect_refused({"submit", "my.toml", "--model", "none.pth"}, "--model: none.pth is not a file");
+    expect_refused({"study", "submit", "my.toml", "--model", "none.pth"}, "--model: none.pth is not a file");
 }
 
 TEST_F(ModelTest, a_study_refuses_a_net_that_no_condition_or_more_than_one_would_take) {

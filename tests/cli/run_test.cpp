@@ -164,40 +164,42 @@ TEST_F(RunTest, compare_pairs_conditions_and_folders_and_is_a_gate) {
 
 TEST_F(RunTest, results_prints_every_table_it_lists) {
     ASSERT_EQ(clearway(two_conditions("out", 2)).code, 0);
-    const Ended list = clearway({"results", "out", "--list"});
+    const Ended list = clearway({"export", "results", "out", "--list"});
     EXPECT_EQ(list.code, 0);
     EXPECT_THAT(list.out, AllOf(HasSubstr("runs\n"), HasSubstr("vehicles\n"), HasSubstr("errors\n")));
     std::istringstream names(list.out);
     for (std::string name; std::getline(names, name);) {
-        const Ended csv = clearway({"results", "out", name, "--csv"});
+        const Ended csv = clearway({"export", "results", "out", name, "--csv"});
         EXPECT_EQ(csv.code, 0) << name << csv.err;
         EXPECT_THAT(csv.out, HasSubstr("\n")) << name;
-        EXPECT_TRUE(nlohmann::json::parse(clearway({"results", "out", name, "--json"}).out).is_array())
+        EXPECT_TRUE(
+            nlohmann::json::parse(clearway({"export", "results", "out", name, "--json"}).out).is_array())
             << name;
     }
-    EXPECT_THAT(clearway({"results", "out"}).out, HasSubstr("line,baseline,0,"));
-    const Ended unknown = clearway({"results", "out", "vehicle"});
+    EXPECT_THAT(clearway({"export", "results", "out"}).out, HasSubstr("line,baseline,0,"));
+    const Ended unknown = clearway({"export", "results", "out", "vehicle"});
     EXPECT_EQ(unknown.code, 3);
     EXPECT_THAT(unknown.err, AllOf(HasSubstr("`vehicle`"), HasSubstr("vehicles")));
 }
 
 TEST_F(RunTest, results_of_a_folder_that_cannot_be_written_are_those_that_are_there) {
     ASSERT_EQ(clearway(two_conditions("out", 1)).code, 0);
-    const std::string errors = clearway({"results", "out", "errors"}).out;
+    const std::string errors = clearway({"export", "results", "out", "errors"}).out;
     const std::string runs = read("out/runs.csv");
     std::filesystem::remove(folder() / "out/runs.csv");
     // Rights do not hold back the user of the tests, who may be root.
     const Environment cannot_write = {.before = "trap '' XFSZ && ulimit -f 1"};
-    const Ended kept = clearway({"results", "out", "errors"}, cannot_write);
+    const Ended kept = clearway({"export", "results", "out", "errors"}, cannot_write);
     EXPECT_EQ(kept.code, 0) << kept.err;
     EXPECT_EQ(kept.out, errors);
     EXPECT_THAT(kept.err, AllOf(HasSubstr("warning: "), HasSubstr("cannot write"),
                                 HasSubstr("out/results.sqlite as it is")));
     EXPECT_FALSE(std::filesystem::exists(folder() / "out/runs.csv"));
     std::filesystem::rename(folder() / "out/results.sqlite", folder() / "aside");
-    EXPECT_EQ(clearway({"results", "out", "errors"}, cannot_write).code, 4) << "there is nothing to print";
+    EXPECT_EQ(clearway({"export", "results", "out", "errors"}, cannot_write).code, 4)
+        << "there is nothing to print";
     std::filesystem::rename(folder() / "aside", folder() / "out/results.sqlite");
-    const Ended again = clearway({"results", "out", "errors"});
+    const Ended again = clearway({"export", "results", "out", "errors"});
     EXPECT_EQ(again.code, 0);
     EXPECT_THAT(again.err, IsEmpty());
     EXPECT_EQ(read("out/runs.csv"), runs) << "a deleted table is written again";
@@ -227,7 +229,7 @@ TEST_F(RunTest, a_run_that_is_made_anew_replaces_its_rows) {
                            nullptr, nullptr, nullptr),
               SQLITE_OK);
     sqlite3_close(database);
-    const std::vector<std::string> shown = {"results", "out", "runs"};
+    const std::vector<std::string> shown = {"export", "results", "out", "runs"};
     EXPECT_THAT(clearway(shown).out, HasSubstr(",7654.5,"));
     std::filesystem::remove_all(folder() / "out/runs/line/baseline");
     write("out/runs.csv", "of earlier runs");
@@ -296,13 +298,17 @@ TEST_F(RunTest, without_a_condition_it_compares_corridor_with_the_baseline) {
     EXPECT_EQ(std::count(runs.begin(), runs.end(), '\n'), 4);
 }
 
-TEST_F(RunTest, the_dissertations_tables_belong_to_reproduce) {
+TEST_F(RunTest, the_dissertations_tables_belong_to_its_study) {
     const Ended run = clearway({"run", "merge", "--seeds", "1", "--no-solo", "--condition",
                                 "graph_simulation", "--out", "out", "--tables"});
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_THAT(run.out, AllOf(Not(HasSubstr("TABLE")), Not(HasSubstr("published"))));
     EXPECT_THAT(read("out/report.html"), Not(HasSubstr("class=\"published\"")));
-    const Ended reproduced = clearway({"reproduce", "--seeds", "1", "--out", "all"});
+    std::string study =
+        core::read_file(std::filesystem::path(CLEARWAY_SOURCE_DIR) / "studies/dissertation.toml");
+    const std::string all_seeds = "replications = 20";
+    write("dissertation.toml", study.replace(study.find(all_seeds), all_seeds.size(), "replications = 1"));
+    const Ended reproduced = clearway({"study", "dissertation.toml", "--out", "all"});
     ASSERT_EQ(reproduced.code, 0) << reproduced.err;
     EXPECT_THAT(reproduced.out,
                 AllOf(HasSubstr("TABLE II. PERFORMANCE ON MERGE\n"), HasSubstr("(here: merge_dense)"),
@@ -385,7 +391,8 @@ TEST_F(RunTest, factors_are_columns_of_every_table) {
     const auto& of_json = tables.at("scenarios").at(1).at("conditions").at(2);
     EXPECT_EQ(of_json.at("factors"),
               (nlohmann::json{{"failure.dark_share", 0.6}, {"scenario.demand.human", 5}}));
-    const auto rows = nlohmann::json::parse(clearway({"results", "runs/mine", "runs", "--json"}).out);
+    const auto rows =
+        nlohmann::json::parse(clearway({"export", "results", "runs/mine", "runs", "--json"}).out);
     const auto row = [&](const std::string& condition) {
         return *std::ranges::find_if(rows, [&](const auto& one) { return one.at("condition") == condition; });
     };
@@ -469,7 +476,7 @@ TEST_F(RunTest, a_study_file_runs_and_its_plan_can_be_seen_before) {
     EXPECT_THAT(read("runs/mine/runs.csv"), HasSubstr("line,b20,1,ok"));
     EXPECT_THAT(clearway({"study", "my.toml", "--dry-run"}).out, HasSubstr("4 complete in runs/mine"));
     EXPECT_THAT(clearway({"study", "my.toml", "--dry-run"}).out, HasSubstr("safety checks off (!)"));
-    EXPECT_THAT(clearway({"status", "runs/mine"}).out, HasSubstr("b20 (!)"));
+    EXPECT_THAT(clearway({"study", "status", "runs/mine"}).out, HasSubstr("b20 (!)"));
 }
 
 TEST_F(RunTest, report_prints_the_tables_of_a_run_folder_again) {
@@ -484,7 +491,7 @@ TEST_F(RunTest, report_prints_the_tables_of_a_run_folder_again) {
 
 TEST_F(RunTest, init_prints_a_command_that_works_as_it_stands) {
     // The name of a scenario that comes with Clearway: alone it would mean that one.
-    const Ended made = clearway({"init", "city", "--from", "line"});
+    const Ended made = clearway({"scenario", "init", "city", "--from", "line"});
     ASSERT_EQ(made.code, 0) << made.err;
     const std::size_t at = made.out.find("\n  clearway ");
     ASSERT_NE(at, std::string::npos) << made.out;
@@ -499,7 +506,7 @@ TEST_F(RunTest, init_prints_a_command_that_works_as_it_stands) {
 }
 
 TEST_F(RunTest, init_copies_a_scenario_that_runs) {
-    ASSERT_EQ(clearway({"init", "mine", "--from", "line"}).code, 0);
+    ASSERT_EQ(clearway({"scenario", "init", "mine", "--from", "line"}).code, 0);
     const Ended ended =
         clearway({"run", "mine", "--seeds", "1", "--condition", "baseline", "--no-solo", "--out", "out"});
     EXPECT_EQ(ended.code, 0) << ended.err;

@@ -39,10 +39,10 @@ TEST_F(ShardsTest, merge_to_the_bytes_of_one_machine) {
         ASSERT_EQ(ended.code, 0) << ended.err;
         EXPECT_THAT(ended.out, HasSubstr(std::string("shard ") + part + "/3: "));
     }
-    const Ended status = clearway({"status", "s", "--json"});
+    const Ended status = clearway({"study", "status", "s", "--json"});
     EXPECT_EQ(nlohmann::json::parse(status.out).at("state"), "complete");
     EXPECT_EQ(nlohmann::json::parse(status.out).at("complete_runs"), 8);
-    const Ended merged = clearway({"merge", "s", "--out", "all", "--json"});
+    const Ended merged = clearway({"study", "merge", "s", "--out", "all", "--json"});
     ASSERT_EQ(merged.code, 0) << merged.err;
     EXPECT_EQ(nlohmann::json::parse(merged.out).at("complete_runs"), 8);
     expect_tables_of_one_machine("all");
@@ -53,7 +53,7 @@ TEST_F(ShardsTest, merge_to_the_bytes_of_one_machine) {
 
 TEST_F(ShardsTest, a_merge_that_lacks_a_shard_names_it_and_exits_with_5) {
     ASSERT_EQ(shard("1/2", "one").code, 0);
-    const Ended merged = clearway({"merge", "one", "--out", "all"});
+    const Ended merged = clearway({"study", "merge", "one", "--out", "all"});
     EXPECT_EQ(merged.code, 5);
     EXPECT_THAT(merged.out, AllOf(HasSubstr("not there: shard 2/2"), HasSubstr("missing: line/baseline/1")));
     EXPECT_EQ(clearway({"report", "all"}).code, 5);
@@ -66,7 +66,7 @@ TEST_F(ShardsTest, records_that_differ_exit_with_7_and_are_named) {
     std::string text = read(file);
     text.replace(text.find("\"vehicle_count\": "), 18, "\"vehicle_count\": 8");
     write(file, text);
-    const Ended merged = clearway({"merge", "one", "two", "--out", "all"});
+    const Ended merged = clearway({"study", "merge", "one", "two", "--out", "all"});
     EXPECT_EQ(merged.code, 7);
     EXPECT_THAT(merged.err, HasSubstr("line/baseline/2"));
 }
@@ -94,28 +94,28 @@ TEST_F(ShardsTest, of_another_study_are_refused) {
     ASSERT_EQ(shard("1/2", "one").code, 0);
     write_study(5);
     ASSERT_EQ(shard("2/2", "two").code, 0);
-    const Ended merged = clearway({"merge", "one", "two", "--out", "all"});
+    const Ended merged = clearway({"study", "merge", "one", "two", "--out", "all"});
     EXPECT_EQ(merged.code, 3);
     EXPECT_THAT(merged.err, HasSubstr("different replications"));
     EXPECT_FALSE(std::filesystem::exists(folder() / "all"));
 }
 
 TEST_F(ShardsTest, are_run_and_merged_by_local_processes) {
-    const Ended ended = clearway({"submit", "my.toml", "--shards", "3", "--out", "sub", "--go"});
+    const Ended ended = clearway({"study", "submit", "my.toml", "--shards", "3", "--out", "sub", "--go"});
     ASSERT_EQ(ended.code, 0) << ended.err << ended.out;
     EXPECT_THAT(ended.out, AllOf(HasSubstr("8 runs in 3 shards"), HasSubstr("8 runs complete")));
     expect_tables_of_one_machine("sub/merged");
-    const Ended other = clearway({"submit", "my.toml", "--shards", "2", "--out", "sub"});
+    const Ended other = clearway({"study", "submit", "my.toml", "--shards", "2", "--out", "sub"});
     EXPECT_EQ(other.code, 3);
     EXPECT_THAT(other.err, HasSubstr("already divided into 3 shards, not 2"));
-    EXPECT_EQ(clearway({"submit", "my.toml", "--shards", "99", "--out", "more"}).code, 3);
+    EXPECT_EQ(clearway({"study", "submit", "my.toml", "--shards", "99", "--out", "more"}).code, 3);
 }
 
 TEST_F(ShardsTest, are_run_and_merged_by_gnu_parallel) {
     if (std::system("command -v parallel >/dev/null") != 0)
         GTEST_SKIP() << "package parallel is not installed";
-    const Ended ended =
-        clearway({"submit", "my.toml", "--engine", "parallel", "--shards", "2", "--out", "sub", "--go"});
+    const Ended ended = clearway(
+        {"study", "submit", "my.toml", "--engine", "parallel", "--shards", "2", "--out", "sub", "--go"});
     ASSERT_EQ(ended.code, 0) << ended.err << ended.out;
     expect_tables_of_one_machine("sub/merged");
 }
@@ -127,7 +127,7 @@ TEST_F(ShardsTest, status_sees_a_study_that_runs_and_one_that_was_killed) {
     const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     do {
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        const Ended status = clearway({"status", "out", "--json"});
+        const Ended status = clearway({"study", "status", "out", "--json"});
         running = status.code == 0 ? nlohmann::json::parse(status.out) : nlohmann::json::object();
     } while (running.value("complete_runs", 0) < 4 && std::chrono::steady_clock::now() < patience);
     EXPECT_EQ(running.at("state"), "running");
@@ -136,8 +136,8 @@ TEST_F(ShardsTest, status_sees_a_study_that_runs_and_one_that_was_killed) {
     EXPECT_EQ(running.at("headline").at("condition"), "graph_simulation");
     ::kill(study.pid, SIGKILL);
     finish(study);
-    EXPECT_THAT(clearway({"status", "out"}).out, HasSubstr("out: stopped"));
-    EXPECT_EQ(clearway({"status", "line"}).code, 3);
+    EXPECT_THAT(clearway({"study", "status", "out"}).out, HasSubstr("out: stopped"));
+    EXPECT_EQ(clearway({"study", "status", "line"}).code, 3);
 }
 
 TEST_F(ShardsTest, a_precision_target_is_reached_in_rounds_or_stopped_at_its_cap) {

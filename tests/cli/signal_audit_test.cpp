@@ -115,7 +115,7 @@ kind = "car"
     make("./crossings", "out");
     const Ended ended = clearway({"verify", "--signals", "out"});
     EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
-    const Ended events = clearway({"results", "out", "signal_events"});
+    const Ended events = clearway({"export", "results", "out", "signal_events"});
     for (const char* const signal : {",A,107,", ",B,107,", ",A,8,", ",B,8,"})
         EXPECT_THAT(events.out, HasSubstr(signal));
 }
@@ -162,16 +162,16 @@ TEST_F(SignalAuditTest, of_runs_that_show_nothing_to_audit_says_so) {
 
 TEST_F(SignalAuditTest, and_the_tables_of_a_study_are_made_from_its_logs) {
     make("intersection", "out", {"--seeds", "1"});
-    const Ended events = clearway({"results", "out", "--table", "signal_events"});
+    const Ended events = clearway({"export", "results", "out", "--table", "signal_events"});
     EXPECT_EQ(events.code, 0) << events.err;
     EXPECT_THAT(events.out, StartsWith("scenario,condition,replication,time_s,signal,event,parameter,links,"
                                        "vehicle,name\nintersection,mine,0,"));
     for (const char* const words :
          {",102,", ",105,", ",107,", ",82,", ",104,", ",111,", ",150,", ",8,", ",10,"})
         EXPECT_THAT(events.out, HasSubstr(words));
-    EXPECT_THAT(clearway({"results", "out", "signals"}).out,
+    EXPECT_THAT(clearway({"export", "results", "out", "signals"}).out,
                 StartsWith("scenario,condition,replication,signal,calls,granted,useless_holds,"));
-    EXPECT_THAT(clearway({"results", "out", "--list"}).out,
+    EXPECT_THAT(clearway({"export", "results", "out", "--list"}).out,
                 AllOf(HasSubstr("signal_events\n"), HasSubstr("signals\n")));
 }
 

@@ -22,12 +22,12 @@ class SignalsTest : public CrossingsTest {
 };
 
 TEST_F(SignalsTest, are_listed_with_their_phases_and_what_their_programs_show) {
-    const Ended ended = clearway({"signals", "./crossings"});
+    const Ended ended = clearway({"scenario", "signals", "./crossings"});
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_THAT(ended.out, testing::ContainsRegex("1  A +static +90 +4 +- +- +0\n"));
     EXPECT_THAT(ended.out, testing::ContainsRegex("phase 0 +41 s +north_a_A, south_a_A\n"));
     EXPECT_THAT(ended.out, HasSubstr("2 signals."));
-    const auto json = nlohmann::json::parse(clearway({"signals", "./crossings", "--json"}).out);
+    const auto json = nlohmann::json::parse(clearway({"scenario", "signals", "./crossings", "--json"}).out);
     const auto& first = json.at("signals").at(0);
     EXPECT_EQ(first.at("signal"), "A");
     EXPECT_EQ(first.at("yellow_s").at("longest"), 4.0);
@@ -36,12 +36,12 @@ TEST_F(SignalsTest, are_listed_with_their_phases_and_what_their_programs_show) {
 }
 
 TEST_F(SignalsTest, are_drawn_with_their_numbers) {
-    ASSERT_EQ(clearway({"signals", "./crossings", "--svg", "map.svg"}).code, 0);
+    ASSERT_EQ(clearway({"scenario", "signals", "./crossings", "--svg", "map.svg"}).code, 0);
     EXPECT_THAT(read("map.svg"), AllOf(HasSubstr("Two crossings"), HasSubstr(">2</text>")));
 }
 
 TEST_F(SignalsTest, have_numbers_that_do_not_lie_upon_each_other) {
-    ASSERT_EQ(clearway({"signals", "city", "--svg", "map.svg"}).code, 0);
+    ASSERT_EQ(clearway({"scenario", "signals", "city", "--svg", "map.svg"}).code, 0);
     const std::string map = read("map.svg");
     std::vector<std::array<double, 2>> discs;
     const std::regex disc("<circle cx=\"([0-9.]+)\" cy=\"([0-9.]+)\" r=\"8\"");
@@ -56,10 +56,10 @@ TEST_F(SignalsTest, have_numbers_that_do_not_lie_upon_each_other) {
 }
 
 TEST_F(SignalsTest, have_their_parameters_in_a_file_to_edit_that_the_scenario_then_names) {
-    ASSERT_EQ(clearway({"signals", "./crossings", "--out", "p.csv"}).code, 0);
+    ASSERT_EQ(clearway({"scenario", "signals", "./crossings", "--out", "p.csv"}).code, 0);
     write("crossings/p.csv", header() + "A,1,,,,,,9,,,,\n");
     write_scenario("B_east", "preemption = \"p.csv\"\n");
-    const Ended set = clearway({"signals", "./crossings", "--out", "again.csv"});
+    const Ended set = clearway({"scenario", "signals", "./crossings", "--out", "again.csv"});
     EXPECT_THAT(set.out, HasSubstr("set  enabled=1, dwell_s=9"));
     EXPECT_EQ(read("again.csv"), header() + "A,1,,,,,,9,,,,\nB,1,,,,,,,,,,\n");
     const Ended run = clearway({"run", "./crossings", "--policy", "corridor", "--seeds", "1", "--no-solo",
@@ -75,7 +75,8 @@ TEST_F(SignalsTest, have_their_parameters_in_a_file_to_edit_that_the_scenario_th
 
 TEST_F(SignalsTest, never_have_a_file_written_over) {
     write("p.csv", "mine");
-    const Ended ended = clearway({"signals", "./crossings", "--out", "p.csv", "--svg", "map.svg"});
+    const Ended ended =
+        clearway({"scenario", "signals", "./crossings", "--out", "p.csv", "--svg", "map.svg"});
     EXPECT_EQ(ended.code, 3);
     EXPECT_THAT(ended.err, HasSubstr("exists already"));
     EXPECT_EQ(read("p.csv"), "mine");
@@ -83,7 +84,7 @@ TEST_F(SignalsTest, never_have_a_file_written_over) {
 }
 
 TEST_F(SignalsTest, that_a_scenario_does_not_have_are_said_to_be_missing) {
-    const Ended ended = clearway({"signals", "rural", "--out", "r.csv"});
+    const Ended ended = clearway({"scenario", "signals", "rural", "--out", "r.csv"});
     EXPECT_EQ(ended.code, 0);
     EXPECT_THAT(ended.err,
                 HasSubstr("rural has no signals; r.csv holds the names of the columns and no row"));
@@ -91,7 +92,7 @@ TEST_F(SignalsTest, that_a_scenario_does_not_have_are_said_to_be_missing) {
 }
 
 TEST_F(SignalsTest, with_parameters_for_one_that_does_not_exist_are_refused_before_anything_is_written) {
-    ASSERT_EQ(clearway({"signals", "./crossings", "--out", "p.csv"}).code, 0);
+    ASSERT_EQ(clearway({"scenario", "signals", "./crossings", "--out", "p.csv"}).code, 0);
     write("crossings/p.csv", header() + "C,1,,,,,,9,,,,\nA,,,100,,,,,,,,\n");
     write_scenario("B_east", "preemption = \"p.csv\"\n");
     const Ended ended =
@@ -111,9 +112,10 @@ TEST_F(SignalsTest, under_a_controller_that_sumo_does_not_know_are_refused_in_th
     write("crossings/net.net.xml", std::string(network).replace(at, 13, "type=\"actuatd\""));
     const std::string place =
         fmt::format("./crossings/net.net.xml:{}: type=\"actuatd\" of signal \"A\"", line);
-    for (const std::vector<std::string>& words : {std::vector<std::string>{"signals", "./crossings"},
-                                                  {"run", "./crossings", "--seeds", "1", "--out", "out"},
-                                                  {"check", "./crossings"}}) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"scenario", "signals", "./crossings"},
+          {"run", "./crossings", "--seeds", "1", "--out", "out"},
+          {"scenario", "check", "./crossings"}}) {
         const Ended ended = clearway(words);
         EXPECT_EQ(ended.code, 3);
         EXPECT_THAT(ended.err, AllOf(HasSubstr(place), HasSubstr("Did you mean 'actuated'?"),

@@ -29,7 +29,7 @@ class SubmissionTest : public UserTest {
               "replications = " + std::to_string(replications) +
                   "\nscenarios = [\"./line\"]\nconditions = [\"baseline\", \"graph_simulation\"]\n");
         const Ended ended =
-            clearway({"submit", "my.toml", "--engine", "slurm", "--shards", "1", "--out", "sub"});
+            clearway({"study", "submit", "my.toml", "--engine", "slurm", "--shards", "1", "--out", "sub"});
         ASSERT_EQ(ended.code, 0) << ended.err;
     }
     /// Runs a script of bash in the folder; its exit code.
@@ -40,7 +40,7 @@ class SubmissionTest : public UserTest {
         return WEXITSTATUS(status);
     }
     nlohmann::json merged() const {
-        const Ended ended = clearway({"merge", "sub", "--out", "sub/merged", "--json"});
+        const Ended ended = clearway({"study", "merge", "sub", "--out", "sub/merged", "--json"});
         EXPECT_EQ(ended.code, 0) << ended.err;
         return nlohmann::json::parse(ended.out);
     }

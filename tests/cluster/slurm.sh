@@ -156,7 +156,7 @@ start_munge
 write_configuration
 start_slurm
 write_study
-"$bin/clearway" submit "$folder/study.toml" --engine slurm --shards "$shards" --out "$folder/study" --go
+"$bin/clearway" study submit "$folder/study.toml" --engine slurm --shards "$shards" --out "$folder/study" --go
 
 victim=
 wait_for 60 "a shard on the second node" in_the_middle
@@ -187,6 +187,6 @@ for table in results.sqlite runs.csv vehicles.csv; do
 done
 [[ $(runs_in "$folder/study/shards") == 128 ]] || fail "there are duplicate or missing runs in the shards"
 [[ $(runs_in "$folder/study/merged") == 128 ]] || fail "the merged folder has not 128 runs"
-state=$("$bin/clearway" status "$folder/study")
+state=$("$bin/clearway" study status "$folder/study")
 grep -q "complete; 128 of 128" <<<"$state" || fail "status does not tell the end: $state"
 echo "the merged database is the single machine's, byte for byte: 128 runs, no duplicates, one shard requeued"

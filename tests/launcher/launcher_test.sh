@@ -401,16 +401,16 @@ full_test_fails_with_any_stage() {
     expect_equal "$code" 0 'a machine that cannot make a bare one'
 }
 
-# libtorch is for those who train: `./clearway train` brings it, and from then on the trainer is kept up to date.
+# libtorch is for those who train: `./clearway links train` brings it, and from then on the trainer is kept up to date.
 trainer_comes_with_the_first_training() {
     make_tree "$work/tree"
     echo 0 >"$work/uid"
     run "$tree/clearway" 0
     expect_equal "$(<"$work/apt")" '' 'calls of apt-get for a run'
     [[ ! -e $tree/build/release/bin/clearway-train ]] || fail 'a run built the trainer'
-    run "$tree/clearway" train
+    run "$tree/clearway" links train
     expect_line "$work/err" 'installing 1 Debian packages: delta$'
-    expect_line "$work/out" '^arguments: <train>$'
+    expect_line "$work/out" '^arguments: <links> <train>$'
     [[ -x $tree/build/release/bin/clearway-train ]] || fail 'the trainer was not built'
     expect_builds 1 'libtorch changes no other program'
     echo '# new' >>"$tree/src/trainer.sh"
@@ -423,7 +423,7 @@ trainer_comes_with_the_first_training() {
     run "$tree/clearway" 0
     expect_equal "$code" 0 'libtorch was removed'
     echo 1000 >"$work/uid"
-    run "$tree/clearway" train
+    run "$tree/clearway" links train
     expect_equal "$code" 4
     expect_line "$work/err" '^sudo apt-get install --no-install-recommends delta$'
 }

@@ -85,7 +85,7 @@ TEST(ProgramsTest, a_worker_of_another_build_is_refused_before_anything_runs) {
         const TwoBuilds two("clearway-run 0.1.0 with SUMO 1.15.0" + build);
         for (const std::vector<std::string>& words :
              {std::vector<std::string>{"run", "merge", "--seeds", "1", "--out", two.out()},
-              std::vector<std::string>{"dataset", "merge", "--seeds", "1", "--out", two.out()}}) {
+              std::vector<std::string>{"links", "dataset", "merge", "--seeds", "1", "--out", two.out()}}) {
             const Answer answer = call(two.clearway(), words, {{"CLEARWAY_HOME", CLEARWAY_SOURCE_DIR}});
             EXPECT_EQ(answer.exit.code, 4) << words[0];
             EXPECT_THAT(answer.text, AllOf(HasSubstr("/clearway-run: is of another build than this clearway"),

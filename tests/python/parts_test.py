@@ -381,7 +381,7 @@ class JudgedTest(FolderCase):
 
     def test_a_data_set_is_recorded_under_a_policy_in_python(self) -> None:
         self.write("slow.py", SLOW)
-        arguments = ["dataset", "intersection", "--samples", "--policy", "slow.py:Slow", "--set", "Slow.share=0.5", "--out", "data"]
+        arguments = ["links", "dataset", "intersection", "--samples", "--policy", "slow.py:Slow", "--set", "Slow.share=0.5", "--out", "data"]
         program(*arguments)
         self.assertRegex(str(list(Path("data").glob("*.samples"))), r"intersection-B10-under-Slow-[0-9a-f]{8}-0000.samples")
         (sample, *_) = clearway.dataset("data")

@@ -25,7 +25,7 @@ class ResultsTest(FolderCase):
 
     def test_tables_are_those_of_the_program(self) -> None:
         for name in ("runs", "vehicles", "leases"):
-            lines = list(csv.DictReader(io.StringIO(program("results", str(self.results.folder), name, "--csv"))))
+            lines = list(csv.DictReader(io.StringIO(program("export", "results", str(self.results.folder), name, "--csv"))))
             table = self.results.table(name)
             self.assertEqual((table.row_count, list(table)), (len(lines), list(lines[0])), name)
             for column, array in table.items():

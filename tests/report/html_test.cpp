@@ -37,7 +37,7 @@ TEST(Page, holds_verdict_tables_figures_outcomes_and_reproduction) {
     EXPECT_THAT(page, HasSubstr("<span class=\"mean\">88.9</span><span class=\"range\">[84.5, 93.3]</span>"
                                 "<span class=\"delta better\">\u221212.4 [\u221215.5, \u22129.3]</span>"));
     EXPECT_THAT(page, HasSubstr("<td class=\"published\">4.8</td>"));
-    EXPECT_THAT(page, HasSubstr("./clearway reproduce --seeds 20"));
+    EXPECT_THAT(page, HasSubstr("./clearway study studies/dissertation.toml"));
     EXPECT_THAT(page, HasSubstr("<td>58</td>"));
 }
 

@@ -214,13 +214,13 @@ TEST_F(RunFolder, becomes_tables_and_a_page) {
     write("scenarios/merge/network.svg",
           "<?xml version=\"1.0\"?>\n<svg class=\"network\" viewBox=\"0 0 9 9\"></svg>\n");
     write("training/true_links/losses.csv", "epoch,train_loss_nat,test_loss_nat\n0,0.7,0.6\n1,0.1,0.2\n");
-    write("command.txt", "./clearway reproduce --seeds 3\n");
+    write("command.txt", "./clearway study studies/dissertation.toml\n");
     const StudyFacts facts = read_facts(study());
     const std::string page = tests::without_script(tests::page_of(facts));
     EXPECT_THAT(page, HasSubstr("Clearway: frozen"));
     EXPECT_THAT(page, HasSubstr("<svg class=\"network\" viewBox=\"0 0 9 9\"></svg>"));
     EXPECT_THAT(page, HasSubstr("Map data: somebody"));
-    EXPECT_THAT(page, HasSubstr("./clearway reproduce --seeds 3"));
+    EXPECT_THAT(page, HasSubstr("./clearway study studies/dissertation.toml"));
     EXPECT_THAT(page, HasSubstr("id=\"training\""));
     EXPECT_THAT(page, HasSubstr("SUMO aborted &lt;b&gt;"));
     EXPECT_THAT(page, Not(HasSubstr("<script")));

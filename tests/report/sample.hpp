@@ -212,7 +212,7 @@ inline StudyFacts study(std::initializer_list<const char*> names) {
     for (const char* const name : names) {
         facts.scenarios.push_back(scenario(name));
     }
-    facts.command = "./clearway reproduce --seeds 20";
+    facts.command = "./clearway study studies/dissertation.toml";
     facts.provenance = {{"Clearway", "0.1.0"}, {"SUMO", "1.15.0"}, {"study seed", "1"}};
     for (const char* const reading : {"true links only", "candidate pairs"}) {
         LossCurve curve;

@@ -83,8 +83,8 @@ TEST_F(DatasetFilesTest, sizes_that_contradict_each_other_are_not_written) {
 TEST_F(DatasetFilesTest, every_missing_file_is_named) {
     std::filesystem::remove(folder_ / samples::edge_list_file);
     std::filesystem::remove(folder_ / samples::target_file);
-    EXPECT_THAT(message(),
-                AllOf(HasSubstr("edge_list.csv"), HasSubstr("target_y.csv"), HasSubstr("clearway dataset")));
+    EXPECT_THAT(message(), AllOf(HasSubstr("edge_list.csv"), HasSubstr("target_y.csv"),
+                                 HasSubstr("clearway links dataset")));
 }
 
 TEST_F(DatasetFilesTest, ragged_features_are_refused_with_their_line) {

@@ -148,7 +148,8 @@ TEST_F(GraphSampleTest, a_folder_lists_its_files_by_name) {
 }
 
 TEST_F(GraphSampleTest, an_empty_or_missing_folder_is_said) {
-    EXPECT_THAT(message_of([&] { samples::find_graph_samples(folder_); }), HasSubstr("clearway dataset"));
+    EXPECT_THAT(message_of([&] { samples::find_graph_samples(folder_); }),
+                HasSubstr("clearway links dataset"));
     EXPECT_THAT(message_of([&] { samples::find_graph_samples(folder_ / "none"); }),
                 HasSubstr("No such file"));
 }

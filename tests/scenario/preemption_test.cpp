@@ -149,7 +149,7 @@ TEST_F(PreemptionFile, with_several_mistakes_names_them_all) {
 }
 
 TEST_F(PreemptionFile, that_is_empty_says_how_to_make_one) {
-    EXPECT_THAT(refusal("", ""), HasSubstr("clearway signals SCENARIO --out FILE"));
+    EXPECT_THAT(refusal("", ""), HasSubstr("clearway scenario signals SCENARIO --out FILE"));
 }
 
 TEST_F(PreemptionFile, is_filled_with_what_programs_show) {

@@ -11,7 +11,7 @@
 #include "core/files.hpp"
 #include "results/synthetic.hpp"
 #include "results/table_writer.hpp"
-#include "study/detail/folder_lock.hpp"
+#include "study/folder_lock.hpp"
 #include "study/shard.hpp"
 #include "study/status.hpp"
 #include "support/temporary_folder.hpp"
@@ -198,7 +198,7 @@ TEST_F(Status, SeesWhoWorksThereFromAnotherProcessAndWhenHeIsDead) {
     ASSERT_EQ(pipe(ready), 0);
     const pid_t worker = fork();
     if (worker == 0) {
-        const detail::FolderLock lock(place("out"));
+        const FolderLock lock(place("out"));
         lock.note(3);
         (void)!write(ready[1], "x", 1);
         pause();
@@ -209,7 +209,7 @@ TEST_F(Status, SeesWhoWorksThereFromAnotherProcessAndWhenHeIsDead) {
     EXPECT_EQ(running.state, State::running);
     EXPECT_THAT(running.holder, HasSubstr("process " + std::to_string(worker)));
     EXPECT_FALSE(running.time_left_s) << "no run has ended since it began";
-    EXPECT_THROW(detail::FolderLock second(place("out")), core::EnvironmentError) << "looking took no lock";
+    EXPECT_THROW(FolderLock second(place("out")), core::EnvironmentError) << "looking took no lock";
     kill(worker, SIGKILL);
     waitpid(worker, nullptr, 0);
     EXPECT_EQ(read_status(place("out")).state, State::stopped);

@@ -93,7 +93,7 @@ TEST(Outputs, the_folder_holds_a_model_that_inference_takes) {
     const prediction::DissertationNet net(Convolution::sage, weights, as_published_schema(2));
     EXPECT_EQ(net.dimensions(), (prediction::NetDimensions{2, 10, 5}));
     EXPECT_THAT(weights.notes,
-                ElementsAre("trained by clearway train graphsage_as_published, seed 1, data abc"));
+                ElementsAre("trained by clearway links train graphsage_as_published, seed 1, data abc"));
 }
 
 TEST(Outputs, files_of_one_content_are_named) {

@@ -136,7 +136,7 @@ TEST_F(TrainProgramTest, bad_data_exit_with_3_and_name_file_and_line) {
 TEST_F(TrainProgramTest, a_missing_folder_exits_with_3) {
     const Ended ended = train({"graphsage_as_published", "--data", data() + "/none", "--out", out()});
     EXPECT_EQ(ended.exit.code, 3);
-    EXPECT_THAT(ended.output, HasSubstr("clearway dataset"));
+    EXPECT_THAT(ended.output, HasSubstr("clearway links dataset"));
 }
 
 TEST_F(TrainProgramTest, an_unwritable_out_folder_exits_with_4_before_training) {
@@ -171,7 +171,7 @@ TEST_F(TrainProgramTest, every_learned_predictor_is_a_net_that_can_be_named) {
         EXPECT_THAT(list.output, HasSubstr("  " + predictor + " "));
         const Ended ended = train({predictor, "--help"});
         EXPECT_EQ(ended.exit.code, 0);
-        EXPECT_THAT(ended.output, AllOf(HasSubstr("clearway train " + predictor), HasSubstr("--data")));
+        EXPECT_THAT(ended.output, AllOf(HasSubstr("clearway links train " + predictor), HasSubstr("--data")));
     }
     EXPECT_THAT(train({"--version"}).output, testing::StartsWith("clearway-train "));
 }
@@ -189,14 +189,16 @@ TEST_F(TrainProgramTest, wrong_usage_exits_with_2) {
 
 TEST_F(TrainProgramTest, an_unknown_word_names_the_program_and_the_nearest) {
     EXPECT_THAT(train({"graphsag", "--data", data(), "--out", out()}).output,
-                HasSubstr("clearway train: graphsag is not known here. Did you mean 'graphsage'?"));
-    EXPECT_THAT(train({"graphsage", "--data", data(), "--out", out(), "--epoch", "3"}).output,
-                HasSubstr("clearway train graphsage: --epoch is not known here. Did you mean '--epochs'?"));
+                HasSubstr("clearway links train: graphsag is not known here. Did you mean 'graphsage'?"));
+    EXPECT_THAT(
+        train({"graphsage", "--data", data(), "--out", out(), "--epoch", "3"}).output,
+        HasSubstr("clearway links train graphsage: --epoch is not known here. Did you mean '--epochs'?"));
     EXPECT_THAT(
         train({"gradient_boosting", "--data", data(), "--out", out(), "--tree", "3"}).output,
-        HasSubstr("clearway train gradient_boosting: --tree is not known here. Did you mean '--trees'?"));
+        HasSubstr(
+            "clearway links train gradient_boosting: --tree is not known here. Did you mean '--trees'?"));
     EXPECT_THAT(train({"graphsage_as_published", "--data", data()}).output,
-                HasSubstr("clearway train graphsage_as_published: --out is required"));
+                HasSubstr("clearway links train graphsage_as_published: --out is required"));
 }
 
 TEST_F(TrainProgramTest, numbers_that_are_not_finite_are_wrong_usage) {
@@ -308,8 +310,9 @@ TEST_F(TrainProgramTest, corrected_training_without_samples_exits_with_3) {
 TEST_F(TrainProgramTest, help_names_units_defaults_and_an_example) {
     const Ended ended = train({"graphsage_as_published", "--help"});
     EXPECT_EQ(ended.exit.code, 0);
-    EXPECT_THAT(ended.output, AllOf(HasSubstr("--learning-rate"), HasSubstr("[0.01]"), HasSubstr("[100]"),
-                                    HasSubstr("nat"), HasSubstr("clearway train graphsage_as_published")));
+    EXPECT_THAT(ended.output,
+                AllOf(HasSubstr("--learning-rate"), HasSubstr("[0.01]"), HasSubstr("[100]"), HasSubstr("nat"),
+                      HasSubstr("clearway links train graphsage_as_published")));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include <CLI/App.hpp>
 
-#include "campaign/printing.hpp"
+#include "campaign/printout.hpp"
 #include "experiment/loop_config.hpp"
 #include "experiment/run_job.hpp"
 #include "report/console.hpp"

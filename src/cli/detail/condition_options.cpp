@@ -103,7 +103,8 @@ void add_setting_options(CLI::App& app, std::vector<std::string>& settings, std:
     app.add_option("--set", settings, "A setting of the condition (clearway list settings); can be repeated")
         ->option_text("COMPONENT.NAME=VALUE ... [defaults]")
         ->group(group);
-    app.add_option(option, model, "Net of a learned predictor: a file of clearway train or of torch.save")
+    app.add_option(option, model,
+                   "Net of a learned predictor: a file of clearway links train or of torch.save")
         ->check([](const std::string& file) { return file.empty() ? "is empty" : ""; })
         ->option_text("FILE [" + usual + "]")
         ->group(group);
@@ -145,7 +146,7 @@ void apply_models(const std::vector<std::string>& models, Conditions& conditions
         const std::string file = is_named ? words.substr(word.size() + 1) : words;
         if (!std::filesystem::is_regular_file(file))
             throw core::InputError({option, fmt::format("{} is not a file", file),
-                                    "a file of clearway train or of torch.save", ""});
+                                    "a file of clearway links train or of torch.save", ""});
         if (learned.empty() || (is_named && std::ranges::find(learned, word) == learned.end()))
             throw core::InputError({option,
                                     is_named

@@ -46,10 +46,10 @@ ReferencePage columns() {
              table_of<metrics::SignalEvent>("Signal events",
                                             "Event logs of signals while they are asked for, in "
                                             "`signal_events.csv` of each run, behind them the event in "
-                                            "words; `clearway results DIR signal_events`"),
+                                            "words; `clearway export results DIR signal_events`"),
              table_of<metrics::SignalMeasures>("Signals",
                                                "How each signal served EVs, from its event log; "
-                                               "`clearway results DIR signals`")}};
+                                               "`clearway export results DIR signals`")}};
 }
 
 ReferencePage scenario_keys() {

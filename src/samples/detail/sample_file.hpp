@@ -123,7 +123,8 @@ std::vector<std::filesystem::path> find_files(const std::filesystem::path& folde
                                               std::string_view what, std::string_view cure);
 
 inline constexpr const char* cure_remake =
-    "Record the samples again with `clearway dataset SCENARIO --samples`, for `train graphsage` and `train "
+    "Record the samples again with `clearway links dataset SCENARIO --samples`, for `train graphsage` and "
+    "`train "
     "gradient_boosting` with `--net graphsage`";
 
 }  // namespace clearway::samples::detail

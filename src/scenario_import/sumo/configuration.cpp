@@ -191,13 +191,13 @@ class ConfigurationReader {
     bool require(const std::filesystem::path& file, const Element& element, Wanted wanted) {
         if (std::filesystem::is_regular_file(file)) return true;
         const std::string near = nearest_file(file, wanted);
-        problems_.push_back({fmt::format("{}:{}: {}", file_.string(), element.line, element.name),
-                             fmt::format("no file {}", file.string()), "an existing file",
-                             near.empty()
-                                 ? "correct the path, or give the files themselves"
-                                 : fmt::format("there is {}; correct the name, or give the files "
-                                               "themselves: clearway import NET ROUTES ADDITIONAL ...",
-                                               near)});
+        problems_.push_back(
+            {fmt::format("{}:{}: {}", file_.string(), element.line, element.name),
+             fmt::format("no file {}", file.string()), "an existing file",
+             near.empty() ? "correct the path, or give the files themselves"
+                          : fmt::format("there is {}; correct the name, or give the files "
+                                        "themselves: clearway scenario import NET ROUTES ADDITIONAL ...",
+                                        near)});
         return false;
     }
 

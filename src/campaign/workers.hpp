@@ -8,9 +8,10 @@
 #include "results/store.hpp"
 #include "study/plan.hpp"
 
-namespace clearway::study {
+namespace clearway::campaign {
 
-struct RunnerOptions {
+/// How the units of a plan reach their workers.
+struct WorkersOptions {
     unsigned workers = 0;                  ///< Processes at one time; 0: one per core.
     std::filesystem::path worker_program;  ///< Empty: `clearway-run` beside this program.
     experiment::RunLimits limits;          ///< Of each run.
@@ -56,7 +57,7 @@ struct StudyResult {
 /// have ended. SIGINT and SIGTERM end the children; finished runs are kept. `on_progress` is called a few
 /// times per second and at the end. Throws core::EnvironmentError when another study runs in the folder. Not
 /// thread-safe: sets signal handlers for the duration of the call.
-StudyResult run(const Plan& plan, const results::Store& store, const RunnerOptions& options,
-                const std::function<void(const StudyProgress&)>& on_progress);
+StudyResult run_units(const study::Plan& plan, const results::Store& store, const WorkersOptions& options,
+                      const std::function<void(const StudyProgress&)>& on_progress);
 
-}  // namespace clearway::study
+}  // namespace clearway::campaign

@@ -1,4 +1,4 @@
-#include "campaign/run_plan.hpp"
+#include "campaign/study_run.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "analysis/headline.hpp"
+#include "analysis/replications.hpp"
 #include "analysis/summary.hpp"
 #include "campaign/detail/abort_cure.hpp"
 #include "campaign/names.hpp"
@@ -81,7 +82,7 @@ bool is_absent_or_empty(const std::filesystem::path& folder) {
     return true;
 }
 
-void say_how_to_continue(const std::filesystem::path& folder, const study::StudyProgress& progress,
+void say_how_to_continue(const std::filesystem::path& folder, const StudyProgress& progress,
                          const std::string& command) {
     fmt::print(stderr,
                "clearway: interrupted with {} of {} runs complete; they are kept in {}. To continue:\n  {}\n",
@@ -124,6 +125,56 @@ void name_errors(const results::Store& store, const results::Results& results) {
     }
 }
 
+enum class Outcome : std::uint8_t { reached, capped, unknown, more };
+
+struct Round {
+    Outcome outcome = Outcome::unknown;
+    std::uint32_t next = 0;  ///< Replications of the next round, when there is one.
+    std::string text;        ///< What was found, for the user.
+};
+
+/// Decides from the replications so far whether another round follows.
+Round judge(const results::Store& store, const results::PrecisionTarget& target) {
+    const results::Results results = results::read_results(store);
+    const auto found = analysis::widest(analysis::summarise(results), target.metric, target.half_width);
+    if (!found) return {Outcome::unknown, 0, "no interval: too few complete runs"};
+    const std::uint32_t now = results.manifest.replications;
+    const auto wanted =
+        static_cast<std::uint32_t>(std::min<std::size_t>(found->required + found->lost, target.at_most));
+    Round round;
+    round.text =
+        fmt::format("{} of {}/{} is known to +- {:.3g} after {} replications; wanted: +- {:g}", target.metric,
+                    found->scenario, found->condition, found->half_width, now, target.half_width);
+    round.next = std::max(wanted, now);
+    if (found->required <= found->n) {
+        round.outcome = Outcome::reached;
+    } else {
+        round.outcome = now >= target.at_most ? Outcome::capped : Outcome::more;
+        round.text += fmt::format(", for which {} are needed", found->required + found->lost);
+    }
+    return round;
+}
+
+void say(const Round& round) {
+    const char* end = "";
+    if (round.outcome == Outcome::reached) end = ": reached";
+    if (round.outcome == Outcome::capped) end = ": stopped at the cap of the study file (at_most)";
+    fmt::print(stderr, "clearway: {}{}\n", round.text, end);
+}
+
+void print_shard(const study::Shard& shard, const StudyProgress& progress, const std::string& folder,
+                 Printing printing) {
+    print({{{"shard", study::to_text(shard)},
+            {"folder", folder},
+            {"runs", progress.total},
+            {"complete_runs", progress.done},
+            {"failed_runs", progress.failed}},
+           {},
+           fmt::format("shard {}: {} of {} runs complete, {} failed, in {}\n", study::to_text(shard),
+                       progress.done, progress.total, progress.failed, folder)},
+          printing);
+}
+
 }  // namespace
 
 void check_seed(const study::StudyConfig& config, const std::filesystem::path& file,
@@ -133,7 +184,19 @@ void check_seed(const study::StudyConfig& config, const std::filesystem::path& f
                    core::format_problem(problem));
 }
 
-study::Plan plan_for(const study::StudyConfig& config, RunPlanOptions& options) {
+study::StudyConfig study_of(scenario::ScenarioConfig scenario,
+                            std::vector<experiment::ConditionSpec> conditions, std::uint64_t seed,
+                            std::uint32_t replications) {
+    study::StudyConfig config;
+    config.name = scenario.name;
+    config.seed = seed;
+    config.replications = replications;
+    config.scenarios = {std::move(scenario)};
+    config.conditions = std::move(conditions);
+    return config;
+}
+
+study::Plan plan_for(const study::StudyConfig& config, RunOptions& options) {
     check_names(config.conditions);
     const study::Versions versions = installed_versions();
     if (options.folder.empty()) {
@@ -148,7 +211,7 @@ study::Plan plan_for(const study::StudyConfig& config, RunPlanOptions& options) 
     return plan;
 }
 
-results::Store prepare_run_folder(const study::Plan& plan, const RunPlanOptions& options) {
+results::Store prepare_run_folder(const study::Plan& plan, const RunOptions& options) {
     const bool is_new = is_absent_or_empty(options.folder);
     const std::uint32_t before = replications_in(options.folder);
     try {
@@ -168,39 +231,77 @@ results::Store prepare_run_folder(const study::Plan& plan, const RunPlanOptions&
     }
 }
 
-study::StudyResult run_missing(const study::Plan& plan, const results::Store& store,
-                               const RunPlanOptions& options) {
+StudyResult run_missing(const study::Plan& plan, const results::Store& store, const RunOptions& options) {
     fmt::print(stderr, "clearway: {} runs into {}\n", plan.run_count(), options.folder.string());
     core::Progress progress("runs", plan.run_count(), core::Progress::style_for_stderr());
     PresentEstimate estimate(store);
-    study::RunnerOptions runner;
-    runner.workers = options.workers;
-    runner.limits = options.limits;
-    runner.on_set_aside = [&store](const results::SetAside& damaged) {
+    WorkersOptions workers;
+    workers.workers = options.workers;
+    workers.limits = options.limits;
+    workers.on_set_aside = [&store](const results::SetAside& damaged) {
         fmt::print(stderr,
                    "clearway: {}: the record is damaged: {}. It is kept in {}, and the run is made again\n",
                    results::run_name(store.folder(), damaged.key), damaged.why, damaged.place.string());
     };
     const std::unique_ptr<python::Nursery> nursery = nursery_for(plan);
-    study::StudyResult result = study::run(plan, store, runner, [&](const study::StudyProgress& now) {
+    StudyResult result = run_units(plan, store, workers, [&](const StudyProgress& now) {
         progress.begin_at(now.resumed);
         progress.update(now.done + now.failed, now.failed, estimate.text());
     });
     progress.finish();
     if (result.progress.done > result.progress.resumed) results::outdate_tables(store);
-    if (was_interrupted(result)) say_how_to_continue(store.folder(), result.progress, options.command);
+    if (is_interrupted(result.exit_code))
+        say_how_to_continue(store.folder(), result.progress, options.command);
     return result;
 }
 
-bool was_interrupted(const study::StudyResult& result) {
-    return result.exit_code == core::ExitCode::interrupted || result.exit_code == core::ExitCode::terminated;
+bool is_interrupted(core::ExitCode code) {
+    return code == core::ExitCode::interrupted || code == core::ExitCode::terminated;
 }
 
-core::ExitCode run_and_print(const study::Plan& plan, const RunPlanOptions& options) {
+std::uint32_t replications_so_far(const study::StudyConfig& config, const std::filesystem::path& folder) {
+    if (!config.precision || !std::filesystem::exists(folder / "manifest.json")) return config.replications;
+    const results::Manifest stored = results::Store::open(folder).manifest();
+    return stored.precision == config.precision ? std::max(config.replications, stored.replications)
+                                                : config.replications;
+}
+
+core::ExitCode run_shard(const study::StudyConfig& config, const study::Shard& shard, RunOptions options) {
+    if (config.precision)
+        throw core::InputError({"--shard",
+                                "the study has a precision target, which needs all its runs at once",
+                                "a study with replications",
+                                "Run it as a whole, or give the number of replications that it reached"});
+    study::Plan plan = plan_for(config, options);
+    study::keep_shard(plan, shard);
+    study::claim(options.folder, shard);
     const results::Store store = prepare_run_folder(plan, options);
-    const study::StudyResult result = run_missing(plan, store, options);
-    if (was_interrupted(result)) return result.exit_code;
-    return publish(store, how_to_publish(options));
+    const StudyResult result = run_missing(plan, store, options);
+    if (!is_interrupted(result.exit_code))
+        print_shard(shard, result.progress, options.folder.string(), options.publish.printing);
+    return result.exit_code;
+}
+
+core::ExitCode complete(const study::Plan& plan, const results::Store& store, const RunOptions& options) {
+    const StudyResult result = run_missing(plan, store, options);
+    return is_interrupted(result.exit_code) ? result.exit_code : publish(store, options.publish);
+}
+
+core::ExitCode run_study(study::StudyConfig config, RunOptions options) {
+    config.replications = replications_so_far(config, options.folder);
+    while (true) {
+        const study::Plan plan = plan_for(config, options);
+        const results::Store store = prepare_run_folder(plan, options);
+        if (!config.precision) return complete(plan, store, options);
+        const StudyResult result = run_missing(plan, store, options);
+        if (is_interrupted(result.exit_code)) return result.exit_code;
+        const Round round = judge(store, *config.precision);
+        say(round);
+        if (round.outcome != Outcome::more) return publish(store, options.publish);
+        // At least one more, so that failing runs cannot keep a study from reaching its cap.
+        config.replications =
+            std::min(std::max(round.next, config.replications + 1), config.precision->at_most);
+    }
 }
 
 core::ExitCode publish(const results::Store& store, const PublishOptions& options) {

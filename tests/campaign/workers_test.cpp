@@ -1,4 +1,4 @@
-#include "study/runner.hpp"
+#include "campaign/workers.hpp"
 
 #include <algorithm>
 #include <csignal>
@@ -14,7 +14,7 @@
 #include "results/table_writer.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace clearway::study {
+namespace clearway::campaign {
 namespace {
 
 using core::ExitCode;
@@ -25,7 +25,7 @@ class Study : public testing::Test {
   protected:
     /// Two scenarios, these conditions, `replications` seeds.
     void plan(const std::vector<std::string>& conditions, std::uint32_t replications) {
-        StudyConfig config;
+        study::StudyConfig config;
         config.name = "fake";
         config.replications = replications;
         for (const char* name : {"alpha", "beta"})
@@ -34,16 +34,16 @@ class Study : public testing::Test {
             config.conditions.emplace_back().name = name;
         config_ = config;
     }
-    Plan plan_in(const std::string& folder) const {
-        return make_plan(config_, {"0.1.0", "1.15.0"}, folder_.path() / folder);
+    study::Plan plan_in(const std::string& folder) const {
+        return study::make_plan(config_, {"0.1.0", "1.15.0"}, folder_.path() / folder);
     }
     results::Store store_in(const std::string& folder) const {
         return results::Store::create(folder_.path() / folder, plan_in(folder).manifest);
     }
     StudyResult run_in(const std::string& folder, unsigned workers = 2) {
         options_.workers = workers;
-        return run(plan_in(folder), store_in(folder), options_,
-                   [this](const StudyProgress& progress) { reported_.push_back(progress); });
+        return run_units(plan_in(folder), store_in(folder), options_,
+                         [this](const StudyProgress& progress) { reported_.push_back(progress); });
     }
     /// All final bytes of a run folder.
     std::string tables_of(const std::string& folder) const {
@@ -66,10 +66,10 @@ class Study : public testing::Test {
     }
 
     support::TemporaryFolder folder_;
-    StudyConfig config_;
-    RunnerOptions options_{.worker_program = std::string(CLEARWAY_BINARY_DIR) + "/tests/study_fake_worker",
-                           .limits = {.wall_s = 60.0},
-                           .termination_grace_s = 0.2};
+    study::StudyConfig config_;
+    WorkersOptions options_{.worker_program = std::string(CLEARWAY_BINARY_DIR) + "/tests/fake_worker",
+                            .limits = {.wall_s = 60.0},
+                            .termination_grace_s = 0.2};
     std::vector<StudyProgress> reported_;
 };
 
@@ -272,4 +272,4 @@ TEST_F(Study, RefusesAFolderInWhichAnotherStudyWorks) {
 }
 
 }  // namespace
-}  // namespace clearway::study
+}  // namespace clearway::campaign

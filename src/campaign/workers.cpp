@@ -1,16 +1,17 @@
-#include "study/runner.hpp"
+#include "campaign/workers.hpp"
 
 #include <chrono>
 #include <deque>
 
 #include <fmt/format.h>
 
+#include "campaign/programs.hpp"
 #include "core/files.hpp"
 #include "core/supervisor.hpp"
 #include "experiment/job.hpp"
-#include "study/detail/folder_lock.hpp"
+#include "study/folder_lock.hpp"
 
-namespace clearway::study {
+namespace clearway::campaign {
 namespace {
 
 using core::ExitCode;
@@ -19,7 +20,6 @@ using results::ErrorCause;
 
 constexpr auto progress_period = std::chrono::milliseconds(250);
 constexpr int log_lines = 30;
-constexpr int program_not_started = 127;
 
 RunKey key_of(const experiment::RunJob& unit, const experiment::ConditionSpec& condition) {
     return {unit.scenario, condition.name, unit.replication};
@@ -34,11 +34,11 @@ ErrorCause cause_of(const core::TaskEnd& end) {
     return ErrorCause::other;
 }
 
-/// The state of one call of `run`.
-class Runner : private core::TaskList {
+/// The state of one call of `run_units`.
+class Workers : private core::TaskList {
   public:
-    Runner(const Plan& plan, const results::Store& store, const RunnerOptions& options,
-           const std::function<void(const StudyProgress&)>& on_progress)
+    Workers(const study::Plan& plan, const results::Store& store, const WorkersOptions& options,
+            const std::function<void(const StudyProgress&)>& on_progress)
         : plan_(plan), store_(store), options_(options), on_progress_(on_progress), lock_(store.folder()) {
         if (options_.worker_program.empty())
             options_.worker_program = core::program_folder() / "clearway-run";
@@ -72,7 +72,7 @@ class Runner : private core::TaskList {
 
     void set_damaged_aside() {
         std::vector<RunKey> keys;
-        for (const PlannedUnit& planned : plan_.units)
+        for (const study::PlannedUnit& planned : plan_.units)
             for (const experiment::ConditionSpec& condition : planned.unit.conditions)
                 keys.push_back(key_of(planned.unit, condition));
         for (const results::SetAside& damaged : store_.set_damaged_aside(keys)) {
@@ -103,7 +103,7 @@ class Runner : private core::TaskList {
         if (queue_.empty()) return std::nullopt;
         const std::size_t row = queue_.front();
         queue_.pop_front();
-        const PlannedUnit& planned = plan_.units[row];
+        const study::PlannedUnit& planned = plan_.units[row];
         experiment::RunJob job = planned.unit;
         uncount(job, settled_);
         job.conditions = open_conditions(job);
@@ -236,11 +236,11 @@ class Runner : private core::TaskList {
         if (on_progress_) on_progress_(progress_);
     }
 
-    const Plan& plan_;
+    const study::Plan& plan_;
     const results::Store& store_;
-    RunnerOptions options_;
+    WorkersOptions options_;
     const std::function<void(const StudyProgress&)>& on_progress_;
-    detail::FolderLock lock_;
+    study::FolderLock lock_;
     core::InterruptionWatch interruption_;
     std::deque<std::size_t> queue_;  ///< Rows of the plan's units.
     std::vector<int> attempts_;      ///< By unit, in this call.
@@ -252,9 +252,9 @@ class Runner : private core::TaskList {
 
 }  // namespace
 
-StudyResult run(const Plan& plan, const results::Store& store, const RunnerOptions& options,
-                const std::function<void(const StudyProgress&)>& on_progress) {
-    return Runner(plan, store, options, on_progress).run();
+StudyResult run_units(const study::Plan& plan, const results::Store& store, const WorkersOptions& options,
+                      const std::function<void(const StudyProgress&)>& on_progress) {
+    return Workers(plan, store, options, on_progress).run();
 }
 
-}  // namespace clearway::study
+}  // namespace clearway::campaign

@@ -1,4 +1,4 @@
-#include "study/detail/folder_lock.hpp"
+#include "study/folder_lock.hpp"
 
 #include <array>
 #include <cerrno>
@@ -14,7 +14,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 
-namespace clearway::study::detail {
+namespace clearway::study {
 namespace {
 
 constexpr const char* lock_name = ".lock";
@@ -92,4 +92,4 @@ std::optional<LockNote> holder_of(const std::filesystem::path& folder) {
     return note;
 }
 
-}  // namespace clearway::study::detail
+}  // namespace clearway::study

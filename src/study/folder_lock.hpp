@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace clearway::study::detail {
+namespace clearway::study {
 
 /// Allows one study at a time in a run folder. Held while this object lives; the system releases it when the
 /// process dies, however it dies.
@@ -34,4 +34,4 @@ struct LockNote {
 /// The note of the lock that a process holds on `folder`; empty when none does. Does not disturb the lock.
 std::optional<LockNote> holder_of(const std::filesystem::path& folder);
 
-}  // namespace clearway::study::detail
+}  // namespace clearway::study

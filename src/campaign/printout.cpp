@@ -1,0 +1,89 @@
+#include "campaign/printout.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace clearway::campaign {
+namespace {
+
+using core::Json;
+
+/// Characters of a text in UTF-8.
+std::size_t width_of(const std::string& text) {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
+}
+
+std::string cell_text(const Json& cell) {
+    if (cell.is_null()) return "-";
+    if (cell.is_string()) return cell.get<std::string>();
+    if (cell.is_number_float()) return fmt::format("{:g}", cell.get<double>());
+    if (!cell.is_array()) return cell.dump();
+    std::string text;
+    for (const Json& one : cell)
+        text += (text.empty() ? "" : "+") + cell_text(one);
+    return text.empty() ? "-" : text;
+}
+
+Json json_of(const Table& table) {
+    Json rows = Json::array();
+    for (const Row& row : table.rows) {
+        Json object = Json::object();
+        for (std::size_t at = 0; at < table.columns.size(); ++at)
+            if (!table.columns[at].key.empty()) object[table.columns[at].key] = row.cells[at];
+        rows.push_back(std::move(object));
+    }
+    return rows;
+}
+
+}  // namespace
+
+std::string text_of(const Table& table) {
+    std::vector<std::string> lines(table.rows.size() + 1);
+    for (std::size_t at = 0; at < table.columns.size(); ++at) {
+        if (table.columns[at].title.empty()) continue;
+        std::vector<std::string> cells = {table.columns[at].title};
+        bool numbers = !table.rows.empty();
+        for (const Row& row : table.rows) {
+            cells.push_back(cell_text(row.cells[at]));
+            numbers = numbers && (row.cells[at].is_number() || row.cells[at].is_null());
+        }
+        std::size_t width = 0;
+        for (const std::string& cell : cells)
+            width = std::max(width, width_of(cell));
+        for (std::size_t line = 0; line < lines.size(); ++line) {
+            const std::string gap(width - width_of(cells[line]), ' ');
+            if (!lines[line].empty()) lines[line] += "  ";
+            lines[line] += numbers ? gap + cells[line] : cells[line] + gap;
+        }
+    }
+    std::string text;
+    for (std::size_t line = 0; line < lines.size(); ++line) {
+        lines[line].erase(lines[line].find_last_not_of(' ') + 1);
+        text += lines[line] + "\n";
+        if (line == 0) continue;
+        for (const std::string& below : table.rows[line - 1].below)
+            text += "    " + below + "\n";
+    }
+    return text;
+}
+
+void print(const Printout& printout, Printing printing) {
+    if (printing == Printing::text) {
+        for (const Table& table : printout.tables)
+            if (!table.rows.empty()) fmt::print("{}", text_of(table));
+        fmt::print("{}", printout.text);
+        return;
+    }
+    Json json = printout.facts;
+    for (const Table& table : printout.tables) {
+        if (table.key.empty())
+            json = json_of(table);
+        else
+            json[table.key] = json_of(table);
+    }
+    fmt::print("{}", core::to_text(json));
+}
+
+}  // namespace clearway::campaign

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/json.hpp"
+
+namespace clearway::campaign {
+
+/// How results are printed on standard output.
+enum class Printing : std::uint8_t { text, json };
+
+/// A column of a table. JSON knows its values by `key`, which ends in their unit; text by `title`. JSON
+/// leaves a column without a key out, text one without a title.
+struct Column {
+    std::string key;
+    std::string title;
+};
+
+struct Row {
+    std::vector<core::Json> cells;        ///< One for each column.
+    std::vector<std::string> below = {};  ///< Lines of text under the row.
+};
+
+/// Rows that a verb prints. In text, numbers stand to the right, null is `-` and lists are joined by `+`.
+struct Table {
+    std::string key;  ///< Of the list of rows in JSON; empty: the list is all that is printed.
+    std::vector<Column> columns;
+    std::vector<Row> rows;
+};
+
+std::string text_of(const Table& table);
+
+/// What a verb prints: as text the tables, then `text`; as JSON the facts, then the tables.
+struct Printout {
+    core::Json facts = core::Json::object();
+    std::vector<Table> tables = {};
+    std::string text = {};
+};
+
+/// Prints on standard output.
+void print(const Printout& printout, Printing printing);
+
+}  // namespace clearway::campaign

@@ -1,0 +1,344 @@
+#include "campaign/verification.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "campaign/programs.hpp"
+#include "campaign/signal_audit.hpp"
+#include "campaign/stored_job.hpp"
+#include "campaign/study_run.hpp"
+#include "core/files.hpp"
+#include "core/progress.hpp"
+#include "core/temporary_folder.hpp"
+#include "results/record_difference.hpp"
+#include "results/run_name.hpp"
+#include "trace/difference.hpp"
+#include "trace/recording.hpp"
+
+namespace clearway::campaign {
+namespace {
+
+/// Cells of a table that are shown when a run differs.
+constexpr std::size_t shown_cells = 3;
+
+enum class Verdict : std::uint8_t { same, different, damaged, failed };
+
+struct Verification {
+    std::string run;  ///< Its name.
+    Verdict verdict = Verdict::same;
+    std::string hash;  ///< Trace hash of the stored record; empty when it cannot be read.
+    std::string cause;
+    std::vector<results::CellDifference> cells;
+    std::string first_step;  ///< Where two recordings first differ; empty without recordings.
+};
+
+const char* text_of(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::same:
+            return "same";
+        case Verdict::different:
+            return "different";
+        case Verdict::damaged:
+            return "damaged";
+        case Verdict::failed:
+            return "failed";
+    }
+    return "";
+}
+
+/// Another version may legitimately give other numbers, so a comparison would show nothing.
+void require_same_versions(const results::Manifest& manifest) {
+    const study::Versions here = installed_versions();
+    std::string differing;
+    if (manifest.sumo_version != here.sumo)
+        differing += fmt::format("SUMO {} in the study, {} here", manifest.sumo_version, here.sumo);
+    if (manifest.clearway_version != here.clearway)
+        differing += fmt::format("{}Clearway {} in the study, {} here", differing.empty() ? "" : "; ",
+                                 manifest.clearway_version, here.clearway);
+    if (!manifest.clearway_build.empty() && manifest.clearway_build != here.build)
+        differing += fmt::format("{}build {} of Clearway in the study, {} here",
+                                 differing.empty() ? "" : "; ", manifest.clearway_build, here.build);
+    if (!differing.empty())
+        throw core::EnvironmentError(
+            fmt::format("this study was made with other versions ({}): a run made here may differ. Verify "
+                        "with the versions of the study",
+                        differing));
+}
+
+/// The runs to verify and the store that holds them.
+struct Chosen {
+    results::Store store;
+    std::vector<experiment::RunKey> keys;
+};
+
+Chosen chosen_run(const std::string& name) {
+    results::NamedRun run = results::run_named(name, "RUN");
+    if (run.store.complete(run.key)) return {std::move(run.store), {run.key}};
+    const auto failure = run.store.read_error(run.key);
+    throw core::Error(core::ExitCode::incomplete,
+                      fmt::format("run {} {}; there is nothing to compare with",
+                                  results::run_name(run.store.folder(), run.key),
+                                  failure ? "failed: " + failure->message : "has not been made yet"));
+}
+
+std::vector<experiment::RunKey> complete_runs(const results::Store& store, const VerifyRequest& request) {
+    std::vector<experiment::RunKey> complete = store.manifest().runs();
+    std::erase_if(complete, [&](const experiment::RunKey& key) { return !store.complete(key); });
+    if (complete.empty())
+        throw core::Error(
+            core::ExitCode::incomplete,
+            fmt::format("{}: no run is complete; there is nothing to compare with", store.folder().string()));
+    if (request.sample == 0 || request.sample >= complete.size()) return complete;
+    std::vector<experiment::RunKey> sample;
+    for (std::size_t i = 0; i < request.sample; ++i)
+        sample.push_back(complete[i * complete.size() / request.sample]);
+    return sample;
+}
+
+Chosen chosen_runs(const VerifyRequest& request) {
+    const bool is_folder = std::filesystem::exists(std::filesystem::path(request.what) / "manifest.json");
+    const bool wants_many = request.all || request.sample > 0 || (request.signals && is_folder);
+    if (is_folder && !wants_many)
+        throw core::InputError({"RUN", fmt::format("{} is a whole run folder", request.what),
+                                results::run_name_form, "Name one of its runs, or add --all or --sample N"});
+    if (request.signals && !is_folder && !results::names_a_run(request.what))
+        throw core::InputError(
+            {"RUN|DIR", fmt::format("{} is not a run folder", request.what),
+             fmt::format("a folder written with --out, or one run of it, {}", results::run_name_form),
+             "It holds a manifest.json"});
+    if (!wants_many) return chosen_run(request.what);
+    if (!is_folder)
+        throw core::InputError({"RUN", fmt::format("{} is not a run folder", request.what),
+                                "a folder written with --out",
+                                "For a single run leave out --all and --sample"});
+    results::Store store = results::Store::open(request.what);
+    std::vector<experiment::RunKey> keys = complete_runs(store, request);
+    return {std::move(store), std::move(keys)};
+}
+
+/// A plan that repeats these runs from the scenarios and networks of the folder.
+study::Plan plan_of(const results::Store& store, const std::vector<experiment::RunKey>& keys,
+                    const std::filesystem::path& out) {
+    study::Plan plan;
+    plan.manifest = store.manifest();
+    std::map<std::string, std::size_t> unit_of;
+    for (const experiment::RunKey& key : keys) {
+        experiment::RunJob job = stored_job(store, key, out);
+        if (std::filesystem::exists(trace::recording_file(store.folder(), key)))
+            job.recording = experiment::StepRecording::on;
+        const std::string name =
+            fmt::format("{}-{:05}-{}", key.scenario, key.replication, experiment::name(job.traffic_model));
+        const auto [unit, is_new] = unit_of.try_emplace(name, plan.units.size());
+        if (is_new) {
+            plan.units.push_back({name, std::move(job)});
+            continue;
+        }
+        experiment::RunJob& together = plan.units[unit->second].unit;
+        together.conditions.push_back(job.conditions.front());
+        if (job.recording == experiment::StepRecording::on) together.recording = job.recording;
+    }
+    return plan;
+}
+
+/// The first difference between two recordings of a run; empty if there is none or a recording is missing.
+std::string first_differing_step(const std::filesystem::path& one, const std::filesystem::path& other) {
+    if (!std::filesystem::exists(one) || !std::filesystem::exists(other)) return "";
+    try {
+        trace::RecordingReader left(one);
+        trace::RecordingReader right(other);
+        while (true) {
+            const auto before = left.next();
+            const auto now = right.next();
+            if (!before && !now) return "";
+            if (!before || !now) return "one recording ends earlier";
+            const double time_s = before->time().value;
+            if (const auto found = trace::difference(*before->snapshot, *now->snapshot))
+                return fmt::format("at {} s, snapshot: {}", time_s, *found);
+            if (before->observation != nullptr && now->observation != nullptr)
+                if (const auto found = trace::difference(*before->observation, *now->observation))
+                    return fmt::format("at {} s, observation: {}", time_s, *found);
+            if (before->belief != nullptr && now->belief != nullptr)
+                if (const auto found = trace::difference(*before->belief, *now->belief))
+                    return fmt::format("at {} s, belief: {}", time_s, *found);
+            if (const auto found = trace::difference(before->leases, now->leases))
+                return fmt::format("at {} s, {}", time_s, *found);
+        }
+    } catch (const core::InputError& error) {
+        return error.what();
+    }
+}
+
+Verification verify(const results::Store& stored, const results::Store& again,
+                    const experiment::RunKey& key) {
+    Verification verification;
+    verification.run = results::run_name(stored.folder(), key);
+    std::optional<results::RunRecord> record;
+    try {
+        record = stored.read(key);
+    } catch (const core::InputError& error) {
+        verification.verdict = Verdict::damaged;
+        verification.cause = error.what();
+        return verification;
+    }
+    verification.hash = record->provenance.trace_hash;
+    const auto made = again.read(key);
+    if (!made) {
+        const auto failure = again.read_error(key);
+        verification.verdict = Verdict::failed;
+        verification.cause = failure ? failure->message : "was not made";
+        return verification;
+    }
+    verification.cells = results::differences(*record, *made);
+    if (verification.cells.empty()) return verification;
+    verification.verdict = Verdict::different;
+    verification.first_step = first_differing_step(trace::recording_file(stored.folder(), key),
+                                                   trace::recording_file(again.folder(), key));
+    return verification;
+}
+
+/// Why, and the first cells of each table that differ.
+std::vector<std::string> lines_of(const Verification& each) {
+    std::vector<std::string> lines;
+    if (!each.cause.empty()) lines.push_back(each.cause);
+    if (!each.first_step.empty()) lines.push_back("recordings first differ " + each.first_step);
+    for (const char* const table : {"provenance", "metrics", "vehicles"}) {
+        std::size_t count = 0;
+        for (const results::CellDifference& cell : each.cells) {
+            if (cell.table != table || ++count > shown_cells) continue;
+            lines.push_back(fmt::format("{}{}: {}: stored {}, now {}", table,
+                                        cell.row.empty() ? "" : " row " + cell.row, cell.column, cell.one,
+                                        cell.other));
+        }
+        if (count > shown_cells) lines.push_back(fmt::format("{}: {} cells differ in all", table, count));
+    }
+    return lines;
+}
+
+core::Json text_or_null(const std::string& text) {
+    return text.empty() ? core::Json(nullptr) : core::Json(text);
+}
+
+core::Json json_of(const std::vector<results::CellDifference>& cells) {
+    core::Json list = core::Json::array();
+    for (const results::CellDifference& cell : cells)
+        list.push_back({{"table", cell.table},
+                        {"row", cell.row},
+                        {"column", cell.column},
+                        {"stored", cell.one},
+                        {"now", cell.other}});
+    return list;
+}
+
+/// The worst of all verdicts.
+core::ExitCode code_of(const std::vector<Verification>& verifications) {
+    const auto any = [&](Verdict verdict) {
+        return std::ranges::find(verifications, verdict, &Verification::verdict) != verifications.end();
+    };
+    if (any(Verdict::different)) return core::ExitCode::conflict;
+    if (any(Verdict::damaged)) return core::ExitCode::bad_input;
+    return any(Verdict::failed) ? core::ExitCode::runs_failed : core::ExitCode::ok;
+}
+
+Printout printout_of(const std::vector<Verification>& verifications) {
+    core::Json facts = {{"verified", verifications.size()}};
+    std::string sum = fmt::format("{} verified", verifications.size());
+    for (const Verdict verdict : {Verdict::same, Verdict::different, Verdict::damaged, Verdict::failed}) {
+        const auto count = std::ranges::count(verifications, verdict, &Verification::verdict);
+        facts[text_of(verdict)] = count;
+        sum += fmt::format("{} {} {}", verdict == Verdict::same ? ":" : ",", count, text_of(verdict));
+    }
+    Table runs{"runs",
+               {{"verdict", "verdict"},
+                {"run", "run"},
+                {"trace_hash", "trace"},
+                {"cause", ""},
+                {"first_differing_step", ""},
+                {"differences", ""}},
+               {}};
+    for (const Verification& each : verifications)
+        runs.rows.push_back({{text_of(each.verdict), each.run, text_or_null(each.hash),
+                              text_or_null(each.cause), text_or_null(each.first_step), json_of(each.cells)},
+                             lines_of(each)});
+    return {facts, {runs}, verifications.size() > 1 ? sum + "\n" : ""};
+}
+
+/// Where runs are repeated.
+class Workshop {
+  public:
+    explicit Workshop(const std::string& out) {
+        if (out.empty()) temporary_.emplace();
+        folder_ = temporary_ ? temporary_->path() : std::filesystem::path(out);
+    }
+    const std::filesystem::path& folder() const { return folder_; }
+
+  private:
+    std::optional<core::TemporaryFolder> temporary_;
+    std::filesystem::path folder_;
+};
+
+void require_elsewhere(const results::Store& stored, const std::string& out) {
+    std::error_code none;
+    if (std::filesystem::equivalent(stored.folder(), out, none))
+        throw core::InputError({"--out", fmt::format("{} is the folder to verify", out),
+                                "a new or empty folder",
+                                "The runs must be repeated elsewhere to be compared"});
+}
+
+/// Makes runs again in `out`. The exit code tells an interruption.
+std::pair<results::Store, core::ExitCode> repeat(const results::Store& stored,
+                                                 const std::vector<experiment::RunKey>& keys,
+                                                 const std::filesystem::path& out, unsigned jobs) {
+    require_same_versions(stored.manifest());
+    const study::Plan plan = plan_of(stored, keys, out);
+    results::Store again = results::Store::create(out, plan.manifest);
+    core::Progress progress("runs", keys.size(), core::Progress::style_for_stderr());
+    WorkersOptions options;
+    options.workers = jobs;
+    const StudyResult result = run_units(plan, again, options, [&](const StudyProgress& now) {
+        progress.update(now.done + now.failed, now.failed);
+    });
+    progress.finish();
+    return {std::move(again), result.exit_code};
+}
+
+core::ExitCode audit(const VerifyRequest& request) {
+    const auto chosen = chosen_runs(request);
+    const results::Store& stored = chosen.store;
+    require_elsewhere(stored, request.out);
+    const Workshop workshop(request.out);
+    core::ExitCode ended = core::ExitCode::ok;
+    const AuditReport report =
+        audit_runs(stored, chosen.keys, [&](const std::vector<experiment::RunKey>& unlogged) {
+            auto [again, code] = repeat(stored, unlogged, workshop.folder(), request.workers);
+            if (is_interrupted(code)) ended = code;
+            return std::move(again);
+        });
+    if (is_interrupted(ended)) return ended;
+    print(audit_printout(report), request.printing);
+    if (nothing_audited(report))
+        throw core::Error(core::ExitCode::incomplete, nothing_audited_text(report, request.what));
+    return code_of(report);
+}
+
+}  // namespace
+
+core::ExitCode verify_runs(const VerifyRequest& request) {
+    if (request.signals) return audit(request);
+    const auto [stored, keys] = chosen_runs(request);
+    require_elsewhere(stored, request.out);
+    const Workshop workshop(request.out);
+    const auto [again, code] = repeat(stored, keys, workshop.folder(), request.workers);
+    if (is_interrupted(code)) return code;
+    std::vector<Verification> verifications;
+    for (const experiment::RunKey& key : keys)
+        verifications.push_back(verify(stored, again, key));
+    print(printout_of(verifications), request.printing);
+    return code_of(verifications);
+}
+
+}  // namespace clearway::campaign

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "campaign/printout.hpp"
+#include "core/error.hpp"
+
+namespace clearway::campaign {
+
+/// Which stored runs are made again.
+struct VerifyRequest {
+    std::string what;  ///< A run, or with `all` and `sample` a run folder.
+    bool all = false;
+    bool signals = false;    ///< Audit signals instead of comparing numbers.
+    std::size_t sample = 0;  ///< So many of the complete runs, evenly spread; 0: all.
+    std::string out;         ///< Run folder that keeps the repeated runs; empty: a temporary one.
+    unsigned workers = 0;    ///< 0: one per core.
+    Printing printing = Printing::text;
+};
+
+/// Makes stored runs again elsewhere, from the configurations and networks of their folder, compares every
+/// number of their records, and prints the verdicts. With `signals` it audits event logs instead, as
+/// signal_audit.hpp says, and makes only runs again that kept none. Returns the worst verdict: conflict for a
+/// difference, bad_input for a damaged record, runs_failed; or how it was interrupted. Throws
+/// core::InputError, core::EnvironmentError for other versions than the study's, and core::Error with
+/// incomplete where there is nothing to compare.
+core::ExitCode verify_runs(const VerifyRequest& request);
+
+}  // namespace clearway::campaign
