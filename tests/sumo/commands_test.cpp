@@ -13,6 +13,7 @@ namespace clearway {
 namespace {
 
 using sumo::Session;
+using test::apply;
 using test::key;
 using test::Scene;
 using test::step_until;
@@ -20,10 +21,6 @@ using test::vehicle;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-void apply(Session& session, const traffic::Command& command) {
-    session.apply(std::span(&command, 1));
-}
 
 float speed(const Session& session, const char* id) {
     return session.snapshot().speed_mps[session.snapshot().row_of(key(id)).value()];

@@ -12,15 +12,12 @@ namespace clearway {
 namespace {
 
 using sumo::Session;
+using test::apply;
 using test::key;
 using test::Scene;
 using test::vehicle;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-void apply(Session& session, const traffic::Command& command) {
-    session.apply(std::span(&command, 1));
-}
 
 std::size_t count(const std::string& text, const std::string& part) {
     std::size_t found = 0;

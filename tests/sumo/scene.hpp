@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,10 @@ void step_until(sumo::Session& session, double time_s);
 
 /// The whole text of a file, with the moment of writing, which SUMO puts in a comment, blotted out.
 std::string text_without_date(const std::filesystem::path& file);
+
+inline void apply(sumo::Session& session, const traffic::Command& command) {
+    session.apply(std::span(&command, 1));
+}
 
 inline core::VehicleKey key(const std::string& id) {
     return core::vehicle_key(id);
