@@ -16,8 +16,9 @@ function(clearway_compile_options target)
     # -ffp-contract=off: the same sums on every optimisation level, hence the same trace hash.
     target_compile_options(${target} PRIVATE ${CLEARWAY_WARNINGS} -ffp-contract=off)
     if(CMAKE_UNITY_BUILD)
-        # Types of an anonymous namespace may be members of a type of the same .cpp file, which is included here.
-        target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+        # Types of an anonymous namespace may be members of a type of the same .cpp file, which is included here. A local name may
+        # be that of a neighbour's constant; where files are compiled one by one, -Wshadow stays.
+        target_compile_options(${target} PRIVATE -Wno-subobject-linkage -Wno-shadow)
     endif()
     if(CLEARWAY_ASSERTIONS)
         target_compile_options(${target} PRIVATE -UNDEBUG -D_GLIBCXX_ASSERTIONS)
