@@ -41,11 +41,6 @@ class Scene {
 std::string vehicle(const std::string& id, const std::string& type, double depart_s, const std::string& edges,
                     const std::string& attributes = "");
 
-/// Applies one command.
-inline void apply(sumo::Session& session, const traffic::Command& command) {
-    session.apply(std::span(&command, 1));
-}
-
 /// Steps until `time_s` is reached.
 void step_until(sumo::Session& session, double time_s);
 
