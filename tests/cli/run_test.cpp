@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sqlite3.h>
 
+#include "core/files.hpp"
 #include "user.hpp"
 
 namespace clearway::cli {
