@@ -114,7 +114,7 @@ TEST_F(Merge, RefusesAnotherStudyBeforeItTouchesAnything) {
 }
 
 TEST_F(Merge, RefusesShardsOfTwoBuilds) {
-    results::Manifest manifest = results::synthetic::manifest(replications);
+    results::Manifest manifest = results::synthetic::manifest(merged_replications);
     for (const char* const build : {"0123456789abcdef", "fedcba9876543210"}) {
         manifest.clearway_build = build;
         Store::create(place(build), manifest);
