@@ -188,8 +188,8 @@ TEST_F(CityTest, an_import_that_leaves_out_many_vehicles_falls_short) {
     write("few.rou.xml", vehicles(2));
     write("many.rou.xml", vehicles(3));
     const auto import = [&](const std::string& name) {
-        return clearway(
-            {"import", "grid.net.xml", name + ".rou.xml", "--name", name, "--leave-out-bad-vehicles"});
+        return clearway({"scenario", "import", "grid.net.xml", name + ".rou.xml", "--name", name,
+                         "--leave-out-bad-vehicles"});
     };
     const Ended few = import("few");
     EXPECT_EQ(few.code, 0) << few.err;

@@ -122,15 +122,15 @@ TEST_F(DatasetTest, overwrites_no_other_recording) {
         EXPECT_THAT(ended.err, AllOf(HasSubstr(file), HasSubstr("--out")));
         EXPECT_EQ(read("data/line-B10-0000.samples"), samples);
     };
-    expect_refusal(changed(8, "8"), "data/line-B10-0000.samples: already exists");
-    std::vector<std::string> denser = changed(6, "A.5");
+    expect_refusal(changed(9, "8"), "data/line-B10-0000.samples: already exists");
+    std::vector<std::string> denser = changed(7, "A.5");
     denser.insert(denser.end(), {"--density", "2"});
     expect_refusal(denser, "data/origin/line/scenario.toml: another configuration of line");
     std::vector<std::string> of_graphsage = first;
     of_graphsage.insert(of_graphsage.end(), {"--net", "graphsage"});
     expect_refusal(of_graphsage, "data/line-B10-0000.samples: already exists");
     EXPECT_EQ(clearway(first).code, 0) << "the same again";
-    EXPECT_EQ(clearway(changed(6, "A.5")).code, 0) << "another failure beside it";
+    EXPECT_EQ(clearway(changed(7, "A.5")).code, 0) << "another failure beside it";
     EXPECT_EQ(read("data/line-B10-0000.samples"), samples);
 }
 

@@ -55,7 +55,7 @@ scenario.friction = [1.0, 0.4]
         factors = {"condition.failure": str, "preempt_signals.lead_s": float, "scenario.friction": float}
         runs = results.runs
         lines = list(csv.DictReader((results.folder / "runs.csv").read_text().splitlines()))
-        printed = json.loads(program("results", str(results.folder), "runs", "--json"))
+        printed = json.loads(program("export", "results", str(results.folder), "runs", "--json"))
         connection = sqlite3.connect(results.folder / "results.sqlite")
         self.addCleanup(connection.close)
         self.assertEqual(set(runs["condition.failure"]), {"", "perfect", "B10"})

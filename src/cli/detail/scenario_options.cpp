@@ -29,7 +29,7 @@ void add_override(CLI::App& app, const scenario::Override& override, scenario::O
     if (override.is_flag) {
         app.add_flag_callback(
                override.option, [&options, &value] { options.set(value.name, value.words.back()); },
-               value.doc)
+               fmt::format("{} [{}]", value.doc, value.words.front()))
             ->group(group);
         return;
     }
