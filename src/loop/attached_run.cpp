@@ -1,5 +1,3 @@
-#include "loop/jobs.hpp"
-
 #include <chrono>
 #include <cstdlib>
 #include <limits>
@@ -14,6 +12,7 @@
 #include "core/random.hpp"
 #include "experiment/settings.hpp"
 #include "loop/condition_run.hpp"
+#include "loop/jobs.hpp"
 #include "loop/road_layout.hpp"
 #include "results/store.hpp"
 

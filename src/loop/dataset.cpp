@@ -1,5 +1,3 @@
-#include "loop/jobs.hpp"
-
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +7,7 @@
 #include "core/files.hpp"
 #include "core/temporary_folder.hpp"
 #include "loop/detail/plain_run.hpp"
+#include "loop/jobs.hpp"
 #include "loop/unit_run.hpp"
 #include "prediction/comparison/features.hpp"
 #include "samples/recorders.hpp"

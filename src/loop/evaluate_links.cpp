@@ -1,5 +1,3 @@
-#include "loop/jobs.hpp"
-
 #include <algorithm>
 
 #include "core/files.hpp"
@@ -7,6 +5,7 @@
 #include "experiment/link_job.hpp"
 #include "links/link_evaluation.hpp"
 #include "loop/detail/plain_run.hpp"
+#include "loop/jobs.hpp"
 #include "loop/unit_run.hpp"
 
 namespace clearway::loop {

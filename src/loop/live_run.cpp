@@ -1,11 +1,10 @@
-#include "loop/jobs.hpp"
-
 #include <memory>
 #include <string>
 
 #include "core/files.hpp"
 #include "experiment/settings.hpp"
 #include "loop/detail/live_feed.hpp"
+#include "loop/jobs.hpp"
 #include "loop/unit_run.hpp"
 #include "results/store.hpp"
 #include "view/recorded_run.hpp"

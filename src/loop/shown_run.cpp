@@ -1,5 +1,3 @@
-#include "loop/jobs.hpp"
-
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -11,6 +9,7 @@
 
 #include "core/files.hpp"
 #include "loop/illustrator.hpp"
+#include "loop/jobs.hpp"
 #include "loop/unit_run.hpp"
 #include "results/store.hpp"
 #include "sumo/child_sumo.hpp"

@@ -266,9 +266,9 @@ TEST(CarFollowing, EstimatesWhatADriverShowed) {
 
 /// How far a driver is believed to get in 8 s in the dark, who was seen at one speed for half a minute, m.
 float believed_way_m(int speed_mps, const char* estimate) {
-    Outage outage("10 m per cell, limit 20 m/s, speed " + std::to_string(speed_mps) + " m/s\na" +
-                      std::string(79, '.'),
-                  {{"estimate", estimate}});
+    Outage outage(
+        "10 m per cell, limit 20 m/s, speed " + std::to_string(speed_mps) + " m/s\na" + std::string(79, '.'),
+        {{"estimate", estimate}});
     for (int second = 0; second < 30; ++second) {
         outage.scene().pass(core::Seconds(1.0));
         outage.see();
