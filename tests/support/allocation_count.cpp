@@ -8,9 +8,13 @@ namespace {
 std::atomic<std::size_t> calls = 0;
 }
 
-void* operator new(std::size_t bytes) {
+void* operator new(std::size_t bytes, const std::nothrow_t& /*unused*/) noexcept {
     ++calls;
-    void* memory = std::malloc(bytes == 0 ? 1 : bytes);
+    return std::malloc(bytes == 0 ? 1 : bytes);
+}
+
+void* operator new(std::size_t bytes) {
+    void* memory = operator new(bytes, std::nothrow);
     if (memory == nullptr) throw std::bad_alloc();
     return memory;
 }
