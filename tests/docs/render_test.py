@@ -1,0 +1,294 @@
+"""Pages and results: what scripts/render-docs writes, and that it finds each fault."""
+import csv
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+RENDER = ROOT / "scripts" / "render-docs"
+COUNT = ROOT / "scripts" / "count-docs"
+HEADER = "study,tree,date,seed,pairs,command,scenario,condition,measure,unit,mean,low,high,lost_evs,origin,behaviour"
+
+
+def run(*words):
+    return subprocess.run([sys.executable, *map(str, words)], capture_output=True, text=True, check=False)
+
+
+BEHAVIOUR = run(RENDER, "--behaviour").stdout.strip()
+
+
+def row(condition="corridor", measure="time_s:difference", unit="s", mean="-25.2", low="-29.0", high="-21.5", scenario="city",
+        origin="product", behaviour=BEHAVIOUR, lost="0 of 210", study="signals", pairs="30", tree="5a206d0"):
+    return (f'{study},{tree},2026-11-24,7461,{pairs},clearway study studies/signals.toml,{scenario},"{condition}",{measure},{unit},'
+            f"{mean},{low},{high},{lost},{origin},{behaviour}")
+
+
+TABLE = """<!-- table: signals
+rows: condition
+columns: measure
+titles: time_s:difference = EV travel time, s; condition = policy
+-->
+<!-- end of table -->
+"""
+
+
+class Tree(unittest.TestCase):
+    """A tree of one page and one file of results."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.root = pathlib.Path(self.folder.name)
+        for name in ("docs", "results", "tests/loop"):
+            (self.root / name).mkdir(parents=True)
+        shutil.copy(ROOT / "tests/loop/golden.txt", self.root / "tests/loop")
+
+    def rows(self, *rows, header=HEADER):
+        (self.root / "results/signals.csv").write_text("\n".join((header, *rows)) + "\n", encoding="utf-8")
+
+    def page(self, text):
+        (self.root / "docs/a.md").write_text(text, encoding="utf-8")
+
+    def rendered(self, text):
+        """The page after a run without faults."""
+        self.page(text)
+        done = run(RENDER, "--root", self.root)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(run(RENDER, "--root", self.root, "--check").returncode, 0)
+        return (self.root / "docs/a.md").read_text(encoding="utf-8")
+
+    def refused(self, place, words, text="text\n"):
+        """The check fails with a line of this place and these words; so does writing, which leaves the page as it is."""
+        self.page(text)
+        for options in (["--check"], []):
+            done = run(RENDER, "--root", self.root, *options)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertRegex(done.stderr, re.escape(place) + r": .*" + re.escape(words))
+        self.assertEqual((self.root / "docs/a.md").read_text(encoding="utf-8"), text)
+
+
+class Rendered(Tree):
+    def test_a_table_has_titles_signs_intervals_and_its_source(self):
+        self.rows(row(), row("slow", mean="3.0", low="-1.0", high="7.0"), row("none", mean="-0.0", low="", high=""))
+        text = self.rendered(TABLE)
+        self.assertIn("| policy | EV travel time, s |\n|---|---|\n| corridor | -25.2 [-29.0, -21.5] |\n"
+                      "| slow | +3.0 [-1.0, 7.0] |\n| none | 0.0 |\n", text)
+        self.assertIn("Source: `clearway study studies/signals.toml`, 30 pairs, seed 7461, tree 5a206d0, 2026-11-24.", text)
+        self.assertNotIn("\N{DAGGER}", text)
+
+    def test_where_selects_and_orders_values_that_may_hold_commas(self):
+        self.rows(row("a"), row("memory 4 s, loss 50 %"), row("b"))
+        text = self.rendered(TABLE.replace("titles", "where: condition = b, memory 4 s, loss 50 %\ntitles"))
+        self.assertRegex(text, r"(?s)\| b \|.*\| memory 4 s, loss 50 % \|")
+        self.assertNotIn("| a |", text)
+
+    def test_pairs_of_names_select_cells(self):
+        self.rows(row("a"), row("b"), row("a", scenario="merge"), row("b", scenario="merge"))
+        text = self.rendered(TABLE.replace("rows: condition", "rows: scenario, condition").replace(
+            "titles", "where: scenario / condition = merge / b,\n  city / a\ntitles"))
+        self.assertRegex(text, r"(?s)\| merge \| b \|.*\| city \| a \|")
+        self.assertNotIn("| city | b |", text)
+
+    def test_lost_vehicles_pairs_and_means_alone_on_demand(self):
+        self.rows(row(lost="1 of 210"))
+        text = self.rendered(TABLE.replace("titles", "lost: yes\npairs: yes\nshow: mean\nsource: no\ntitles"))
+        self.assertIn("| policy | EV travel time, s | lost EVs | pairs |", text)
+        self.assertIn("| corridor | -25.2 | 1 of 210 | 30 |", text)
+        self.assertNotIn("Source", text)
+
+    def test_a_figure_has_sign_unit_and_interval(self):
+        self.rows(row(mean="2.0", low="1.0", high="3.0"), row(measure="time_s", mean="165.0", low="", high=""),
+                  row(measure="time_s:percent", unit="%"))
+        text = self.rendered("<!--= signals | city | corridor | time_s:difference -->?<!--/-->, "
+                             "<!--= signals | city |\ncorridor | time_s --><!--/-->, "
+                             "<!--= signals | city | corridor | time_s:percent | mean -->x<!--/-->\n")
+        self.assertEqual(re.findall(r"-->([^<]+)<!--/", text), ["+2.0 s [1.0, 3.0]", "165.0 s", "-25.2 %"])
+
+    def test_a_figure_may_be_broken_across_lines(self):
+        self.rows(row())
+        broken = "<!--= signals | city | corridor | time_s:difference -->-25.2 s\n[-29.0, -21.5]<!--/-->\n"
+        self.assertEqual(self.rendered(broken), broken)
+
+    def test_rows_of_other_behaviour_and_transcribed_ones_have_a_dagger_and_a_note(self):
+        self.rows(row("new"), row("old", behaviour="0" * 12, tree="1111111"), row("taken", origin="transcribed", behaviour="", tree="2222222"))
+        text = self.rendered(TABLE)
+        self.assertIn("| new | -25.2", text)
+        self.assertIn("| old \N{DAGGER} | -25.2", text)
+        self.assertIn("| taken \N{DAGGER} | -25.2", text)
+        self.assertIn("\N{DAGGER} trees 1111111, 2026-11-24; 2222222, 2026-11-24: policies have changed since, or the row was "
+                      "taken over from an earlier page.", text)
+
+    def test_a_change_of_a_golden_run_makes_rows_old(self):
+        self.rows(row())
+        self.rendered(TABLE)
+        golden = self.root / "tests/loop/golden.txt"
+        golden.write_text(golden.read_text(encoding="utf-8").replace("corridor 6", "corridor 7", 1),
+                          encoding="utf-8")
+        done = run(RENDER, "--root", self.root, "--check")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("| corridor \N{DAGGER} |", done.stderr)
+
+    def test_markers_in_code_are_text(self):
+        self.rows(row())
+        example = "```\n<!-- table: gone\n<!--= gone -->\n```\n"
+        self.assertEqual(self.rendered(example), example)
+
+
+class Faults(Tree):
+    def setUp(self):
+        super().setUp()
+        self.rows(row())
+
+    def figure(self, spec):
+        return f"\n\n<!--= {spec} -->-25.2 s<!--/-->\n"
+
+    def test_unknown_file(self):
+        self.refused("docs/a.md:3", "no file results/gone.csv", self.figure("gone | city | corridor | time_s:difference"))
+        self.refused("docs/a.md:1", "no file results/gone.csv", TABLE.replace("signals", "gone"))
+
+    def test_unknown_row(self):
+        self.refused("docs/a.md:3", "has no row city | gone | time_s:difference; its conditions are corridor",
+                     self.figure("signals | city | gone | time_s:difference"))
+        self.refused("docs/a.md:1", "no row with condition 'gone'", TABLE.replace("titles", "where: condition = gone\ntitles"))
+
+    def test_a_value_that_other_values_exclude(self):
+        self.rows(row(), row("b", scenario="merge"))
+        self.refused("docs/a.md:1", "no row has condition 'b'",
+                     TABLE.replace("titles", "where: condition = corridor, b; scenario = city\ntitles"))
+
+    def test_two_rows_with_one_key(self):
+        self.rows(row(), row())
+        self.refused("results/signals.csv:3", "as in line 2")
+
+    def test_two_rows_for_one_cell(self):
+        self.rows(row(), row(scenario="merge"))
+        self.refused("docs/a.md:1", "results/signals.csv:2 and results/signals.csv:3 are for one cell", TABLE)
+
+    def test_rows_that_disagree_about_lost_vehicles(self):
+        self.rows(row(), row(measure="b_s", lost="1 of 210"))
+        self.refused("docs/a.md:1", "disagree about lost_evs", TABLE.replace("titles", "lost: yes\ntitles"))
+
+    def test_bad_header(self):
+        self.rows(row(), header=HEADER.replace("tree", "commit"))
+        self.refused("results/signals.csv:1", "the header is")
+
+    def test_bad_number(self):
+        for values, words in ((dict(mean="fast"), "mean 'fast' is not"), (dict(low=""), "low '' and high"),
+                              (dict(low="-1"), "mean -25.2 is outside"), (dict(pairs="many"), "pairs 'many'")):
+            self.rows(row(**values))
+            self.refused("results/signals.csv:2", words)
+
+    def test_bad_fields(self):
+        for values, words in ((dict(origin="guess"), "origin 'guess'"), (dict(behaviour=""), "behaviour ''"),
+                              (dict(origin="transcribed"), "behaviour '"), (dict(scenario="a | b"), "scenario 'a | b'"),
+                              (dict(tree="today"), "tree 'today'"), (dict(lost="one"), "lost_evs 'one'"),
+                              (dict(measure="time_s:percent"), "is not %"), (dict(measure="Time"), "measure 'Time'")):
+            self.rows(row(**values))
+            self.refused("results/signals.csv:2", words)
+        self.rows(row() + ",more")
+        self.refused("results/signals.csv:2", "17 fields, not 16")
+
+    def test_markers_without_a_block(self):
+        self.refused("docs/a.md:2", "belongs to no block", "text\n<!-- end of table -->\n")
+        self.refused("docs/a.md:2", "belongs to no block", "text\n1 s<!--/-->\n")
+
+    def test_blocks_without_an_end(self):
+        self.refused("docs/a.md:2", "this table has no end", "\n" + TABLE.replace("<!-- end of table -->", ""))
+        self.refused("docs/a.md:1", "this table has no end", TABLE.replace("<!-- end of table -->", "") + TABLE)
+        self.refused("docs/a.md:1", "this figure has no end", "<!--= signals | city | corridor | time_s:difference -->1 s\n")
+
+    def test_specs(self):
+        for old, new, words in (("titles:", "title:", "unknown key 'title'"), ("titles:", "rows: measure\ntitles:", "is there twice"),
+                                ("rows: condition", "rows: policy", "'policy' is none of"), ("columns: measure", "", "one or two names"),
+                                ("columns: measure", "columns: condition", "share a name"),
+                                ("titles:", "lost: maybe\ntitles:", "lost: 'maybe'"), ("titles:", "where: city\ntitles:", "is not NAME = VALUE"),
+                                ("condition = policy", "gone = policy", "titles: 'gone = policy' names nothing"),
+                                ("titles:", "free text\ntitles:", "'free text' is not a key")):
+            self.refused("docs/a.md:1", words, TABLE.replace(old, new, 1))
+        self.refused("docs/a.md:3", "is not FILE | SCENARIO", self.figure("signals | city"))
+        self.refused("docs/a.md:3", "is not FILE | SCENARIO", self.figure("signals | city | corridor | time_s:difference | median"))
+
+
+class ThisTree(unittest.TestCase):
+    def test_a_changed_row_makes_a_page_wrong(self):
+        """For each page with a figure in its text: the row of the first one is changed, and the check names its line."""
+        tried = 0
+        for page in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))):
+            text = page.read_text(encoding="utf-8")
+            figure = re.search(r"<!--= ([^>]*?) -->", text)
+            if figure is None:
+                continue
+            file, scenario, condition, measure = (" ".join(part.split()) for part in figure[1].split("|")[:4])
+            with tempfile.TemporaryDirectory() as folder:
+                root = pathlib.Path(folder)
+                for part in ("docs", "results"):
+                    shutil.copytree(ROOT / part, root / part)
+                (root / "tests/loop").mkdir(parents=True)
+                shutil.copy(ROOT / "tests/loop/golden.txt", root / "tests/loop")
+                shutil.copy(ROOT / "README.md", root)
+                results = root / "results" / f"{file}.csv"
+                rows = list(csv.DictReader(results.read_text(encoding="utf-8").splitlines()))
+                (changed,) = (row for row in rows if (row["scenario"], row["condition"], row["measure"]) == (scenario, condition, measure))
+                changed |= dict(mean="123456.7", low="", high="")
+                with results.open("w", encoding="utf-8", newline="") as opened:
+                    writer = csv.DictWriter(opened, rows[0].keys())
+                    writer.writeheader()
+                    writer.writerows(rows)
+                name = page.relative_to(ROOT).as_posix()
+                line = text.count("\n", 0, figure.start()) + 1
+                done = run(RENDER, "--root", root, "--check", root / name)
+                self.assertEqual(done.returncode, 1, name)
+                self.assertRegex(done.stderr, rf"(?m)^{re.escape(name)}:{line}: the page says '.*', the rows '.*123456\.7.*': "
+                                 "run scripts/render-docs$")
+            tried += 1
+        self.assertGreater(tried, 0, "no page shows a figure")
+
+
+class Counts(Tree):
+    def counted(self, text, page="docs/findings/a.md"):
+        (self.root / page).parent.mkdir(parents=True, exist_ok=True)
+        (self.root / page).write_text(text, encoding="utf-8")
+        limits = self.root / "tests/docs/limits_of_docs.txt"
+        limits.parent.mkdir(exist_ok=True)
+        if not limits.exists():
+            limits.write_text("words 100\ntable_words 100\nnumbers 100\nlong_lines 100\ndrawings 0\n", encoding="utf-8")
+        done = run(COUNT, "--root", self.root)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return {name: int(count) for count, name in re.findall(r"(?m)^ *(\d+) (\w+), of", done.stdout)}
+
+    def test_words_are_those_of_prose(self):
+        text = ("# Two words\n\n`one` <!-- none at all --> three\n\n    no code\n\n```\nno code\n```\n- item\n\n    its paragraph\n\n"
+                "| a | b c |\n|---|---|\n\n" + TABLE.replace("-->\n<!-- end", "-->\n| generated |\n<!-- end"))
+        counts = self.counted(text)
+        self.assertEqual(counts["words"], 9, "#, Two, words, one, three, -, item, its, paragraph")
+        self.assertEqual(counts["table_words"], 3, "a, b, c")
+
+    def test_numbers_that_look_measured(self):
+        text = ("It gains 4.3 s [2.9, 5.7], 3 % and 5 to 6 s at 50 km/h in 2026, `7 s`.\n\n| a | 1.0 [0.5, 1.5] | 12 |\n|---|---|---|\n\n"
+                "| year | 2026 |\n|---|---|\n")
+        self.assertEqual(self.counted(text)["numbers"], 5)
+        (self.root / "docs/findings/a.md").unlink()
+        self.assertEqual(self.counted("It gains 4.3 s [2.9, 5.7] in steps of 0.25 s.\n", "docs/guides/a.md")["numbers"], 1)
+        (self.root / "docs/guides/a.md").unlink()
+        self.assertEqual(self.counted("<!--= signals | a | b | c -->4.3 s [2.9, 5.7]<!--/-->\n")["numbers"], 0)
+
+    def test_long_lines(self):
+        long = "word " * 25
+        text = f"{long}\n\n| {long} |\n|---|\n\n{long} https://example.org\n\n    {long}\n\nshort <!-- {long} -->\n"
+        self.assertEqual(self.counted(text)["long_lines"], 1)
+
+    def test_the_check_fails_above_a_limit(self):
+        self.counted("word " * 100)
+        self.assertEqual(run(COUNT, "--root", self.root, "--check").returncode, 0)
+        self.counted("word " * 101)
+        done = run(COUNT, "--root", self.root, "--check")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("101 words are more than 100", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
