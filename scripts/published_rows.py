@@ -112,16 +112,15 @@ def pages(root):
     return [page for page in (root / "README.md", *sorted((root / "docs").rglob("*.md"))) if page.exists()]
 
 
-BLOCK_START = re.compile(r"<!-- table: *(?P<spec>.*?)-->", re.DOTALL)
-BLOCK_END = "<!-- end of table -->"
+BLOCK_START = re.compile(r"<!-- (?P<kind>table|picture): *(?P<spec>.*?)-->", re.DOTALL)
 FIGURE = re.compile(r"<!--= *(?P<spec>[^>]*?) *-->(?P<text>.*?)<!--/-->", re.DOTALL)
-MARKER = re.compile(r"<!--(=| *table:| *end of table|/)")
+MARKER = re.compile(r"<!--(=| *table:| *picture:| *end of table| *end of picture|/)")
 FENCE = re.compile(r"^ *(```|~~~).*?^ *\1[^\n]*$", re.DOTALL | re.MULTILINE)
 
 
 @dataclasses.dataclass(frozen=True)
 class Block:
-    """A table with its comments, or an inline figure: where it is, what it asks for, where its text is."""
+    """A table, a picture or a figure in a sentence: where it is, what it asks for, where its text is."""
     kind: str
     line: int
     spec: str
@@ -143,15 +142,17 @@ def find_blocks(page, text, faults):
             continue
         line = line_of(text, marker.start())
         word = marker.group(1).strip()
-        if word == "table:":
+        if word in ("table:", "picture:"):
+            kind = word[:-1]
+            closing = f"<!-- end of {kind} -->"
             start = BLOCK_START.match(text, marker.start())
-            end = text.find(BLOCK_END, start.end()) if start else -1
+            end = text.find(closing, start.end()) if start else -1
             other = BLOCK_START.search(text, start.end()) if start else None
             if end < 0 or (other and other.start() < end):
-                faults.append(Fault(page, line, f"this table has no end: write {BLOCK_END} below it"))
+                faults.append(Fault(page, line, f"this {kind} has no end: write {closing} below it"))
                 continue
-            blocks.append(Block("table", line, start["spec"], start.end(), end))
-            position = end + len(BLOCK_END)
+            blocks.append(Block(kind, line, start["spec"], start.end(), end))
+            position = end + len(closing)
         elif word == "=":
             figure = FIGURE.match(text, marker.start())
             if figure is None or MARKER.search(figure["text"]):

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.dom.minidom
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RENDER = ROOT / "scripts" / "render-docs"
@@ -131,6 +132,25 @@ class Rendered(Tree):
         done = run(RENDER, "--root", self.root, "--check")
         self.assertEqual(done.returncode, 1)
         self.assertIn("| corridor \N{DAGGER} |", done.stderr)
+
+    def test_a_picture_is_drawn_from_its_rows(self):
+        self.rows(row("a"), row("b", low="", high=""), row("c", measure="b_s", mean="1.0", low="0.0", high="2.0"))
+        (self.root / "docs/images").mkdir()
+        spec = "<!-- picture: signals\nimage: gain\nalt: What it gains\nrows: condition\ncolumns: measure\n-->\n<!-- end of picture -->\n"
+        text = self.rendered(spec)
+        self.assertIn("\n![What it gains](images/gain.svg)\n", text)
+        image = self.root / "docs/images/gain.svg"
+        drawn = image.read_text(encoding="utf-8")
+        self.assertEqual(drawn.count("<circle"), 3)
+        self.assertEqual([label for label in "abc" if f">{label}</text>" in drawn], ["a", "b", "c"])
+        xml.dom.minidom.parseString(drawn)
+        image.write_text(drawn.replace("<circle", "<square"), encoding="utf-8")
+        done = run(RENDER, "--root", self.root, "--check")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("docs/a.md:1: docs/images/gain.svg is not what the rows say: run scripts/render-docs", done.stderr)
+        both = self.rendered(spec.replace("picture", "table"))
+        self.assertRegex(both, r"(?s)!\[What it gains\]\(images/gain.svg\)\n\n\| condition \|")
+        self.refused("docs/a.md:1", "a description in 'alt'", spec.replace("alt: What it gains\n", ""))
 
     def test_markers_in_code_are_text(self):
         self.rows(row())
