@@ -255,7 +255,7 @@ WrongShares wrong_shares(const Network& network, double sigma_m, RouteKnown rout
     return {wrong.edge / count, wrong.lane / count};
 }
 
-// docs/reference/sensing.md names this test as the place of these figures.
+// results/map_matching.csv states these figures.
 TEST(RealNetwork, MapMatchingInTheCityErrsAsStated) {
     const Network network = berlin();
     const auto expect = [&](double sigma_m, RouteKnown route_known, double edge, double lane) {
