@@ -4,7 +4,7 @@ from xml.sax.saxutils import escape
 
 INK, FAINT, GRID, POINT = "#1f2933", "#5f6c7b", "#e3e7eb", "#2f62ad"
 LINE_HEIGHT, PANEL_WIDTH, GAP, TOP = 26, 300, 36, 40
-LETTER = 7.1  # width of a letter of 13 px, on average
+LETTER = 7.6  # width of a letter of 13 px, on average
 
 
 def step_of(span):
@@ -32,9 +32,9 @@ def line(x1, y1, x2, y2, colour, width=1.0):
     return f'<line x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke="{colour}" stroke-width="{width}"/>'
 
 
-def panel(left, title, points):
+def panel(left, title, points, axis):
     """`points`: (mean, low, high) by line, or None."""
-    low, high, ticks = axis_of(points)
+    low, high, ticks = axis
     bottom = TOP + LINE_HEIGHT * len(points)
 
     def at(value):
@@ -52,8 +52,9 @@ def panel(left, title, points):
     return svg
 
 
-def drawn(labels, panels):
-    """The picture; `panels` are titles and their points."""
+def drawn(labels, panels, one_measure):
+    """The picture; `panels` are titles and their points. Those of one measure have the same axis."""
+    together = [point for _, points in panels for point in points]
     left = 20 + LETTER * max(map(len, labels))
     width = left + len(panels) * (PANEL_WIDTH + GAP)
     height = TOP + LINE_HEIGHT * len(labels) + 28
@@ -61,5 +62,5 @@ def drawn(labels, panels):
            '<rect width="100%" height="100%" fill="#ffffff"/>']
     svg += [text(left - 14, TOP + LINE_HEIGHT * (number + 0.5), label, anchor="end") for number, label in enumerate(labels)]
     for number, (title, points) in enumerate(panels):
-        svg += panel(left + number * (PANEL_WIDTH + GAP), title, points)
+        svg += panel(left + number * (PANEL_WIDTH + GAP), title, points, axis_of(together if one_measure else points))
     return "\n".join([*svg, "</svg>"]) + "\n"
