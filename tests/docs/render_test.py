@@ -288,9 +288,9 @@ class Counts(Tree):
         self.assertEqual(counts["table_words"], 3, "a, b, c")
 
     def test_numbers_that_look_measured(self):
-        text = ("It gains 4.3 s [2.9, 5.7], 3 % and 5 to 6 s at 50 km/h in 2026, `7 s`.\n\n| a | 1.0 [0.5, 1.5] | 12 |\n|---|---|---|\n\n"
+        text = ("It gains 4.3 s (95 % interval, x / 1 s), 4.3 s [2.9, 5.7], 3 % and 5 to 6 s at 50 km/h in 2026, `7 s`.\n\n| a | 1.0 [0.5, 1.5] | 12 |\n|---|---|---|\n\n"
                 "| year | 2026 |\n|---|---|\n")
-        self.assertEqual(self.counted(text)["numbers"], 5)
+        self.assertEqual(self.counted(text)["numbers"], 6)
         (self.root / "docs/findings/a.md").unlink()
         self.assertEqual(self.counted("It gains 4.3 s [2.9, 5.7] in steps of 0.25 s.\n", "docs/guides/a.md")["numbers"], 1)
         (self.root / "docs/guides/a.md").unlink()
