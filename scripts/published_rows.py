@@ -2,6 +2,7 @@
 import csv
 import dataclasses
 import functools
+import io
 import operator
 import re
 
@@ -22,6 +23,7 @@ PATTERNS = {
 }
 NAMES = ("study", "scenario", "condition", "measure")
 RESERVED = re.compile(r"[|;]|--|^\s*$| / ")
+UNPRINTABLE = re.compile(r"[\x00-\x1f\x7f-\x9f\u200b-\u200f\u202a-\u202e\u2066-\u2069\ufeff]")
 
 
 class Fault(Exception):
@@ -56,8 +58,26 @@ def behaviour(root):
     return f"{functools.reduce(operator.xor, hashes):032x}"[:12]
 
 
+def read_text(root, path, faults):
+    """Text of a file, or None with a fault where it is not UTF-8 or has carriage returns."""
+    data = path.read_bytes()
+    name = path.relative_to(root).as_posix() if path.is_relative_to(root) else path
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        faults.append(Fault(name, data.count(b"\n", 0, error.start) + 1, f"byte 0x{data[error.start]:02x} is not UTF-8"))
+        return None
+    if (place := text.find("\r")) >= 0:
+        faults.append(Fault(name, line_of(text, place), "a carriage return: lines end with a line feed alone"))
+        return None
+    return text
+
+
 def wrong_in(values):
     """What is wrong with the fields of one row."""
+    for name, value in values.items():
+        if UNPRINTABLE.search(value):
+            yield f"{name} {ascii(value)} contains an unprintable character"
     for name in NAMES:
         if RESERVED.search(values[name]):
             yield f"{name} '{values[name]}' is empty or contains one of | ; -- or ' / '"
@@ -82,24 +102,25 @@ def read_file(root, path, faults):
     """Rows of one file; appends what is wrong to `faults`."""
     name = path.relative_to(root).as_posix()
     rows, seen = [], {}
-    with path.open(encoding="utf-8", newline="") as opened:
-        reader = csv.reader(opened)
-        if (header := ",".join(next(reader, []))) != HEADER:
-            faults.append(Fault(name, 1, f"the header is '{header}', not '{HEADER}'"))
-            return rows
-        for cells in reader:
-            line = reader.line_num
-            if not cells:
-                continue
-            if len(cells) != len(FIELDS):
-                faults.append(Fault(name, line, f"{len(cells)} fields, not {len(FIELDS)}"))
-                continue
-            row = Row(name, line, dict(zip(FIELDS, cells)))
-            faults.extend(Fault(name, line, text) for text in wrong_in(row.values))
-            if row.key in seen:
-                faults.append(Fault(name, line, f"the same study, scenario, condition and measure as in line {seen[row.key]}"))
-            seen[row.key] = line
-            rows.append(row)
+    if (text := read_text(root, path, faults)) is None:
+        return rows
+    reader = csv.reader(io.StringIO(text, newline=""))
+    if (header := ",".join(next(reader, []))) != HEADER:
+        faults.append(Fault(name, 1, f"the header is {ascii(header)}, not '{HEADER}'"))
+        return rows
+    for cells in reader:
+        line = reader.line_num
+        if not cells:
+            continue
+        if len(cells) != len(FIELDS):
+            faults.append(Fault(name, line, f"{len(cells)} fields, not {len(FIELDS)}"))
+            continue
+        row = Row(name, line, dict(zip(FIELDS, cells)))
+        faults.extend(Fault(name, line, text) for text in wrong_in(row.values))
+        if row.key in seen:
+            faults.append(Fault(name, line, f"the same study, scenario, condition and measure as in line {seen[row.key]}"))
+        seen[row.key] = line
+        rows.append(row)
     return rows
 
 
@@ -158,6 +179,8 @@ def find_blocks(page, text, faults):
             if figure is None or MARKER.search(figure["text"]):
                 faults.append(Fault(page, line, "this figure has no end: write <!--/--> after it"))
                 continue
+            if text.startswith("#", text.rfind("\n", 0, marker.start()) + 1):
+                faults.append(Fault(page, line, "a figure in a heading: links to it would break when its row changes"))
             blocks.append(Block("figure", line, figure["spec"], *figure.span("text")))
             position = figure.end()
         else:

@@ -37,11 +37,39 @@ reports_each_fault() {
     expect_line "README.md: has more than 600 words"
 }
 
+refuses_pages_with_spoilt_text() {
+    mkdir -p "$work/tree/docs/images"
+    printf '# A\n\nnul \0\n' >"$work/tree/nul.md"
+    printf '# A\n\nbell \a\n' >"$work/tree/bell.md"
+    printf '# A\r\n' >"$work/tree/crlf.md"
+    printf '\xef\xbb\xbf# A\n' >"$work/tree/mark.md"
+    printf '# A\n\nleft to right \xe2\x80\xae\n' >"$work/tree/turned.md"
+    printf '# A\n\nlatin \xfc\n' >"$work/tree/latin.md"
+    printf '# A\n\nno end' >"$work/tree/cut.md"
+    : >"$work/tree/empty.md"
+    : >"$work/tree/docs/images/lonely.svg"
+    run_check
+    [[ $code == 1 ]] || fail "exit code $code"
+    expect_line "nul.md:3: has an unprintable character"
+    expect_line "bell.md:3: has an unprintable character"
+    expect_line "crlf.md:1: has an unprintable character"
+    expect_line "mark.md:1: has an unprintable character"
+    expect_line "turned.md:3: has an unprintable character"
+    expect_line "latin.md: is not UTF-8"
+    expect_line "cut.md: does not end with a line feed"
+    expect_line "empty.md: does not end with a line feed"
+    expect_line "docs/images/lonely.svg: is on no page"
+    grep -qF "check-docs: 9 faults" "$work/err" || fail "not nine faults"
+}
+
 accepts_good_pages() {
     mkdir -p "$work/tree/docs"
     printf '# A page\n\nAn emergency\nvehicle (EV), [two words](docs/b.md#two-words-1-s), <https://example.org>\n\n' >"$work/tree/a.md"
     printf '    [code](nowhere.md)\n\nText with `[code](nowhere.md)` and `EV`.\n' >>"$work/tree/a.md"
-    printf '# B\n\n## Two words: 1 s\n\n[up](../a.md), [here](#two-words-1-s)\n' >"$work/tree/docs/b.md"
+    mkdir -p "$work/tree/docs/images"
+    : >"$work/tree/docs/images/shown.svg"
+    printf '# B\n\n## Two words: 1 s\n\n[up](../a.md), [here](#two-words-1-s), caf\xc3\xa9\n' >"$work/tree/docs/b.md"
+    printf '\n![A picture](images/shown.svg)\n' >>"$work/tree/docs/b.md"
     run_check
     [[ $code == 0 ]] || fail "exit code $code"
 }

@@ -120,8 +120,8 @@ class Rendered(Tree):
         self.assertIn("| new | -25.2", text)
         self.assertIn("| old \N{DAGGER} | -25.2", text)
         self.assertIn("| taken \N{DAGGER} | -25.2", text)
-        self.assertIn("\N{DAGGER} trees 1111111, 2026-11-24; 2222222, 2026-11-24: policies have changed since, or the row was "
-                      "taken over from an earlier page.", text)
+        self.assertIn("\N{DAGGER} Taken over from an earlier page: tree 2222222, 2026-11-24.\\\n"
+                      "\N{DAGGER} Clearway's behaviour has changed since: tree 1111111, 2026-11-24.\n", text)
 
     def test_a_change_of_a_golden_run_makes_rows_old(self):
         self.rows(row())
@@ -206,11 +206,39 @@ class Faults(Tree):
         for values, words in ((dict(origin="guess"), "origin 'guess'"), (dict(behaviour=""), "behaviour ''"),
                               (dict(origin="transcribed"), "behaviour '"), (dict(scenario="a | b"), "scenario 'a | b'"),
                               (dict(tree="today"), "tree 'today'"), (dict(lost="one"), "lost_evs 'one'"),
-                              (dict(measure="time_s:percent"), "is not %"), (dict(measure="Time"), "measure 'Time'")):
+                              (dict(measure="time_s:percent"), "is not %"), (dict(measure="Time"), "measure 'Time'"),
+                              (dict(scenario="ci\0ty"), r"scenario 'ci\x00ty' contains an unprintable character")):
             self.rows(row(**values))
             self.refused("results/signals.csv:2", words)
         self.rows(row() + ",more")
         self.refused("results/signals.csv:2", "17 fields, not 16")
+
+    def test_files_that_are_no_plain_text(self):
+        path = self.root / "results/signals.csv"
+        good = path.read_bytes()
+        for data, place, words in ((good.replace(b"city", b"c\xedty"), "results/signals.csv:2", "byte 0xed is not UTF-8"),
+                                   (good.replace(b"\n", b"\r\n"), "results/signals.csv:1", "a carriage return"),
+                                   (b"\xef\xbb\xbf" + good, "results/signals.csv:1", r"the header is '\ufeffstudy"),
+                                   (b"", "results/signals.csv:1", "the header is ''")):
+            path.write_bytes(data)
+            self.refused(place, words)
+        path.write_bytes(good)
+        for data, words in ((b"text\n\n\xfc\n", "docs/a.md:3: byte 0xfc is not UTF-8"),
+                            (b"text\n\ntext\r\n", "docs/a.md:3: a carriage return")):
+            (self.root / "docs/a.md").write_bytes(data)
+            done = run(RENDER, "--root", self.root)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(words, done.stderr)
+            self.assertEqual((self.root / "docs/a.md").read_bytes(), data)
+
+    def test_a_figure_in_a_heading(self):
+        self.refused("docs/a.md:3", "a figure in a heading",
+                     "text\n\n## Gain <!--= signals | city | corridor | time_s:difference -->1<!--/-->\n")
+
+    def test_a_picture_that_no_page_draws(self):
+        (self.root / "docs/images").mkdir()
+        (self.root / "docs/images/by_hand.svg").write_text("<svg/>", encoding="utf-8")
+        self.refused("docs/images/by_hand.svg:1", "no page draws this picture")
 
     def test_markers_without_a_block(self):
         self.refused("docs/a.md:2", "belongs to no block", "text\n<!-- end of table -->\n")
@@ -227,6 +255,7 @@ class Faults(Tree):
                                 ("columns: measure", "columns: condition", "share a name"),
                                 ("titles:", "lost: maybe\ntitles:", "lost: 'maybe'"), ("titles:", "where: city\ntitles:", "is not NAME = VALUE"),
                                 ("condition = policy", "gone = policy", "titles: 'gone = policy' names nothing"),
+                                ("condition = policy", "condition = a; condition = b", "titles: 'condition' is there twice"),
                                 ("titles:", "free text\ntitles:", "'free text' is not a key")):
             self.refused("docs/a.md:1", words, TABLE.replace(old, new, 1))
         self.refused("docs/a.md:3", "is not FILE | SCENARIO", self.figure("signals | city"))
@@ -255,7 +284,7 @@ class ThisTree(unittest.TestCase):
                 (changed,) = (row for row in rows if (row["scenario"], row["condition"], row["measure"]) == (scenario, condition, measure))
                 changed |= dict(mean="123456.7", low="", high="")
                 with results.open("w", encoding="utf-8", newline="") as opened:
-                    writer = csv.DictWriter(opened, rows[0].keys())
+                    writer = csv.DictWriter(opened, rows[0].keys(), lineterminator="\n")
                     writer.writeheader()
                     writer.writerows(rows)
                 name = page.relative_to(ROOT).as_posix()
