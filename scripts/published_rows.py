@@ -179,8 +179,11 @@ def find_blocks(page, text, faults):
             if figure is None or MARKER.search(figure["text"]):
                 faults.append(Fault(page, line, "this figure has no end: write <!--/--> after it"))
                 continue
-            if text.startswith("#", text.rfind("\n", 0, marker.start()) + 1):
+            start_of_line = text.rfind("\n", 0, marker.start()) + 1
+            if text.startswith("#", start_of_line):
                 faults.append(Fault(page, line, "a figure in a heading: links to it would break when its row changes"))
+            if text[start_of_line:].lstrip().startswith("|"):
+                faults.append(Fault(page, line, "a figure in a table by hand, whose cells its | would divide: write a table block"))
             blocks.append(Block("figure", line, figure["spec"], *figure.span("text")))
             position = figure.end()
         else:

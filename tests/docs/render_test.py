@@ -231,9 +231,10 @@ class Faults(Tree):
             self.assertIn(words, done.stderr)
             self.assertEqual((self.root / "docs/a.md").read_bytes(), data)
 
-    def test_a_figure_in_a_heading(self):
-        self.refused("docs/a.md:3", "a figure in a heading",
-                     "text\n\n## Gain <!--= signals | city | corridor | time_s:difference -->1<!--/-->\n")
+    def test_a_figure_in_a_heading_or_in_a_table_by_hand(self):
+        figure = "<!--= signals | city | corridor | time_s:difference -->1<!--/-->"
+        self.refused("docs/a.md:3", "a figure in a heading", f"text\n\n## Gain {figure}\n")
+        self.refused("docs/a.md:5", "a figure in a table by hand", f"text\n\n| a | b |\n|---|---|\n| a | {figure} |\n")
 
     def test_a_picture_that_no_page_draws(self):
         (self.root / "docs/images").mkdir()
