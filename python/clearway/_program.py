@@ -92,7 +92,7 @@ def _owned() -> list[str]:
     """
     setpriv = shutil.which("setpriv")
     if setpriv is None:
-        raise EnvironmentFault("setpriv is not in PATH (Debian: util-linux); without it, a study would go on when this process is killed")
+        raise EnvironmentFault("setpriv is not in PATH (Debian: util-linux); without it, a study would continue after this process is killed")
     return [setpriv, "--pdeathsig", "TERM", "--"]
 
 

@@ -153,7 +153,7 @@ class Results:
         """Departures, arrivals, teleports, collisions, ... of every recorded run. Needs ``--record`` (``record=True``)."""
         found = sorted(self.folder.glob("recordings/*/*/*.h5"))
         if not found:
-            raise _program.InputError(f"{self.folder} holds no recordings, where events stand; run it with record=True (--record)")
+            raise _program.InputError(f"{self.folder} holds no recordings, which contain the events; run it with record=True (--record)")
         from .recording import Recording
         tables = []
         for file in found:

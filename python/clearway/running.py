@@ -156,7 +156,7 @@ def _toml(value: Any) -> str:
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{json.dumps(str(key))} = {_toml(one)}" for key, one in value.items()) + " }"
     if not isinstance(value, (int, float)):
-        raise _program.InputError(f"{value!r} cannot stand in a study (allowed: numbers, truth values, texts, lists and dictionaries)")
+        raise _program.InputError(f"{value!r} cannot be part of a study (allowed: numbers, truth values, texts, lists and dictionaries)")
     return repr(value)
 
 

@@ -83,8 +83,8 @@ class Auditor {
             }
         }
     }
-    /// Links that get green at one time owe each other no clearance: where two conflict, one yields. Call
-    /// before the events of that time are read.
+    /// Links that get green at one time need no clearance from each other: where two conflict, one yields.
+    /// Call before the events of that time are read.
     void open_together(const SignalEvent& event) {
         const auto found = lights_.find(event.signal);
         if (found == lights_.end()) return;

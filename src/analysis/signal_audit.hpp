@@ -12,7 +12,7 @@
 
 namespace clearway::analysis {
 
-/// What a signal owes its links, by link; nothing where it owes nothing (roads::ProgramTimes).
+/// Least times that a signal must show its links, by link; none where none is required (roads::ProgramTimes).
 struct SignalLimits {
     std::vector<std::optional<double>> yellow_s;
     std::vector<std::optional<double>> red_s;
@@ -45,10 +45,10 @@ struct SignalAudit {
 };
 
 /// Checks every colour in an event log whose beginning and end the log holds. A link whose beginnings it does
-/// not hold, and times that the program does not state, are not checked. A link owes those on foot no
-/// clearance with whom it is green later on, because it yields to them. Times are compared in whole steps of
-/// the simulation, because a program's own times are shown in whole steps too. Throws core::InputError for a
-/// signal that `limits` lacks and for a link beyond its last one.
+/// not hold, and times that the program does not state, are not checked. A link needs no clearance
+/// before pedestrians with whom it is green later on, because it yields to them. Times are compared in whole
+/// steps of the simulation, because a program's own times are shown in whole steps too. Throws
+/// core::InputError for a signal that `limits` lacks and for a link beyond its last one.
 SignalAudit audit_signals(std::span<const metrics::SignalEvent> events,
                           const std::map<std::string, SignalLimits>& limits, double step_s);
 

@@ -27,17 +27,17 @@ namespace {
 
 void check_condition(const experiment::ConditionSpec& base) {
     if (base.settings.contains(experiment::equipped_setting))
-        throw core::InputError({experiment::equipped_setting, "is what equip finds out", "",
-                                "Leave it out, or compare sets of your own with clearway run"});
+        throw core::InputError({experiment::equipped_setting, "is chosen by equip itself", "",
+                                "Leave it out, or compare your own sets with clearway run"});
     const bool has_signals = !experiment::policies_with(base, traffic::Trait::asks_signals).empty();
     const bool has_own_code = std::ranges::any_of(
         base.policies, [](const std::string& policy) { return python::part_name_from(policy).has_value(); });
     if (!has_signals && !has_own_code)
         throw core::InputError(
-            {"condition " + base.name, "has no policy that asks signals for green",
+            {"condition " + base.name, "has no policy that requests green from signals",
              fmt::format("one with {}, such as corridor",
                          core::listed(policy::policies().names(traffic::Trait::asks_signals))),
-             "Leave --condition and --policy out for corridor"});
+             "Leave out --condition and --policy to use corridor"});
 }
 
 struct Signals {

@@ -50,7 +50,8 @@ Finding emergency_finding(const results::RunRecord& record, const std::string& l
     Finding finding{"emergency", Grade::ok,
                     fmt::format("{} EVs with a route, {} entered, {} arrived", count, entered, arrived)};
     if (count == 0) finding.advice = "set demand.emergency in scenario.toml";
-    if (arrived < count) finding.advice = less + ", or a longer --horizon, if EVs do not get in or through";
+    if (arrived < count)
+        finding.advice = less + ", or a longer --horizon, if EVs cannot enter or do not arrive";
     if (!finding.advice.empty()) finding.grade = Grade::falls_short;
     return finding;
 }
@@ -119,8 +120,8 @@ Finding signals_finding(const roads::Network& network) {
     const std::size_t count = network.signals().size();
     if (count > 0) return {"signals", Grade::ok, fmt::format("{} in the network", count)};
     return {"signals", Grade::note,
-            "0 in the network: policies at signals have nothing to do here; only vehicles that make way can "
-            "help"};
+            "0 in the network: signal policies have no effect here; only policies that make vehicles give "
+            "way can help"};
 }
 
 double lane_km(const roads::Network& network) {

@@ -42,7 +42,7 @@ links::LinkPredictor& predictor_named(const std::string& option, const std::stri
     for (const links::LinkPredictor& predictor : predictors)
         names.push_back(predictor.name);
     if (is_predictor(name))
-        throw core::InputError({option, fmt::format("`{}` is not among the predictors to be judged", name),
+        throw core::InputError({option, fmt::format("`{}` is not among the predictors to evaluate", name),
                                 core::listed(names), "Name it after --predictor"});
     throw core::InputError(unknown_name(option, name, names));
 }
@@ -199,7 +199,7 @@ void check(const links::LinkPlan& plan) {
         if (prediction::knows_truth(predictor.name))
             problems.push_back({"--predictor " + predictor.name,
                                 "knows the truth: its links are as good as its settings say",
-                                core::listed(links::judged_predictors()), "Judge a repair"});
+                                core::listed(links::judged_predictors()), "Evaluate another predictor"});
         else if (predictor.part.empty())
             check_name("--predictor", predictor.name, links::judged_predictors());
         present.push_back(predictor.name);

@@ -106,8 +106,8 @@ void say_addresses(const server::LiveConfig& config, std::uint16_t port) {
     fmt::print("{}\n", pages.front());
     std::fflush(stdout);
     fmt::print(stderr, "clearway: open this address in a browser; {}\n",
-               config.allow_control ? "whoever has it may pause the runs and set their speed"
-                                    : "it shows and takes no orders");
+               config.allow_control ? "anyone who has the address can pause the runs and set their speed"
+                                    : "viewers can watch but not control the runs");
     for (std::size_t row = 1; row < pages.size(); ++row)
         fmt::print(stderr, "clearway: or {}\n", pages[row]);
 }
@@ -126,7 +126,7 @@ core::ExitCode show(const std::vector<experiment::RunJob>& units, server::LiveSe
     say_addresses(config, server.port());
     server.run([&] { return interruption.signal() != 0 || workers.has_failed(); });
     const server::LiveCounts counts = server.counts();
-    fmt::print(stderr, "clearway: {} viewers, {} refused; {} frames sent, {} left out for slow viewers\n",
+    fmt::print(stderr, "clearway: {} viewers, {} refused; {} frames sent, {} skipped for slow viewers\n",
                counts.clients, counts.refused, counts.frames_sent, counts.frames_dropped);
     if (interruption.signal() != 0) return interruption.exit_code(core::ExitCode::ok);
     if (workers.has_failed()) workers.end();

@@ -92,9 +92,8 @@ study::Versions installed_versions() {
             fmt::format("{}: cannot be started. `clearway doctor` shows what is missing", program));
     if (!is_of_this_build(*worker))
         throw core::EnvironmentError(
-            fmt::format("{}: is of another build than this clearway: build {}, not {}. Defaults of settings, "
-                        "models and the "
-                        "way a run is made may differ. {}",
+            fmt::format("{}: is of another build than this clearway: build {}, not {}. Defaults, models and "
+                        "results may differ. {}",
                         program, worker->build.empty() ? "unknown (an older one)" : worker->build,
                         core::build_stamp(), cure_of_another_build));
     return worker->versions;

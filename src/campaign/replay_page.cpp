@@ -27,8 +27,8 @@ void require_one_network(const trace::RecordingInfo& first, const trace::Recordi
 void say_other_traffic(const trace::RecordingInfo& first, const trace::RecordingInfo& second) {
     if (first.provenance.demand_hash == second.provenance.demand_hash) return;
     fmt::print(stderr,
-               "clearway: the traffic of {} (seed {}) and {} (seed {}) is not the same: what differs between "
-               "them is not due to their conditions alone\n",
+               "clearway: {} (seed {}) and {} (seed {}) have different traffic: their conditions do not "
+               "explain all differences between them\n",
                experiment::to_text(first.key), first.provenance.study_seed, experiment::to_text(second.key),
                second.provenance.study_seed);
 }
@@ -47,9 +47,10 @@ std::string written_words(const std::filesystem::path& file, std::size_t bytes) 
     constexpr double mega = 1e6;
     constexpr double large_mb = 8.0;  // what a browser takes a second or two to unpack
     const double size_mb = static_cast<double>(bytes) / mega;
-    return fmt::format(
-        "written: {}, {:.1f} MB; open it in a browser{}", file.string(), size_mb,
-        size_mb < large_mb ? "" : ". --from SECONDS --to SECONDS shows a part of the run in less");
+    return fmt::format("written: {}, {:.1f} MB; open it in a browser{}", file.string(), size_mb,
+                       size_mb < large_mb
+                           ? ""
+                           : ". For a smaller page, choose a part of the run: --from SECONDS --to SECONDS");
 }
 
 core::ExitCode write_replay_page(const ReplayPage& page) {

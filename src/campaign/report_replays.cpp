@@ -73,7 +73,7 @@ class MissingRecordings {
     /// Throws core::Error when a run cannot be made or differs from the stored one.
     void make() {
         if (jobs_.empty()) return;
-        fmt::print(stderr, "clearway: {} runs are made again to be shown in the report\n", made_.size());
+        fmt::print(stderr, "clearway: repeating {} runs to show them in the report\n", made_.size());
         const WorkerResult result = work_on(jobs_, 0, "replays");
         if (result.exit_code != core::ExitCode::ok)
             throw core::Error(result.exit_code, "the replays of the report could not be made");
@@ -135,8 +135,8 @@ class Plays {
         const view::Area area = view::near_path(path, detail.radius_m);
         view::Play play{
             .title = trip.title(),
-            .note = fmt::format("Shown is what is within {:g} m of the trip, every {:g} s, and what lies "
-                                "between is interpolated. clearway replay --view shows a whole run.",
+            .note = fmt::format("The replay shows the surroundings of the trip up to {:g} m, every {:g} s, "
+                                "interpolated in between. clearway replay --view shows a whole run.",
                                 detail.radius_m, detail.period_s),
             .drawing = drawing,
             .runs = {},
@@ -173,11 +173,10 @@ std::string markup_of(const results::Store& store, const std::vector<Trip>& trip
         markup = view::player_markup(plays.list(trips, detail));
         if (markup.size() <= most_bytes) return markup;
     }
-    throw core::Error(
-        core::ExitCode::fell_short,
-        fmt::format("the replays of the report take {} bytes at the least, of {} allowed; write a page "
-                    "for each with clearway replay --view",
-                    markup.size(), most_bytes));
+    throw core::Error(core::ExitCode::fell_short,
+                      fmt::format("the replays of the report need at least {} bytes, and {} are allowed; "
+                                  "write a page for each with clearway replay --view",
+                                  markup.size(), most_bytes));
 }
 
 }  // namespace
@@ -192,8 +191,8 @@ ReportReplays replays_of(const results::Store& store, const results::Results& re
         if (stored.starts_with(mark)) return {stored.substr(mark.size()), view::script_source()};
         if (make == MakeReplays::no)
             fmt::print(stderr,
-                       "clearway: {}: does not fit the results any more and is left out; clearway report "
-                       "{} --replays makes it again\n",
+                       "clearway: {}: no longer matches the results and is left out; clearway report {} "
+                       "--replays makes it again\n",
                        file.string(), store.folder().string());
     }
     if (make == MakeReplays::no) return {};

@@ -156,12 +156,12 @@ bool nothing_audited(const AuditReport& report) {
 std::string nothing_audited_text(const AuditReport& report, const std::string& what) {
     if (report.runs.empty())
         return fmt::format(
-            "{}: nothing to audit: none of its complete runs asks a signal for anything. Audit "
-            "runs of a policy for signals, as corridor",
+            "{}: nothing to audit: none of its complete runs requests green. Audit runs of a signal policy, "
+            "such as corridor",
             what);
     return fmt::format(
-        "{}: nothing to audit: no signal showed a whole colour that its program states in {}. "
-        "`clearway scenario signals SCENARIO` lists the signals of a scenario",
+        "{}: nothing to audit: in {}, no signal showed a complete colour of its program. `clearway scenario "
+        "signals SCENARIO` lists the signals of a scenario",
         what, counted(report.runs.size(), "run"));
 }
 

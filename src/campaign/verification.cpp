@@ -65,7 +65,7 @@ void require_same_versions(const results::Manifest& manifest) {
                                  differing.empty() ? "" : "; ", manifest.clearway_build, here.build);
     if (!differing.empty())
         throw core::EnvironmentError(
-            fmt::format("this study was made with other versions ({}): a run made here may differ. Verify "
+            fmt::format("this study was made with other versions ({}), so a run made here may differ. Verify "
                         "with the versions of the study",
                         differing));
 }

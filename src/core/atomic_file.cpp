@@ -34,7 +34,7 @@ EnvironmentError write_error(const std::filesystem::path& path, int reason) {
     const bool full = reason == ENOSPC || reason == EDQUOT || reason == EFBIG;
     return EnvironmentError(fmt::format("{}: cannot write: {}. {}", path.string(), std::strerror(reason),
                                         full ? "Free some space there and give the same command again"
-                                             : "Choose another place, or correct its rights"));
+                                             : "Choose another place, or change its permissions"));
 }
 
 AtomicFile::AtomicFile(std::filesystem::path file)

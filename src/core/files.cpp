@@ -19,7 +19,7 @@ namespace clearway::core {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, const char* action) {
-    throw EnvironmentError(fmt::format("{}: cannot {}: {}. Choose another place, or correct its rights",
+    throw EnvironmentError(fmt::format("{}: cannot {}: {}. Choose another place, or change its permissions",
                                        file.string(), action, std::strerror(errno)));
 }
 

@@ -235,11 +235,12 @@ void check_truth(const ConditionSpec& condition, const std::string& where,
     if (!prediction::knows_truth(condition.predictor) ||
         !failures::reports_fail(failures::failure_from(condition.failure)))
         return;
-    problems.push_back(
-        {where + "failure",
-         fmt::format("'{}' spoils reports, but {} reads none", condition.failure, condition.predictor),
-         "perfect, and fields of requests",
-         fmt::format("Spoil what it knows by its settings: clearway list settings {}", condition.predictor)});
+    problems.push_back({where + "failure",
+                        fmt::format("'{}' degrades reports, but {} does not use reports", condition.failure,
+                                    condition.predictor),
+                        "perfect, and fields of requests",
+                        fmt::format("Degrade its knowledge with its own settings: clearway list settings {}",
+                                    condition.predictor)});
 }
 
 /// `config` with what the condition sets of a component. Throws core::InputError for unknown settings.

@@ -121,7 +121,7 @@ void check_failures(core::StrictTable& root, const LinkBenchmark& benchmark) {
     const std::vector<std::string>& all = benchmark.failures;
     for (auto failure = all.begin(); failure != all.end(); ++failure) {
         if (std::find(all.begin(), failure, *failure) != failure)
-            root.problem("failures", fmt::format("`{}` stands twice", *failure), "each failure once", "");
+            root.problem("failures", fmt::format("`{}` is listed twice", *failure), "each failure once", "");
     }
     for (const std::string& failure : benchmark.quick.failures) {
         if (!all.empty() && std::ranges::find(all, failure) == all.end())

@@ -19,8 +19,8 @@
 
 namespace clearway::links {
 
-/// What there is to find at one step: true links, the vehicles ahead of an emergency vehicle, and who is next
-/// in a lane. Keeps its buffers.
+/// What there is to find at one step: true links, the vehicles ahead of an emergency vehicle, and the next
+/// one in a lane. Keeps its buffers.
 class LinkTruthView {
   public:
     /// `network` outlives the view.

@@ -10,7 +10,7 @@ namespace clearway::links {
 /// How far ahead along the lane the next vehicle is looked for, m.
 inline constexpr float next_ahead_horizon_m = 100.0F;
 
-/// Vehicles in the order of their lanes, to tell who is next ahead in a lane. Keeps its buffer.
+/// Vehicles in the order of their lanes, to find the next one ahead in a lane. Keeps its buffer.
 class LaneOrder {
   public:
     void clear() { places_.clear(); }

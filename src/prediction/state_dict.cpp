@@ -252,10 +252,10 @@ std::vector<Tensor> renamed_parameters(std::vector<Tensor> tensors, std::span<co
         return fmt::format("{}{}", fmt::join(std::span(all).first(std::min(all.size(), most_named)), ", "),
                            more);
     };
-    std::string what = fmt::format("is no state dict of {}: ", net);
+    std::string what = fmt::format("is not a state dict of {}: ", net);
     if (!missing.empty()) what += fmt::format("it lacks {}", listed(missing));
     if (!missing.empty() && !unknown.empty()) what += "; ";
-    if (!unknown.empty()) what += fmt::format("it has {} beside", listed(unknown));
+    if (!unknown.empty()) what += fmt::format("it also has {}", listed(unknown));
     throw core::InputError({source, what, fmt::format("{}, with any prefix", fmt::join(allowed, ", ")),
                             "Save a net of that class, or choose the predictor that the net is for"});
 }

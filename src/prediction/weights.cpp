@@ -134,7 +134,7 @@ template <class Items>
 void refuse_twice(const Items& items, const Reader& reader) {
     for (std::size_t at = 0; at + 1 < items.size(); ++at) {
         if (items[at].name == items.back().name)
-            reader.fail(fmt::format("{} stands twice", items.back().name));
+            reader.fail(fmt::format("{} is listed twice", items.back().name));
     }
 }
 

@@ -59,14 +59,14 @@ std::string resolved(const std::string& word, const std::filesystem::path& folde
     if (!std::filesystem::is_regular_file(name->file))
         throw core::InputError(
             {where, fmt::format("{} is not a file", name->file.string()), "FILE.py:CLASS or FILE.pt",
-             "A file is looked for below the present folder, or below that of the study file"});
+             "File names are relative to the current folder, or to that of the study file"});
     const std::vector<std::filesystem::path> files = sources_of(name->file, where);
     const std::string hash = hash_of(files);
     if (!name->hash.empty() && name->hash != hash)
         throw core::InputError({where,
                                 fmt::format("{}{} changed since the study began", name->file.string(),
                                             files.size() > 1 ? " or a file that it imports has" : " has"),
-                                "content hash " + name->hash, "Restore what it was, or begin a new study"});
+                                "content hash " + name->hash, "Restore it, or start a new study"});
     name->hash = hash;
     return to_text(*name);
 }

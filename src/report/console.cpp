@@ -291,8 +291,8 @@ bool is_essential(Measure measure) {
     return measure == Measure::emergency_restricted_time || measure == Measure::other_time_loss;
 }
 
-/// The scenario without the conditions that have one setting turned alone: the table of sensitivities speaks
-/// for them, unless they stand out.
+/// The scenario without the conditions that have one setting turned alone: the table of sensitivities shows
+/// them, unless they stand out.
 ScenarioFacts without_levels(const StudyFacts& study, const ScenarioFacts& scenario) {
     ScenarioFacts kept = scenario;
     std::erase_if(kept.conditions, [&](const ConditionFacts& condition) {
@@ -373,7 +373,8 @@ std::string console_tables(const StudyFacts& study, Tables tables) {
     if (std::ranges::any_of(study.scenarios, [](const auto& one) { return !one.published_as.empty(); }))
         append_wrapped(
             "published: the dissertation's number, one unseeded run on a network of its own; not a result of "
-            "this study. Its one row of GraphSAGE stands beside two: as published and corrected inputs.",
+            "this study. Its single GraphSAGE row is repeated for two nets: as published and with corrected "
+            "inputs.",
             text);
     if (tables == Tables::essential)
         append_wrapped("All measures, medians and tails: --tables, or report.html.", text);

@@ -42,7 +42,7 @@ std::string end_sentence(const EquipmentFacts& facts) {
     if (facts.end == EquipEnd::budget || !facts.next) return "";
     const EquippedSignal& next = *facts.next;
     if (!next.gain || !next.gain->interval)
-        return fmt::format("Stopped: fewer than two pairs of runs tell what signal {} ({}) would gain.\n",
+        return fmt::format("Stopped: fewer than two pairs of runs show what signal {} ({}) would gain.\n",
                            next.number, short_signal_name(next.signal));
     return fmt::format("Stopped: the next one, signal {} ({}), shows no effect: {:.2f} s [{:.2f}, {:.2f}].\n",
                        next.number, short_signal_name(next.signal), next.gain->mean, next.gain->interval->low,
@@ -154,10 +154,10 @@ std::string equipment_text(const EquipmentFacts& facts) {
                     estimate(facts.baseline_s, {}), estimate(facts.none_s, {}), estimate(facts.all_s, {}),
                     estimate(facts.alone_s, {}));
     text +=
-        "Gain: restricted mean travel time of EVs less, paired by seed, [95 %] from 5 pairs on; so far: "
-        "over\n"
-        "the same policy with no signal equipped; %: of the gain of all; others: mean time loss more, each.\n"
-        "Intervals are not adjusted for the choice: confirm it with another seed.\n";
+        "Gain: reduction of the EVs' restricted mean travel time, paired by seed, [95 %] from 5 pairs on;\n"
+        "so far: against the same policy with no signal equipped; %: of the gain of all signals; others:\n"
+        "increase of their mean time loss. Intervals are not adjusted for the choice of signals: confirm it\n"
+        "with another seed.\n";
     return text;
 }
 

@@ -212,7 +212,7 @@ std::string comparisons_section(const LinkFacts& facts) {
         "p (Holm): adjusted for all {} tests of this table.</p>\n{}",
         facts.confirmatory
             ? "They are confirmatory; all others on this page are exploratory."
-            : "Only a part of the benchmark was made here, so they are exploratory as all others.",
+            : "Only part of the benchmark was run here, so they are exploratory, like all others.",
         2 * facts.comparisons.size(), detail::to_html(table));
 }
 
@@ -328,16 +328,16 @@ std::vector<Section> sections_of(const LinkFacts& facts) {
     if (!facts.comparisons.empty())
         sections.push_back({"comparisons", "Comparisons named in advance", comparisons_section(facts)});
     if (!facts.gains.empty()) {
-        sections.push_back({"ap-error", "Error of AP against the opponent",
+        sections.push_back({"ap-error", "Error of AP against the reference",
                             error_section(facts, "AP", &LinkGain::ap_error_reduction)});
-        sections.push_back({"f1-error", "Error of F1 against the opponent",
+        sections.push_back({"f1-error", "Error of F1 against the reference",
                             error_section(facts, "F1", &LinkGain::f1_error_reduction)});
     }
     sections.push_back({"hard", "AP of hard pairs", subset_section(facts, LinkSubset::hard, &Measures::ap)});
     sections.push_back({"calibration", "Calibration error (ECE)", of_all(&Measures::ece)});
     sections.push_back({"brier", "Brier score", of_all(&Measures::brier)});
     sections.push_back({"failed", "All failed links", failed_section(facts)});
-    sections.push_back({"dark", "Dark vehicles, and who is next ahead", dark_section(facts)});
+    sections.push_back({"dark", "Dark vehicles, and the next vehicle ahead", dark_section(facts)});
     sections.push_back({"curves", "Curves", curves_section(facts)});
     sections.push_back({"end-to-end", "Links end to end", end_to_end_section(facts)});
     if (facts.scenarios.size() > 1)

@@ -138,8 +138,8 @@ void append_measures(const LinkFacts& facts, links::Exits exits, std::string& te
         },
         text);
     fmt::format_to(out,
-                   "\nCalibration; dark vehicles: share believed, place error in m; who is next ahead\n"
-                   "in the lane; exits {}\n",
+                   "\nCalibration; dark vehicles: share believed, place error in m; next vehicle ahead\nin "
+                   "the lane; exits {}\n",
                    core::name(exits));
     append_rows(
         facts, exits, {"ECE", "Brier", "known", "median", "95 %", "next"},

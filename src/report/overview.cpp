@@ -48,7 +48,7 @@ std::string emergency_clause(const ScenarioFacts& scenario, const ConditionFacts
         case Effect::worse:
             return fmt::format("{} costs {} {} a trip{}", name, noun, seconds(mean, script), share);
         case Effect::negligible:
-            return fmt::format("{} makes no difference to {} that counts ({} a trip)", name, noun,
+            return fmt::format("{} makes no relevant difference to {} ({} a trip)", name, noun,
                                signed_seconds(mean, script));
         case Effect::none_shown:
             return fmt::format("No effect of {} on {} is shown ({} a trip)", name, noun,
@@ -123,11 +123,11 @@ const char* words_of(Effect effect, const char* better, const char* worse) {
         case Effect::worse:
             return worse;
         case Effect::negligible:
-            return "too small to count";
+            return "too small to matter";
         case Effect::none_shown:
             return "no effect shown";
         case Effect::ruled_out:
-            return "no gain may be claimed";
+            return "no gain can be claimed";
         case Effect::too_few:
             return "too few runs for a verdict";
         case Effect::undecided:
@@ -141,7 +141,7 @@ std::string joined(std::string words, const std::string& more) {
     return words.empty() ? more : words + "; " + more;
 }
 
-/// How a tile speaks of its figure.
+/// How a tile describes its figure.
 struct TileWords {
     const char* subject;
     const char* better;
@@ -199,8 +199,7 @@ std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scena
                                   : fmt::format("{} of {} conditions {} shown to help", help, compared,
                                                 help == 1 ? "is" : "are");
     if (help > 1)
-        words +=
-            "; this one has the largest mean gain, and the largest of several is usually a little too large";
+        words += "; this one has the largest mean gain, which usually overstates its true gain a little";
     if (objected > 0)
         words += fmt::format("; {} lost or hit emergency vehicles, or ran without safety checks", objected);
     return words + ".";
@@ -212,7 +211,7 @@ Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& conditi
     if (percent) tile.figure += fmt::format(", {} %", number(*percent, {0, script, Sign::always}));
     if (condition.objections.on_emergency()) {
         tile.tone = Tile::Tone::worse;
-        tile.meaning = analysis::emergency_objections(condition.objections) + "; no gain may be claimed";
+        tile.meaning = analysis::emergency_objections(condition.objections) + "; no gain can be claimed";
     }
     return tile;
 }
@@ -262,7 +261,7 @@ Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, S
             return {Badge::Runs::enough, fmt::format("Enough runs: {} show the direction", pairs)};
         case Effect::negligible:
             return {Badge::Runs::enough,
-                    fmt::format("Enough runs: {} show that the difference is too small to count", pairs)};
+                    fmt::format("Enough runs: {} show that the difference is too small to matter", pairs)};
         case Effect::none_shown: {
             const std::uint64_t needed = condition.precision ? condition.precision->needed : 0;
             const double counts_s = condition.least_relevant(primary);

@@ -43,7 +43,7 @@ std::string title_of(const experiment::ConditionSpec& condition) {
     return condition.name;
 }
 
-/// The scenario of the dissertation whose table a scenario of its study stands beside.
+/// The scenario of the dissertation whose table is shown beside a scenario of its study.
 std::string published_scenario(const std::string& scenario) {
     return scenario == "merge_dense" ? "merge" : scenario;
 }

@@ -34,11 +34,11 @@ constexpr std::array rows = {
 constexpr std::array signal_rows = {
     Row{"signal_calls", "Requests that reached a signal"},
     Row{"signal_calls_granted", "Requests granted"},
-    Row{"held_greens_useless", "Greens held whose EV did not pass in them"},
+    Row{"held_greens_useless", "Greens held in which the EV did not pass"},
     Row{"signal_entry_delay_s", "From request to transition, s"},
     Row{"signal_time_to_service_s", "From request to green, s"},
     Row{"signal_dwell_s", "Hold, s"},
-    Row{"signal_recovery_s", "From the end of a hold until back in program and step, s"},
+    Row{"signal_recovery_s", "From the end of a hold to the program in step again, s"},
 };
 
 /// Shown only if there are pedestrians.

@@ -29,7 +29,7 @@ std::string difference_text(const ScenarioFacts& scenario, const ConditionFacts&
 /// Why a condition may have no effect; empty if nothing is known.
 const char* reason_for_none(const ScenarioFacts& scenario) {
     return scenario.roads && scenario.roads->signals.empty()
-               ? "; the network has no signals, so policies at signals have nothing to do"
+               ? "; the network has no signals, so signal policies have no effect"
                : "";
 }
 
@@ -240,8 +240,8 @@ constexpr std::array<const char*, 10> finding_words = {"emergency vehicles lost"
 std::string coarse_step_sentence(const ScenarioFacts& scenario) {
     if (scenario.step_length_s <= traffic::coarsest_trusted_step_s) return "";
     return fmt::format(
-        "steps of {:g} s: only for a comparison with figures made with such steps. Vehicles react "
-        "late and pass signals otherwise than at {:g} s, and some collide.",
+        "steps of {:g} s: use them only to compare with figures made with such steps. Vehicles react late, "
+        "pass signals differently than at {:g} s, and some collide.",
         scenario.step_length_s, traffic::coarsest_trusted_step_s);
 }
 
@@ -254,8 +254,7 @@ std::string few_seeds_sentence(const StudyFacts& study) {
                            analysis::fewest_for_interval);
     if (fewest < fewest_to_trust)
         return fmt::format(
-            "few seeds: intervals of fewer than {} seeds are easily wrong, and so are their "
-            "means; see --seeds.",
+            "few seeds: means and intervals from fewer than {} seeds are unreliable; see --seeds.",
             fewest_to_trust);
     return "";
 }

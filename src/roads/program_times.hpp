@@ -11,9 +11,9 @@ namespace clearway::roads {
 /// Where it gives different times in one cycle, the shortest.
 struct ProgramTimes {
     std::vector<std::optional<double>> yellow_s;
-    /// From the end of yellow (people on foot: of green) until any link gets green, but not while other
-    /// vehicles go for whom that one waits: what comes later may serve others in between, and is no
-    /// clearance. 0 where a link opens during the yellow already.
+    /// From the end of yellow (pedestrians: of green) until any link gets green, unless links with which that
+    /// link conflicts have green in between: then the time serves other traffic and is not a clearance.
+    /// 0 where a link opens during the yellow already.
     std::vector<std::optional<double>> red_s;
     /// The program's own least green (`minDur`), else `assumed_least_green_s`, for people on foot
     /// `assumed_walk_s`; never more than the shortest green that the program itself shows.

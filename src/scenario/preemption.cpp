@@ -98,8 +98,8 @@ class Reading {
         problems_.push_back({fmt::format("{}:1", file_),
                              fmt::format("is separated by {}, not by commas", is_semicolon ? ";" : "tabs"),
                              header_line(),
-                             "Save it with commas, and with points in numbers: many spreadsheets follow the "
-                             "language of the system"});
+                             "Save it with commas between cells and points in numbers: many spreadsheets use "
+                             "those of the system language"});
         return true;
     }
 

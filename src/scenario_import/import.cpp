@@ -164,11 +164,10 @@ roads::Network take_network(Import& import, const std::filesystem::path& file) {
                         "rejects; those classes are removed",
                         document.repaired_lists()));
     if (const int parted = document.part_two_way_edges(); parted > 0)
-        import.findings.changes.push_back(
-            fmt::format("{} edges of several lanes on which traffic also comes towards (bidirectional rails) "
-                        "are parted, because SUMO 1.15 aborts on them; trains that meet there pass through "
-                        "each other",
-                        parted));
+        import.findings.changes.push_back(fmt::format(
+            "{} multi-lane edges with traffic in both directions (bidirectional rails) are separated, "
+            "because SUMO 1.15 aborts on them; trains that meet there pass through each other",
+            parted));
     const int admitted = document.admit_emergency();
     if (admitted > 0)
         import.findings.changes.push_back(
@@ -228,8 +227,8 @@ void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
     std::filesystem::remove(built);
     add_pedestrians(import, network, config,
                     {"--pedestrians",
-                     "netconvert finds no place for a crossing: the map has none, and it guesses them at "
-                     "roads of at most 50 km/h",
+                     "netconvert finds no place for a crossing: the map has none, and netconvert guesses "
+                     "them only at roads of at most 50 km/h",
                      "a map with crossings or with such roads", "leave it out"});
     config.network.attribution = "Map data (c) OpenStreetMap contributors, ODbL 1.0";
     detail::choose_trips(import, config, network);

@@ -99,7 +99,7 @@ std::optional<Refusal> refusal_of(const RequestWords& request, const AccessRules
     if (!request.host || !is_own_name(*request.host, request.reached, rules))
         return Refusal{forbidden, "Host is not this server"};
     const std::string_view path = request.target.substr(0, request.target.find('?'));
-    if (path != "/" && path != "/stream") return Refusal{not_found, "there are / and /stream"};
+    if (path != "/" && path != "/stream") return Refusal{not_found, "only / and /stream are served"};
     const std::size_t query = request.target.find('?');
     constexpr std::string_view key = "token=";
     const std::string_view words = query == std::string_view::npos ? "" : request.target.substr(query + 1);
@@ -124,9 +124,9 @@ void check_token(const std::string& token, const std::string& where) {
     if (can_stand && token.size() >= shortest) return;
     throw core::InputError({where,
                             can_stand ? fmt::format("a token of {} characters can be guessed", token.size())
-                                      : "the token cannot stand in an address as it is",
+                                      : "the token has characters that are not allowed in an address",
                             fmt::format("letters, digits and - . _ ~, {} to {} of them", shortest, longest),
-                            "Without --token one is drawn where it is needed"});
+                            "Without --token, one is generated where it is needed"});
 }
 
 std::vector<std::string> addresses_of(const std::string& host, const std::string& where) {
@@ -139,9 +139,9 @@ std::vector<std::string> addresses_of(const std::string& host, const std::string
     for (const auto& entry : resolver.resolve(host, "", error))
         found.push_back(entry.endpoint().address().to_string());
     if (error || found.empty())
-        throw core::InputError(
-            {where, fmt::format("`{}` is neither an address nor a name that is known", host),
-             "an IPv4 or IPv6 address, or a name of this machine", "127.0.0.1 is this machine alone"});
+        throw core::InputError({where, fmt::format("`{}` is neither an address nor a known name", host),
+                                "an IPv4 or IPv6 address, or a name of this machine",
+                                "127.0.0.1 is this machine alone"});
     return found;
 }
 

@@ -8,7 +8,7 @@
 
 namespace clearway::server {
 
-/// Who may watch, and who may control.
+/// Which viewers may watch, and which may control.
 struct AccessRules {
     std::string host = "127.0.0.1";  ///< Address or name that it listens at; 0.0.0.0 or :: mean all of them.
     std::uint16_t port = 0;          ///< As bound.

@@ -36,7 +36,7 @@ std::filesystem::path socket_of(const std::filesystem::path& folder, std::size_t
 ///
 /// A client has a queue of bounded size. When it is full, frames are left out until the next key frame, and
 /// counted: no client slows a run or another client. Requests, headers and messages have limits of size and
-/// time; see access.hpp for who is refused.
+/// time; see access.hpp for which requests are refused.
 class LiveServer {
   public:
     /// Listens for runs in `sockets`, a folder, and for browsers. Throws core::EnvironmentError for a port

@@ -310,7 +310,7 @@ void Session::close() {
 std::optional<bool> Session::could_change_lane(core::VehicleKey vehicle, truth::Neighbour direction) const {
     const Vehicle* found = state_->observer.fleet().find(vehicle);
     if (found == nullptr || !found->on_road) return std::nullopt;
-    return state_->guarded("SUMO cannot judge a lane change", [&] {
+    return state_->guarded("SUMO cannot check a lane change", [&] {
         return state_->sumo->could_change_lane(found->id, static_cast<int>(direction));
     });
 }
@@ -336,18 +336,18 @@ std::optional<std::vector<truth::LaneOutlook>> Session::lane_outlook(core::Vehic
 std::optional<core::MetresPerSecond> Session::allowed_speed(core::VehicleKey vehicle) const {
     const Vehicle* found = state_->observer.fleet().find(vehicle);
     if (found == nullptr || !found->on_road) return std::nullopt;
-    return state_->guarded("SUMO cannot tell the allowed speed",
+    return state_->guarded("SUMO cannot report the allowed speed",
                            [&] { return core::MetresPerSecond(state_->sumo->allowed_speed_mps(found->id)); });
 }
 
 bool Session::has_pedestrian(core::LaneIndex crossing) const {
     const std::string& lane = state_->names.names().lanes.at(crossing.value);
-    return state_->guarded("SUMO cannot tell who walks on a crossing",
+    return state_->guarded("SUMO cannot report pedestrians on a crossing",
                            [&] { return state_->sumo->has_person(lane.substr(0, lane.rfind('_'))); });
 }
 
 std::string Session::running_program(core::SignalIndex signal) const {
-    return state_->guarded("SUMO cannot tell the program of a signal", [&] {
+    return state_->guarded("SUMO cannot report the program of a signal", [&] {
         return state_->sumo->signal_program(state_->names.names().signals.at(signal.value));
     });
 }
@@ -372,7 +372,7 @@ RemoteSumo& RemoteSumo::operator=(RemoteSumo&&) noexcept = default;
 void RemoteSumo::declare(const std::string& type, traffic::VehicleClass vehicle_class) {
     const std::vector<std::string> known = sumo_->type_ids();
     if (std::ranges::find(known, type) == known.end())
-        throw core::InputError({fmt::format("vehicle type '{}'", type), "is not known to that SUMO",
+        throw core::InputError({fmt::format("vehicle type '{}'", type), "is unknown to that SUMO",
                                 "a type of its simulation", core::did_you_mean(type, known)});
     sumo_->set_type_parameter(type, traffic::class_parameter, std::string(traffic::name(vehicle_class)));
 }

@@ -139,11 +139,10 @@ TEST_F(CityTest, check_says_whether_there_are_emergency_vehicles) {
     write_line_scenario();
     const Ended fit = clearway({"scenario", "check", "line"});
     EXPECT_EQ(fit.code, 0) << fit.out << fit.err;
-    EXPECT_THAT(fit.out,
-                AllOf(HasSubstr("1 EVs with a route, 1 entered, 1 arrived"),
-                      testing::ContainsRegex("note +signals +0 in the network: policies at signals have "
-                                             "nothing to do here"),
-                      Not(HasSubstr("try:"))));
+    EXPECT_THAT(fit.out, AllOf(HasSubstr("1 EVs with a route, 1 entered, 1 arrived"),
+                               testing::ContainsRegex("note +signals +0 in the network: signal policies have "
+                                                      "no effect here"),
+                               Not(HasSubstr("try:"))));
     write_line_scenario("emergency = 1", "emergency = 0");
     const Ended none = clearway({"scenario", "check", "line"});
     EXPECT_EQ(none.code, 6);
@@ -204,10 +203,10 @@ TEST_F(CityTest, steps_of_a_second_are_marked) {
     const Ended run =
         clearway({"run", "line", "--seeds", "1", "--no-solo", "--step-length", "1", "--out", "out"});
     ASSERT_EQ(run.code, 0) << run.err;
-    EXPECT_THAT(run.out, HasSubstr("steps of 1 s: only for a comparison"));
-    EXPECT_THAT(read("out/report.html"), HasSubstr("(!) steps of 1 s: only for a comparison"));
+    EXPECT_THAT(run.out, HasSubstr("steps of 1 s: use them only to compare"));
+    EXPECT_THAT(read("out/report.html"), HasSubstr("(!) steps of 1 s: use them only to compare"));
     const Ended usual = clearway({"run", "line", "--seeds", "1", "--no-solo", "--out", "usual"});
-    EXPECT_THAT(usual.out + read("usual/report.html"), Not(HasSubstr("only for a comparison")));
+    EXPECT_THAT(usual.out + read("usual/report.html"), Not(HasSubstr("use them only to compare")));
 }
 
 TEST_F(CityTest, an_import_says_what_to_type_next_in_words_for_a_shell) {

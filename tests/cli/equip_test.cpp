@@ -82,11 +82,11 @@ TEST_F(EquipTest, refuses_what_has_no_answer_and_leaves_nothing_behind) {
     refused({"equip", "./crossings", "--budget", "-1"}, 2, "--budget");
     refused({"equip", "./crossings", "--budget", "1", "--seeds", "1"}, 2, "--seeds");
     refused({"equip", "./crossings", "--budget", "1", "--policy", "clear_lane"}, 3,
-            "has no policy that asks signals for green");
+            "has no policy that requests green from signals");
     refused({"equip", "./crossings", "--budget", "1", "--condition", "baseline"}, 3,
-            "has no policy that asks signals for green");
+            "has no policy that requests green from signals");
     refused({"equip", "./crossings", "--budget", "1", "--set", "actuation.equipped=A"}, 3,
-            "is what equip finds out");
+            "is chosen by equip itself");
     write_line_scenario();
     refused({"equip", "line", "--budget", "1"}, 3, "has no signals");
 }

@@ -143,7 +143,7 @@ TEST_F(LinksTest, a_predictor_that_knows_the_truth_is_not_judged) {
     const Ended ended = clearway(evaluate({"--failure", "B10", "--predictor", "oracle", "last_seen"}));
     EXPECT_EQ(ended.code, 3);
     EXPECT_THAT(ended.err, AllOf(HasSubstr("--predictor oracle"), HasSubstr("knows the truth"),
-                                 HasSubstr("Judge a repair")));
+                                 HasSubstr("Evaluate another predictor")));
     EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
 }
 
@@ -191,7 +191,7 @@ TEST_F(LinksTest, radii_for_which_a_model_was_not_trained_are_refused_before_any
     EXPECT_THAT(clearway(evaluate({"--predictor", "gcn", "--model", "gcn=a.weights", "gcn=b.weights"})).err,
                 HasSubstr("a.weights and b.weights (allowed: one file)"));
     EXPECT_THAT(clearway(evaluate({"--predictor", "none", "--set", "gcn.link_threshold=1"})).err,
-                HasSubstr("`gcn` is not among the predictors to be judged"));
+                HasSubstr("`gcn` is not among the predictors to evaluate"));
 }
 
 TEST_F(LinksTest, the_widest_radius_works_and_predictors_not_made_for_it_are_left_out_by_name) {

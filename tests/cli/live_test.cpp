@@ -263,9 +263,10 @@ TEST_F(LiveTest, what_cannot_be_served_or_watched_is_told_and_leaves_no_run_fold
         EXPECT_THAT(ended.out, IsEmpty());
         EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
     };
-    refused({"--host", "my..machine"}, 3, "--host: `my..machine` is neither an address nor a name");
+    refused({"--host", "my..machine"}, 3, "--host: `my..machine` is neither an address nor a known name");
     refused({"--host", "192.0.2.7"}, 4, "cannot serve at 192.0.2.7 port 8150: Cannot assign");
-    refused({"--host", "0.0.0.0", "--token", "a b"}, 3, "--token: the token cannot stand in an address");
+    refused({"--host", "0.0.0.0", "--token", "a b"}, 3,
+            "--token: the token has characters that are not allowed in an address");
     refused({"--host", "0.0.0.0", "--token", "a"}, 3, "a token of 1 characters can be guessed");
     refused({"--port", "65536"}, 2, "--port: 65536 is out of range (allowed: 0 to 65535)");
     refused({"--port", "-1"}, 2, "(allowed: 0 to 65535)");

@@ -122,7 +122,7 @@ TEST_F(ModelTest, a_study_refuses_a_net_that_no_condition_or_more_than_one_would
         expect_refused(words, message);
     };
     refused({"none.pth"}, "--model: none.pth is not a file");
-    refused({"gcn.pth"}, "--model: predictor graphsage_as_published: gcn.pth: is no state dict of");
+    refused({"gcn.pth"}, "--model: predictor graphsage_as_published: gcn.pth: is not a state dict of");
     refused({"gcn=gcn.pth"}, "no condition has the predictor gcn (allowed: graphsage_as_published)");
     refused({"good.pth", "two_features.pth"}, "condition published has the model");
     const std::string file = read("my.toml");
@@ -143,7 +143,7 @@ TEST_F(ModelTest, unfit_files_are_refused_before_anything_runs) {
                                         {"attack", "posix.system, which no state dict needs"},
                                         {"not_a_number", "holds nan"},
                                         {"missing_key", "it lacks fc2.bias"},
-                                        {"gcn", "is no state dict of the dissertation's GraphSAGENet"}}) {
+                                        {"gcn", "is not a state dict of the dissertation's GraphSAGENet"}}) {
         const std::string pth = std::string(file) + ".pth";
         std::vector<std::string> words = run("graphsage_as_published", pth, "");
         words.erase(words.end() - 3, words.end());

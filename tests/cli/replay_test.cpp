@@ -80,7 +80,7 @@ TEST_F(ReplayTest, a_run_or_two_side_by_side_become_one_page) {
         clearway({"replay", "out/line/baseline/0", run_of_mine, "--view", "--out", "both.html"});
     ASSERT_EQ(two.code, 0) << two.err;
     EXPECT_THAT(read("both.html"), testing::HasSubstr("line/baseline/0 and line/mine/0"));
-    EXPECT_THAT(two.err, testing::Not(testing::HasSubstr("is not the same")));
+    EXPECT_THAT(two.err, testing::Not(testing::HasSubstr("have different traffic")));
     EXPECT_GT(read("both.html").size(), read("line-mine-0.html").size());
     const Ended cut = clearway({"replay", run_of_mine, "--view", "--to", "30", "--out", "cut.html"});
     ASSERT_EQ(cut.code, 0) << cut.err;
@@ -168,7 +168,7 @@ TEST_F(ReplayTest, a_report_shows_the_median_best_and_worst_trip_when_asked) {
     const std::string stored = read("out/replays.html");
     core::write_atomically(folder() / "out/replays.html", "<!-- clearway replays 0 -->\n" + stored);
     const Ended stale = clearway({"report", "out"});
-    EXPECT_THAT(stale.err, testing::HasSubstr("does not fit the results any more"));
+    EXPECT_THAT(stale.err, testing::HasSubstr("no longer matches the results"));
     EXPECT_THAT(read("out/report.html"), testing::Not(testing::HasSubstr("id=\"replays\"")));
 }
 

@@ -151,12 +151,12 @@ TEST_F(SignalAuditTest, of_runs_that_show_nothing_to_audit_says_so) {
     const Ended rural = clearway({"verify", "--signals", "rural"});
     EXPECT_EQ(rural.code, 5) << rural.out;
     EXPECT_THAT(rural.out, HasSubstr("0 yellows, 0 red clearances and 0 greens checked"));
-    EXPECT_THAT(rural.err, HasSubstr("rural: nothing to audit: no signal showed a whole colour"));
+    EXPECT_THAT(rural.err, HasSubstr("no signal showed a complete colour"));
     make("intersection", "out", {"--seeds", "1"});
     const Ended baseline = clearway({"verify", "--signals", "out/intersection/baseline/0", "--json"});
     EXPECT_EQ(baseline.code, 5);
     EXPECT_EQ(nlohmann::json::parse(baseline.out)["audited"], 0);
-    EXPECT_THAT(baseline.err, HasSubstr("none of its complete runs asks a signal"));
+    EXPECT_THAT(baseline.err, HasSubstr("none of its complete runs requests green"));
     EXPECT_EQ(clearway({"verify", "--signals", "out/intersection/mine/0"}).code, 0);
 }
 

@@ -157,7 +157,7 @@ TEST(Settings, OfAnOracleLeaveNoFaultsOfReportsUnused) {
     EXPECT_THAT(problems_of(condition), IsEmpty()) << "requests may fail";
     condition.failure = "B10";
     EXPECT_THAT(problems_of(condition),
-                testing::AllOf(HasSubstr("'B10' spoils reports, but oracle reads none"),
+                testing::AllOf(HasSubstr("'B10' degrades reports, but oracle does not use reports"),
                                HasSubstr("clearway list settings oracle")));
 }
 

@@ -81,7 +81,7 @@ TEST_F(LinkBenchmarkFile, states_candidates_and_link_rules) {
 
 TEST_F(LinkBenchmarkFile, lists_that_are_empty_or_repeat_or_name_what_is_not_there_are_refused) {
     EXPECT_THAT(refusal("exits = ", "predictors = []\nexits = "), HasSubstr("predictors: is empty"));
-    EXPECT_THAT(refusal("\"B10\"", "\"B10\", \"B10\""), HasSubstr("`B10` stands twice"));
+    EXPECT_THAT(refusal("\"B10\"", "\"B10\", \"B10\""), HasSubstr("`B10` is listed twice"));
     EXPECT_THAT(refusal("[seeds]", "[quick]\nfailures = [\"S0\"]\n[seeds]"),
                 HasSubstr("`S0` is not among the benchmark's failures"));
 }

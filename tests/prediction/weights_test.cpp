@@ -77,8 +77,8 @@ TEST(Weights, RefuseWhatIsNotTheFormatWithItsLine) {
     EXPECT_THAT(refusal(with("0.1 ", "")), HasSubstr("2 values in a row of tensor a.weight"));
     EXPECT_THAT(refusal(with("0.1 ", "0.1 7 ")), HasSubstr("4 values in a row"));
     EXPECT_THAT(refusal(with("\nend\n", "\n")), HasSubstr("no end line"));
-    EXPECT_THAT(refusal(with("a.bias", "a.weight")), HasSubstr("a.weight stands twice"));
-    EXPECT_THAT(refusal(with("dimension hidden", "dimension input")), HasSubstr("input stands twice"));
+    EXPECT_THAT(refusal(with("a.bias", "a.weight")), HasSubstr("a.weight is listed twice"));
+    EXPECT_THAT(refusal(with("dimension hidden", "dimension input")), HasSubstr("input is listed twice"));
     EXPECT_THAT(refusal(with("note", "nota")), HasSubstr("'nota' is unknown"));
     EXPECT_THAT(refusal(with("a.weight 2 3", "a.weight 2 -3")), HasSubstr("'-3' is not a number"));
     EXPECT_THAT(refusal(with("a.weight 2 3", "a.weight 99999999 99999999")), HasSubstr("impossible shape"));

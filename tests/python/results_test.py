@@ -135,7 +135,7 @@ scenario.friction = [1.0, 0.4]
                            (lambda: clearway.run(None), "scenario is None"),
                            (lambda: clearway.run("intersection", [clearway.Condition("a", policy=3)]), "is 3"),
                            (lambda: clearway.run("intersection", [clearway.Condition("a", set=["b"])]), "set is ['b']"),
-                           (lambda: clearway.run("intersection", seeds=1, step_length_s=None), "None cannot stand"),
+                           (lambda: clearway.run("intersection", seeds=1, step_length_s=None), "None cannot be part of"),
                            (lambda: self.results.runs.where(condition=3), "compared with 3 (allowed: a text)"),
                            (lambda: self.results.paired_difference(3, "corridor"), "`3` is unknown"),
                            (lambda: clearway.open("--help"), "is not a run folder")):

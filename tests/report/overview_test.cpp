@@ -59,9 +59,9 @@ TEST_F(Overview, CallsAShownDifferenceThatIsTooSmallNoDifference) {
     tests::compare(corridor(), around(-0.5, 0.2), around(0.4, 1.0));
     corridor().least_relevant_s = 1.0;
     EXPECT_THAT(headline(),
-                StartsWith("corridor makes no difference to ambulances that counts (-0.5 s a trip)"));
+                StartsWith("corridor makes no relevant difference to ambulances (-0.5 s a trip)"));
     EXPECT_EQ(emergency().tone, Tile::Tone::neutral);
-    EXPECT_THAT(badge().words, HasSubstr("too small to count"));
+    EXPECT_THAT(badge().words, HasSubstr("too small to matter"));
 }
 
 TEST_F(Overview, NeverPraisesAConditionThatLosesEmergencyVehicles) {
@@ -70,7 +70,7 @@ TEST_F(Overview, NeverPraisesAConditionThatLosesEmergencyVehicles) {
                 StartsWith("corridor lost 3 of 20 emergency vehicles (3 teleported; baseline 0);"));
     EXPECT_THAT(headline(), Not(HasSubstr("saves")));
     EXPECT_EQ(emergency().tone, Tile::Tone::worse);
-    EXPECT_THAT(emergency().meaning, HasSubstr("no gain may be claimed"));
+    EXPECT_THAT(emergency().meaning, HasSubstr("no gain can be claimed"));
 }
 
 TEST_F(Overview, SaysThatSafetyChecksWereOff) {
@@ -128,10 +128,10 @@ TEST_F(Overview, FeaturesTheLargestShownGainAndSaysThatItWasChosen) {
     scenario_.conditions.push_back(lucky);
     scenario_.conditions.push_back(small);
     EXPECT_EQ(featured_condition(study_, scenario_), &scenario_.conditions[1]);
-    EXPECT_EQ(
-        among_conditions(study_, scenario_),
-        "2 of 3 conditions are shown to help; this one has the largest mean gain, and the largest of several "
-        "is usually a little too large.");
+    EXPECT_EQ(among_conditions(study_, scenario_),
+              "2 of 3 conditions are shown to help; this one has the largest mean gain, which usually "
+              "overstates its true "
+              "gain a little.");
     lose_vehicles();
     EXPECT_EQ(featured_condition(study_, scenario_), &scenario_.conditions[3]);
 }

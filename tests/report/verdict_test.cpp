@@ -73,7 +73,7 @@ TEST(Verdict, of_no_effect_says_that_the_network_has_no_signals) {
     scenario.roads->signals.clear();
     EXPECT_THAT(of_four(),
                 StartsWith("no effect shown: EV travel time -0.6 s [-3.4, 2.2], -1 %; the network has "
-                           "no signals, so policies at signals have nothing to do;"));
+                           "no signals, so signal policies have no effect;"));
     EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(), Not(HasSubstr("signals")));
 }
 
@@ -84,8 +84,8 @@ TEST(CoarseSteps, are_marked_above_a_quarter_of_a_second) {
     EXPECT_THAT(console_tables(study), Not(HasSubstr("steps of")));
     study.scenarios.front().step_length_s = 1.0;
     EXPECT_THAT(coarse_step_sentence(study.scenarios.front()),
-                StartsWith("steps of 1 s: only for a comparison"));
-    EXPECT_THAT(console_tables(study), HasSubstr("steps of 1 s: only for a comparison"));
+                StartsWith("steps of 1 s: use them only to compare"));
+    EXPECT_THAT(console_tables(study), HasSubstr("steps of 1 s: use them only to compare"));
 }
 
 TEST(FewSeeds, are_named_below_ten) {
@@ -93,7 +93,8 @@ TEST(FewSeeds, are_named_below_ten) {
     study.scenarios.front().replications = 10;
     EXPECT_EQ(few_seeds_sentence(study), "");
     study.scenarios.front().replications = 9;
-    EXPECT_THAT(few_seeds_sentence(study), StartsWith("few seeds: intervals of fewer than 10 seeds"));
+    EXPECT_THAT(few_seeds_sentence(study),
+                StartsWith("few seeds: means and intervals from fewer than 10 seeds"));
     study.scenarios.front().replications = 4;
     EXPECT_THAT(few_seeds_sentence(study), StartsWith("too few seeds: fewer than 5 give no interval"));
 }

@@ -40,7 +40,7 @@ TEST_F(BadMap, a_map_without_nodes) {
     const std::string map = town_map();
     const std::size_t nodes = map.find("<node");
     EXPECT_THAT(refused("ways.osm", map.substr(0, nodes) + map.substr(map.find("<way"))),
-                AllOf(HasSubstr("none of their nodes"), HasSubstr("out body; >; out skel qt;")));
+                AllOf(HasSubstr("not their nodes"), HasSubstr("out body; >; out skel qt;")));
 }
 
 TEST_F(BadMap, a_merge_names_the_map_that_is_cut_short) {
@@ -180,8 +180,9 @@ TEST_F(BadMap, a_network_that_bears_no_level_of_demand) {
         std::fill(text.begin() + static_cast<std::ptrdiff_t>(at),
                   text.begin() + static_cast<std::ptrdiff_t>(text.find('"', at)), 'r');
     }
-    EXPECT_THAT(refused("red.net.xml", text), AllOf(HasSubstr("red.net.xml: takes no level of demand: of "),
-                                                    HasSubstr("SUMO teleports them"), HasSubstr("sumo-gui")));
+    EXPECT_THAT(refused("red.net.xml", text),
+                AllOf(HasSubstr("red.net.xml: cannot carry any level of demand: of "),
+                      HasSubstr("SUMO teleports them"), HasSubstr("sumo-gui")));
 }
 
 TEST_F(BadMap, a_network_without_roads_for_cars) {

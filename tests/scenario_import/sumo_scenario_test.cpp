@@ -175,8 +175,7 @@ TEST_F(SumoScenario, rails_of_several_tracks_on_which_trains_come_from_both_side
     ASSERT_EQ(core::run(sumo).signal, SIGABRT);
 
     const Findings findings = run(request({network, routes}));
-    EXPECT_THAT(findings.changes,
-                Contains(HasSubstr("4 edges of several lanes on which traffic also comes towards")));
+    EXPECT_THAT(findings.changes, Contains(HasSubstr("4 multi-lane edges with traffic in both directions")));
     sumo.arguments[1] = (out() / "town" / "network.net.xml").string();
     EXPECT_TRUE(core::run(sumo).ok());
 }

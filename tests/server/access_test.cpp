@@ -230,7 +230,7 @@ TEST(Access, an_address_is_of_this_machine_alone_or_not) {
     EXPECT_FALSE(is_loopback("192.0.2.7", "--host"));
     EXPECT_TRUE(is_loopback("localhost", "--host"));
     EXPECT_THAT(support::message_of<core::InputError>([] { is_loopback("my..machine", "--host"); }),
-                AllOf(HasSubstr("--host"), HasSubstr("`my..machine` is neither an address nor a name"),
+                AllOf(HasSubstr("--host"), HasSubstr("`my..machine` is neither an address nor a known name"),
                       HasSubstr("127.0.0.1")));
 }
 

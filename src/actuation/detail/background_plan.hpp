@@ -43,7 +43,7 @@ class BackgroundPlan {
     bool is_in_step(core::Seconds now) const;
     /// Cycle time, s; 0 without a program.
     double cycle_s() const { return cycle_s_; }
-    /// The phase after the present green if that has lasted `least_green` and the least that the program owes
+    /// The phase after the present green if that has lasted `least_green` and the program's own minimum for
     /// it; nothing otherwise.
     std::optional<std::uint32_t> next_after(core::Seconds least_green, core::Seconds now) const;
     /// At the start of a green that is out of step: the green's new length, which leads back into step the

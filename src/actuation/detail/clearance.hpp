@@ -44,8 +44,8 @@ double yellow_on_road_s(double dry_s, double friction);
 
 /// Yellow and red clearance of one signal: what its own program shows of a link, and where that shows none,
 /// what the rule gives for the geometry of the crossing; with the rule `fixed`, the times of the
-/// configuration for every link. A yellow is longer on a slippery road, whoever set it; red is not, because
-/// who leaves the junction does not brake.
+/// configuration for every link. A yellow is longer on a slippery road, whatever its source; red is not,
+/// because a vehicle that leaves the junction does not brake.
 class Clearance {
   public:
     /// `on_foot_s`: red of a crossing that the controller has set, instead of the rule's; never less than the

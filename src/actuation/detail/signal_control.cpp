@@ -230,7 +230,7 @@ double SignalControl::owed_green_s(std::uint16_t link, std::optional<std::uint32
     return std::max(timing.entry_green_s, least_green_s(signal_, link, phase));
 }
 
-/// Whether a link that would lose green has not had the least that it is owed.
+/// Whether a link that would lose green has not had its least green.
 bool SignalControl::owes_green(const std::string& target, const SignalContext& around) const {
     const auto phase = green_phase(signal_, around.state);
     return std::ranges::any_of(losing_links(around.state, target), [&](std::uint16_t link) {

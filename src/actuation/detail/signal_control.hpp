@@ -49,8 +49,8 @@ struct SignalContext {
 /// fixed-time program is brought back into step, green by green, because its neighbours depend on it.
 ///
 /// A signal may have parameters of its own (traffic::Preemption): a request waits for its delay; a hold that
-/// was begun goes on for its least duration and dwell though the request has ended, unless another takes
-/// over; the return leads to the exit phase, whatever a lease asks for.
+/// has begun lasts its least duration and dwell even if the request has ended, unless another takes over;
+/// the return leads to the exit phase, regardless of what a lease asks for.
 ///
 /// A hold that ended at its cap may return after a whole cycle of the background plan, so that an emergency
 /// vehicle that is stuck does not keep everybody else waiting.
@@ -66,7 +66,7 @@ class SignalControl {
     std::size_t active() const { return holds_.size() + adjustments_.size(); }
     /// Whether nothing is held and a new hold would be accepted at once.
     bool is_idle(core::Seconds now) const;
-    /// For those who watch.
+    /// For displays and logs.
     traffic::SignalStatus status(core::Seconds now) const;
 
   private:

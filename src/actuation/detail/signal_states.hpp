@@ -32,7 +32,7 @@ bool serves_any(const std::string& state, const Links& links);
 /// The phase that shows `state`, if exactly one phase does and it has green without yellow.
 std::optional<std::uint32_t> green_phase(const roads::Signal& signal, const std::string& state);
 
-/// Shortest green that the program owes a link in this phase, s. Where it is unknown which phase runs (dual
+/// Shortest green that the program gives a link in this phase, s. Where it is unknown which phase runs (dual
 /// rings show what no single phase does): the shortest of the phases in which the link is green.
 double least_green_s(const roads::Signal& signal, std::uint16_t link, std::optional<std::uint32_t> phase);
 

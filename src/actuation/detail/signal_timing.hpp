@@ -33,7 +33,7 @@ struct SignalTiming {
 /// Of one signal: the settings of the condition, and what its controller has set of its own.
 SignalTiming timing_of(const ActuatorConfig& config, const traffic::Preemption& own);
 
-/// What a signal owes its links beyond SignalTiming.
+/// What a signal must show its links in addition to SignalTiming.
 struct SignalDuties {
     const Clearance& clearance;
     LinkHistory& history;  ///< Also told what the signal is made to show.

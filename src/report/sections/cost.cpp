@@ -154,10 +154,10 @@ Figure recovery_figure(const ScenarioFacts& scenario) {
 
 void cost_section(const StudyFacts& study, Writer& writer) {
     writer.markup(
-        "<p>Who pays for the EVs\u2019 gain: time lost by all other vehicles on each approach to a "
-        "signal (on each edge if a network has no signals), from a minute before the first EV, compared "
-        "with the baseline of the same replication. With many approaches, one interval in twenty "
-        "excludes 0 by chance.</p>\n");
+        "<p>Cost of the EVs\u2019 gain: time lost by all other vehicles on each approach to a signal (on "
+        "each edge if a network has no signals), from a minute before the first EV, compared with the "
+        "baseline of the same replication. With many approaches, one interval in twenty excludes 0 by "
+        "chance.</p>\n");
     writer.figures(figures_of(study, approach_figure));
     const bool has_recovery = std::ranges::any_of(study.scenarios, [](const ScenarioFacts& scenario) {
         return std::ranges::any_of(scenario.conditions,

@@ -175,9 +175,8 @@ void tables_section(const StudyFacts& study, Writer& writer) {
     if (std::ranges::any_of(study.scenarios, [](const auto& one) { return !one.published_as.empty(); }))
         html +=
             " The columns <em>published</em> repeat the dissertation: one unseeded run on networks of its "
-            "own; they are not results of this study. The dissertation's one row of GraphSAGE stands beside "
-            "two: the "
-            "net as published and the one with corrected inputs.";
+            "own; they are not results of this study. The dissertation's single GraphSAGE row is repeated "
+            "for two nets: as published and with corrected inputs.";
     html += "</p>\n";
     writer.markup(html);
     write_definitions(writer);

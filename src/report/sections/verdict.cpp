@@ -66,7 +66,7 @@ std::string verdict_card(const StudyFacts& study, const ScenarioFacts& scenario)
         }
     }
     if (!entries.empty()) entries = fmt::format("<dl>{}</dl>", entries);
-    entries += fold(null_count, "without a shown effect on anybody", null);
+    entries += fold(null_count, "without a shown effect on EVs or others", null);
     entries += fold(alike_count, "with a setting turned alone, whose finding on EVs is the same", alike);
     if (entries.empty()) entries = "<p>No condition was compared with a baseline.</p>";
     const std::string mark = coarse_step_sentence(scenario);
@@ -80,18 +80,17 @@ std::string verdict_card(const StudyFacts& study, const ScenarioFacts& scenario)
 void verdict_section(const StudyFacts& study, Writer& writer) {
     writer.markup(fmt::format("<p class=\"lead\">{}</p>\n", escaped(headline(study))));
     writer.markup(
-        "<p>Each condition against its baseline: what it did for emergency vehicles (EV) and to the "
+        "<p>Each condition against its baseline: its effect on emergency vehicles (EV) and on the "
         "others.</p>\n<div class=\"cards\">\n");
     for (const ScenarioFacts& scenario : study.scenarios)
         writer.markup(verdict_card(study, scenario));
     writer.markup(
-        "</div>\n"
-        "<p class=\"note\">Differences are paired: condition and baseline share seed, demand, drivers "
-        "and sensor failures. An effect is claimed only when the 95 % interval of the mean difference "
-        "excludes 0; \u201cno effect shown\u201d does not prove that there is none. EV travel time is "
-        "the restricted mean over all emergency vehicles (EV): one that did not arrive counts with the "
-        "horizon. Whatever the means are, a condition is not called a help if it loses more EVs than its "
-        "baseline, if its EVs collide more often, or if it ran without safety checks. Fewer than five "
+        "</div>\n<p class=\"note\">Differences are paired: condition and baseline share seed, demand, "
+        "drivers and sensor failures. An effect is claimed only when the 95 % interval of the mean "
+        "difference excludes 0; \u201cno effect shown\u201d does not prove that there is none. EV travel "
+        "time is the restricted mean over all emergency vehicles (EV): one that did not arrive counts with "
+        "the horizon. Regardless of the means, no benefit is claimed for a condition that loses more EVs "
+        "than its baseline, whose EVs collide more often, or that ran without safety checks. Fewer than five "
         "replications give no interval and no effect: too few seeds.</p>\n");
     if (const std::string few = few_seeds_sentence(study); !few.empty())
         writer.markup(fmt::format("<p class=\"note\">{}</p>\n", escaped(few)));

@@ -98,7 +98,7 @@ void check_emergency_trips(const ScenarioConfig& config, Problems& problems) {
                                                                                   : "after the horizon"),
                                 fmt::format("{} (time.warm_up_s) to {} (time.horizon_s)",
                                             config.time.warm_up_s, config.time.horizon_s),
-                                "move the departure, or change the warm-up"});
+                                "change the departure or the warm-up"});
         bool known = false;
         core::for_each_field<EmergencyKinds>([&](const auto& field) { known |= trip.kind == field.name; });
         if (!known)

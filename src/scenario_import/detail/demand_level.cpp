@@ -19,7 +19,7 @@ constexpr double ladder_step = 1.5;
 constexpr int most_rungs = 9;
 /// Cars of a demand that is hardly one any more.
 constexpr double fewest_cars = 4.0;
-/// Demands of other replications that a level must bear, too.
+/// Demands of other replications that the network must also carry at a level.
 constexpr std::uint32_t more_demands = 2;
 
 /// Cars a kilometre of lane and hour from which the search goes up or down.
@@ -88,8 +88,8 @@ int first_rung(double lane_km, int most, int lowest_rung) {
     return std::clamp(static_cast<int>(std::lround(rungs)), 0, std::max(0, lowest_rung - 1));
 }
 
-/// A rung that the network bears.
-struct Borne {
+/// A rung that the network can carry.
+struct Carried {
     int rung = 0;
     Load load;
     bool has_room = false;
@@ -116,16 +116,16 @@ std::string words_of(LoadFault fault, const Import& import) {
 [[noreturn]] void refuse_every_level(const Import& import, LoadFault fault, int cars) {
     throw core::InputError(core::Problem{
         import.request.files.front().string(),
-        fmt::format("takes no level of demand: of {} cars in {:.0f} s, {}", cars, demand_window_s,
+        fmt::format("cannot carry any level of demand: of {} cars in {:.0f} s, {}", cars, demand_window_s,
                     words_of(fault, import)),
-        "a network that empties under some traffic",
-        fault == LoadFault::fails ? "correct what SUMO names, or import another part of the map"
-                                  : "look for roads that block each other where cars stand still: open the "
-                                    "network in sumo-gui; import "
-                                    "another part of the map, or the network with route files of your own"});
+        "a network that empties at some level of demand",
+        fault == LoadFault::fails
+            ? "correct what SUMO names, or import another part of the map"
+            : "open the network in sumo-gui and look for roads that block each other, where cars stand "
+              "still; or import another part of the map, or the network with your own route files"});
 }
 
-/// Whether the network also bears the demands of other replications with as many cars.
+/// Whether the network also carries the demands of other replications with as many cars.
 LoadFault fault_of_more(const scenario::BuiltNetwork& network, const scenario::ScenarioConfig& config,
                         const std::filesystem::path& folder, Probe& probe) {
     for (std::uint32_t row = 1; row <= more_demands; ++row) {
@@ -152,7 +152,7 @@ DemandLevel find_level(Import& import, scenario::ScenarioConfig& config, int mos
     if (fault == LoadFault::fails) require_load(import, tried.demand);
     if (fault != LoadFault::none) refuse_every_level(import, fault, cars_on(lowest_rung, most));
     probe.take_as_free_flow();
-    Borne best{lowest_rung, probe.load(), probe.has_room()};
+    Carried best{lowest_rung, probe.load(), probe.has_room()};
     for (int too_high = -1, rung = first_rung(import.findings.lane_km, most, lowest_rung);
          best.rung - too_high > 1; rung = (best.rung + too_high) / 2) {
         if (probe.try_share(tried.demand, share_of(rung)) == LoadFault::none) {

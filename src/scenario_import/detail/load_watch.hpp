@@ -28,7 +28,7 @@ struct Load {
     double end_s = 0.0;  ///< When the last arrived, or the end of the run.
 };
 
-/// Why a network does not bear a load.
+/// Why a network cannot carry a load.
 enum class LoadFault { none, fails, slow, queues, teleports, stays };
 
 /// What a load is measured against.
@@ -40,8 +40,8 @@ struct LoadMeasure {
     double free_speed = 0.0;
 };
 
-/// Reads the summary of a SUMO run while it is written and says as soon as the load is too much or borne.
-/// What it says depends on the rows alone, not on when it looks.
+/// Reads the summary of a SUMO run while it is written and reports as soon as the load is too much or
+/// carried. What it says depends on the rows alone, not on when it looks.
 class LoadWatch {
   public:
     LoadWatch(std::filesystem::path summary, LoadMeasure measure);

@@ -25,7 +25,7 @@ int most_cars(const Findings& findings) {
 std::string describe(const scenario::ScenarioConfig& config, const DemandLevel& level, double lane_km) {
     const char* const places =
         config.trips.ends == scenario::TripEnds::reachable
-            ? "from where roads enter, or places drawn by road length, to where they lead"
+            ? "from roads that enter the map, or places drawn by road length, to places they lead to"
             : "between places drawn by road length";
     const Load& load = level.load;
     const std::string speed =
@@ -33,14 +33,14 @@ std::string describe(const scenario::ScenarioConfig& config, const DemandLevel& 
             ? fmt::format("mean speed {:.0f} % of that with {} cars (signals as they are), {:.0f} % halting",
                           100.0 * load.relative_speed / level.free_speed, level.fewest_cars,
                           100.0 * load.halting / load.running)
-            : "no speed known";
+            : "speed unknown";
     return fmt::format(
         "synthetic: {} cars in {:.0f} s {}; after 12 to 15 minutes {:.{}f} on the road, {:.1f} per km of "
-        "lane, {}, {:.0f} waiting to enter; all have arrived after {:.0f} minutes; borne {}",
+        "lane, {}, {:.0f} waiting to enter; all have arrived after {:.0f} minutes; carried {}",
         level.cars, demand_window_s, places, load.running, load.running < 10.0 ? 1 : 0,
         load.running / std::max(0.001, lane_km), speed, load.waiting, std::ceil(load.end_s / 60.0),
         level.demands > 1 ? fmt::format("in {} demands", level.demands)
-                          : std::string("with room to spare, so that one demand was tried"));
+                          : std::string("with room to spare, so one demand was tried"));
 }
 
 }  // namespace

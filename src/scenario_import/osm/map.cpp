@@ -159,7 +159,7 @@ Extract extract_roads(const std::vector<std::filesystem::path>& maps, const std:
     }
     if (extract.contents.roads == 0) refuse(maps.front(), "is a map without roads", "choose another extract");
     if (extract.contents.nodes == 0)
-        refuse(maps.front(), "has roads, but none of their nodes, which say where they run",
+        refuse(maps.front(), "has roads, but not their nodes, which give their positions",
                "ask Overpass for them too: end the query with  out body; >; out skel qt;");
     return extract;
 }

@@ -233,15 +233,14 @@ void describe_ways(const Demand& demand, Findings& findings) {
     if (findings.routed_at_departure > 0)
         findings.changes.push_back(
             fmt::format("{} vehicles without a route are routed by SUMO at departure, by the traffic of the "
-                        "moment, as in the scenario; so their ways may differ between conditions",
+                        "moment, as in the scenario; so their routes may differ between conditions",
                         findings.routed_at_departure));
     if (const std::size_t others = findings.routed_trips - findings.routed_at_departure; others > 0)
-        findings.changes.push_back(fmt::format(
-            "{} vehicles without a route take the fastest one at free flow, as duarouter finds it, because "
-            "they have vias, or ends that are no edges; SUMO would choose at departure, by the traffic of "
-            "the "
-            "moment, which spreads them over longer ways",
-            others));
+        findings.changes.push_back(
+            fmt::format("{} vehicles without a route take the fastest one at free flow, as duarouter finds "
+                        "it, because they have vias, or ends that are not edges; SUMO would choose at "
+                        "departure, by the traffic of the moment, which spreads them over longer routes",
+                        others));
 }
 
 void describe_vehicles(const Import& import, const Demand& demand, const Window& window, Findings& findings) {

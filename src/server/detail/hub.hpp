@@ -33,7 +33,7 @@ class Hub {
     };
     Taken take(std::size_t number, std::uint8_t kind, std::string_view content);
 
-    /// Whether every run has said who it is and what its network looks like.
+    /// Whether every run has sent its name and its network.
     bool has_begun() const;
     /// What a client is told first. Call it once the runs have begun.
     std::string welcome(bool allow_control) const;

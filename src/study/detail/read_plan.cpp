@@ -138,9 +138,10 @@ void read_plan(StrictTable& root, Extent extent, StudyConfig& config) {
         reader->problem("comparison", "is missing", "at least one [[plan.comparison]]",
                         "Name what the study is to show, or remove [plan]");
     if (config.precision)
-        root.problem("precision", "is given together with [plan]",
-                     "replications: looking at results until they suffice finds too much",
-                     "Fix the number of replications beforehand");
+        root.problem(
+            "precision", "is given together with [plan]",
+            "replications: a study that stops once its results look sufficient claims too many effects",
+            "Fix the number of replications beforehand");
     if (extent == Extent::quick) return;
     if (config.replications < 2)
         root.problem("replications", fmt::format("{} cannot show what [plan] claims", config.replications),

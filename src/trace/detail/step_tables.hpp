@@ -10,7 +10,7 @@
 namespace clearway::trace::detail {
 
 /// Does not compile when one of the structs gains or loses a member: then the columns and `recording_format`
-/// must change. Not recorded: who stands beside the road, because a replay sends no requests,
+/// must change. Not recorded: vehicles parked beside the road, because a replay sends no requests,
 /// and commanded stops, because it measures no time lost.
 inline void every_member_has_a_column(const traffic::Lease& lease, const truth::Events& events,
                                       const truth::Snapshot& snapshot,

@@ -78,8 +78,8 @@ void add_warnings(const GraphBatch& train, const GraphBatch& test, AsPublishedRe
     };
     if (one_class(train.label)) {
         result.warnings.push_back(
-            fmt::format("every training label is {}: a net that always says so has the lowest loss, and "
-                        "nothing about links is learnt",
+            fmt::format("every training label is {0}: a net that always answers {0} has the lowest loss and "
+                        "learns nothing about links",
                         train.label[0]));
     }
     if (one_class(test.label)) {
