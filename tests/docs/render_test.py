@@ -10,6 +10,9 @@ import unittest
 import xml.dom.minidom
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+import published_rows  # noqa: E402
+
 RENDER = ROOT / "scripts" / "render-docs"
 COUNT = ROOT / "scripts" / "count-docs"
 HEADER = "study,tree,date,seed,pairs,command,scenario,condition,measure,unit,mean,low,high,lost_evs,origin,behaviour"
@@ -23,8 +26,8 @@ BEHAVIOUR = run(RENDER, "--behaviour").stdout.strip()
 
 
 def row(condition="corridor", measure="time_s:difference", unit="s", mean="-25.2", low="-29.0", high="-21.5", scenario="city",
-        origin="product", behaviour=BEHAVIOUR, lost="0 of 210", study="signals", pairs="30", tree="5a206d0"):
-    return (f'{study},{tree},2026-11-24,7461,{pairs},clearway study studies/signals.toml,{scenario},"{condition}",{measure},{unit},'
+        origin="product", behaviour=BEHAVIOUR, lost="0 of 210", study="signals", pairs="30", tree="5a206d0", date="2026-11-24"):
+    return (f'{study},{tree},{date},7461,{pairs},clearway study studies/signals.toml,{scenario},"{condition}",{measure},{unit},'
             f"{mean},{low},{high},{lost},{origin},{behaviour}")
 
 
@@ -205,7 +208,7 @@ class Faults(Tree):
     def test_bad_fields(self):
         for values, words in ((dict(origin="guess"), "origin 'guess'"), (dict(behaviour=""), "behaviour ''"),
                               (dict(origin="transcribed"), "behaviour '"), (dict(scenario="a | b"), "scenario 'a | b'"),
-                              (dict(tree="today"), "tree 'today'"), (dict(lost="one"), "lost_evs 'one'"),
+                              (dict(tree="today"), "tree 'today'"), (dict(date="2026-13-01"), "date '2026-13-01'"), (dict(lost="one"), "lost_evs 'one'"),
                               (dict(measure="time_s:percent"), "is not %"), (dict(measure="Time"), "measure 'Time'"),
                               (dict(scenario="ci\0ty"), r"scenario 'ci\x00ty' contains an unprintable character")):
             self.rows(row(**values))
@@ -264,38 +267,63 @@ class Faults(Tree):
 
 
 class ThisTree(unittest.TestCase):
+    """The pages of this tree, with rows that were changed in a copy."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        for part in ("docs", "results"):
+            shutil.copytree(ROOT / part, self.root / part)
+        (self.root / "tests/loop").mkdir(parents=True)
+        shutil.copy(ROOT / "tests/loop/golden.txt", self.root / "tests/loop")
+        shutil.copy(ROOT / "README.md", self.root)
+        self.pages = {page.relative_to(ROOT).as_posix(): page.read_text(encoding="utf-8")
+                      for page in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))}
+
+    @staticmethod
+    def change(path, choose):
+        """Rows that `choose` takes have another mean and no interval; returns how many these are."""
+        rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
+        chosen = [row for row in rows if choose(row)]
+        for row in chosen:
+            row |= dict(mean="123456.7", low="", high="")
+        with path.open("w", encoding="utf-8", newline="") as opened:
+            writer = csv.DictWriter(opened, rows[0].keys(), lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows)
+        return len(chosen)
+
     def test_a_changed_row_makes_a_page_wrong(self):
         """For each page with a figure in its text: the row of the first one is changed, and the check names its line."""
         tried = 0
-        for page in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))):
-            text = page.read_text(encoding="utf-8")
+        for name, text in self.pages.items():
             figure = re.search(r"<!--= ([^>]*?) -->", text)
             if figure is None:
                 continue
-            file, scenario, condition, measure = (" ".join(part.split()) for part in figure[1].split("|")[:4])
-            with tempfile.TemporaryDirectory() as folder:
-                root = pathlib.Path(folder)
-                for part in ("docs", "results"):
-                    shutil.copytree(ROOT / part, root / part)
-                (root / "tests/loop").mkdir(parents=True)
-                shutil.copy(ROOT / "tests/loop/golden.txt", root / "tests/loop")
-                shutil.copy(ROOT / "README.md", root)
-                results = root / "results" / f"{file}.csv"
-                rows = list(csv.DictReader(results.read_text(encoding="utf-8").splitlines()))
-                (changed,) = (row for row in rows if (row["scenario"], row["condition"], row["measure"]) == (scenario, condition, measure))
-                changed |= dict(mean="123456.7", low="", high="")
-                with results.open("w", encoding="utf-8", newline="") as opened:
-                    writer = csv.DictWriter(opened, rows[0].keys(), lineterminator="\n")
-                    writer.writeheader()
-                    writer.writerows(rows)
-                name = page.relative_to(ROOT).as_posix()
-                line = text.count("\n", 0, figure.start()) + 1
-                done = run(RENDER, "--root", root, "--check", root / name)
-                self.assertEqual(done.returncode, 1, name)
-                self.assertRegex(done.stderr, rf"(?m)^{re.escape(name)}:{line}: the page says '.*', the rows '.*123456\.7.*': "
-                                 "run scripts/render-docs$")
+            file, *key = (" ".join(part.split()) for part in figure[1].split("|")[:4])
+            results = self.root / "results" / f"{file}.csv"
+            before = results.read_bytes()
+            self.assertEqual(self.change(results, lambda row: [row["scenario"], row["condition"], row["measure"]] == key), 1, figure[1])
+            line = text.count("\n", 0, figure.start()) + 1
+            done = run(RENDER, "--root", self.root, "--check", self.root / name)
+            results.write_bytes(before)
+            self.assertEqual(done.returncode, 1, name)
+            self.assertRegex(done.stderr, rf"(?m)^{re.escape(name)}:{line}: the page says '.*', the rows '.*123456\.7.*': "
+                             "run scripts/render-docs$")
             tried += 1
         self.assertGreater(tried, 0, "no page shows a figure")
+
+    def test_no_block_stays_right_when_all_rows_change(self):
+        for results in (self.root / "results").glob("*.csv"):
+            self.change(results, lambda row: True)
+        done = run(RENDER, "--root", self.root, "--check")
+        wrong = {(name, int(line)) for name, line in re.findall(r"(?m)^(\S+\.md):(\d+): ", done.stderr)}
+        blocks = [(name, block) for name, text in self.pages.items() for block in published_rows.find_blocks(name, text, [])]
+        self.assertGreater(len(blocks), 100)
+        for name, block in blocks:
+            last = published_rows.line_of(self.pages[name], block.end)
+            self.assertTrue(any((name, line) in wrong for line in range(block.line, last + 1)), f"{name}:{block.line}: {block.spec}")
 
 
 class Counts(Tree):
