@@ -144,7 +144,7 @@ def be_part(memory: int, read: int, write: int) -> None:
     channel = Channel(memory, read, write)
     try:
         serve(channel)
-    except (SettingError, Unusable, _program.InsidePart) as error:
+    except (SettingError, Unusable, _program.LoadedAgain) as error:
         channel.write_text(str(error))
         channel.ring(FAILED)
     except BaseException:  # noqa: BLE001: even sys.exit() in user code is this run's failure

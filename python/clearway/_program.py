@@ -31,22 +31,27 @@ class EnvironmentFault(ClearwayError, OSError):
         return str(self.args[0])
 
 
-class InsidePart(InputError):
-    """A file that holds a part starts runs when it is loaded: each would load it again, and so on without end."""
+class LoadedAgain(InputError):
+    """A file starts runs while another process loads it: each process would start them again, without end."""
 
 
 #: Set in the process of a part in Python, and so in all that it starts: the part's name.
 PART_VARIABLE = "CLEARWAY_PART"
 
 
-def require_outside_part(call_name: str) -> None:
-    """Raises ``InsidePart`` in the process of a part in Python."""
+def require_first_load(call_name: str) -> None:
+    """Raises ``LoadedAgain`` in the process of a part in Python, and while multiprocessing loads the main file in a new process."""
+    cure = "Put what starts runs below `if __name__ == \"__main__\":`, or into another file"
     part = os.environ.get(PART_VARIABLE)
     if part is not None:
         file = part.rpartition(":")[0]
-        raise InsidePart(f"{part}: {call_name}() was called while a run had loaded this part (allowed: outside of parts only, because "
-                         f"those runs would load {file} again, without end). Put what starts runs below "
-                         "`if __name__ == \"__main__\":`, or into another file")
+        raise LoadedAgain(f"{part}: {call_name}() was called while a run had loaded this part (allowed: outside of parts only, because "
+                          f"those runs would load {file} again, without end). {cure}")
+    process = sys.modules.get("multiprocessing.process")
+    # multiprocessing itself refuses by this mark to start processes from there.
+    if process is not None and getattr(process.current_process(), "_inheriting", False):
+        raise LoadedAgain(f"{call_name}() was called while multiprocessing loaded the main file in a new process (allowed: in the first "
+                          f"process only, because each process would start the same runs again). {cure}")
 
 
 _ERROR_OF = {2: InputError, 3: InputError, 4: EnvironmentFault}

@@ -33,7 +33,7 @@ class Worker:
     """Starts the process and waits until it is warm. Ends with it: its pipe closes, whatever becomes of this process."""
 
     def __init__(self, arguments: Sequence[str], folder: Path) -> None:
-        _program.require_outside_part("clearway.env")
+        _program.require_first_load("clearway.env")
         memory = os.memfd_create("clearway", os.MFD_CLOEXEC)
         os.ftruncate(memory, 2 * CAPACITY)
         their_read, our_write = os.pipe()

@@ -2,8 +2,9 @@
 from __future__ import annotations
 
 import dataclasses
+import html
 import sqlite3
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,10 @@ if TYPE_CHECKING:
     import pandas
 
     from .recording import Recording
+
+
+#: Rows of a table in a notebook.
+SHOWN_ROWS = 10
 
 
 class Table(Mapping[str, np.ndarray]):
@@ -60,8 +65,30 @@ class Table(Mapping[str, np.ndarray]):
                                             ) from error
         return pandas.DataFrame(self._columns)
 
+    def head(self, count: int = 5) -> "Table":
+        """The first rows."""
+        if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 0:
+            raise _program.InputError(f"head: {count!r} (allowed: a number of rows from 0)")
+        return Table({name: array[:count] for name, array in self._columns.items()})
+
     def __repr__(self) -> str:
         return f"<Table of {self.row_count} rows: {', '.join(self._columns)}>"
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the first rows, all columns."""
+        def row(tag: str, texts: Iterable[str]) -> str:
+            return "<tr>" + "".join(f"<{tag}>{html.escape(text)}</{tag}>" for text in texts) + "</tr>"
+        shown = self.head(SHOWN_ROWS)
+        rows = zip(*([_cell(value) for value in array] for array in shown.values()))
+        return (f"<table><thead>{row('th', self)}</thead><tbody>{''.join(row('td', one) for one in rows)}</tbody></table>"
+                f"<p>{self.row_count} rows, {len(self)} columns"
+                f"{f'; the first {SHOWN_ROWS} rows are shown' if self.row_count > SHOWN_ROWS else ''}</p>")
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, (float, np.floating)):
+        return "" if np.isnan(value) else f"{value:.6g}"
+    return str(value)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -40,11 +40,12 @@ def part_name(part: Part) -> str:
     if isinstance(part, type):
         try:
             file = inspect.getsourcefile(part)
-        except TypeError:
+        except (TypeError, OSError):  # built in; or of `-c`, of a notebook's cell, of the prompt
             file = None
         if file is None or not Path(file).exists() or "." in part.__qualname__:
-            raise _program.InputError(f"{part.__qualname__} is not at the top of a file: a run starts it in a process of its own, so "
-                                      "write it into a file (in a notebook: %%writefile my_policy.py)")
+            raise _program.InputError(f"{part.__qualname__} is not at the top of a file: a run loads it in a process of its own, so "
+                                      "write it into a file (in a notebook: %%writefile my_policy.py) and name it "
+                                      f"my_policy.py:{part.__name__}")
         return f"{Path(file).resolve()}:{part.__qualname__}"
     if not isinstance(part, (str, Path)):
         raise _program.InputError(f"a policy or predictor is {part!r} (allowed: a name of `clearway list`, FILE.py:Class, or a class)")
@@ -70,7 +71,7 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
     one below ``runs/`` that follows from what is run. Runs that are there already are not repeated. Runs that failed are a
     warning, and rows of ``results.errors``.
     """
-    _program.require_outside_part("clearway.run")
+    _program.require_first_load("clearway.run")
     if isinstance(conditions, (str, Condition)):
         conditions = [conditions]
     if not isinstance(conditions, Iterable):
@@ -107,7 +108,7 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
 def study(file: str | Path, *, out: str | Path | None = None, jobs: int = 0, record: bool = False, quick: bool = False,
           progress: bool = False) -> Results:
     """Runs a study file (docs/reference/study-file.md), or what of it is missing, and opens the results."""
-    _program.require_outside_part("clearway.study")
+    _program.require_first_load("clearway.study")
     words = ["study", str(file), "--json"]
     if out is None:
         out = Path("runs") / (_study_name(Path(file)) + ("-quick" if quick else ""))

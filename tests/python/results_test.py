@@ -36,38 +36,56 @@ class ResultsTest(FolderCase):
                         self.assertTrue(math.isnan(value) if cell == "" else math.isclose(float(cell), value, rel_tol=1e-12), column)
 
     def test_every_kind_of_factor_is_the_same_in_csv_sqlite_json_and_python(self) -> None:
-        self.write("study.toml", '''
-name = "factors"
-replications = 1
-scenarios = ["intersection"]
-conditions = ["baseline"]
+        self.write("mine.py", "class Mine:\n    def __init__(self, on=True, word='a'):\n        pass\n"
+                              "    def act(self, belief):\n        return []\n")
+        # Kind of each column and the texts of its values; `set` is a factor that sets several.
+        conditions = {"condition.policy": (str, {"clear_lane", "clear_lane.preempt_signals"}), "preempt_signals.lead_s": (float, {"8", "12.5"}),
+                      "Mine.on": (str, {"true", "false"}), "Mine.word": (str, {"12", "a"}),
+                      "clear_lane.horizon_m": (float, {"150"}), "clear_lane.beside_m": (float, {"20"})}
+        scenarios = {"condition.failure": (str, {"perfect", "B10"}), "scenario.friction": (float, {"1", "0.4"})}
+        for name, columns, factors in (
+                ("conditions", conditions, 'design = "one_at_a_time"\ncondition.policy = [["clear_lane"], ["clear_lane", "preempt_signals"]]\n'
+                 'preempt_signals.lead_s = [8, 12.5]\nMine.on = [true, false]\nMine.word = ["12", "a"]\n'
+                 'set = [{ "clear_lane.horizon_m" = 150, "clear_lane.beside_m" = 20 }]\n'),
+                ("scenarios", scenarios, 'condition.failure = ["perfect", "B10"]\nscenario.friction = [1.0, 0.4]\n')):
+            own = '[[condition]]\nname = "mine"\npolicy = ["mine.py:Mine"]\n' if name == "conditions" else ""
+            self.write("study.toml", f'replications = 1\nscenarios = ["intersection"]\nconditions = ["baseline"]\n[[condition]]\n'
+                                     f'name = "lanes"\npolicy = ["corridor"]\n{own}[factors]\n{factors}')
+            results = clearway.study("study.toml", out=name)
+            self.assertEqual(results.errors.row_count, 0)
+            for column, (kind, values) in columns.items():
+                self.check_factor(results, column, kind, values)
+        self.assertEqual(results.runs.where(**{"condition.failure": "B10", "scenario.friction": 0.4}).row_count, 1)
 
-[[condition]]
-name = "mine"
-policy = ["corridor"]
-
-[factors]
-condition.failure = ["perfect", "B10"]
-preempt_signals.lead_s = [8, 12.5]
-scenario.friction = [1.0, 0.4]
-''')
-        results = clearway.study("study.toml", out="runs")
-        factors = {"condition.failure": str, "preempt_signals.lead_s": float, "scenario.friction": float}
-        runs = results.runs
+    def check_factor(self, results: clearway.Results, column: str, kind: type, values: set[str]) -> None:
+        """A column of factors has the same values in each row of each table, and all of ``values``."""
         lines = list(csv.DictReader((results.folder / "runs.csv").read_text().splitlines()))
         printed = json.loads(program("export", "results", str(results.folder), "runs", "--json"))
         connection = sqlite3.connect(results.folder / "results.sqlite")
         self.addCleanup(connection.close)
-        self.assertEqual(set(runs["condition.failure"]), {"", "perfect", "B10"})
-        for factor, kind in factors.items():
-            stored = [row[0] for row in connection.execute(f'SELECT "{factor}" FROM runs ORDER BY scenario, condition')]
-            for value, line, row, cell in zip(runs[factor], lines, printed, stored, strict=True):
-                if line[factor] == "":
-                    self.assertEqual((row[factor], cell), (None, None))
-                    self.assertTrue(value == "" if kind is str else math.isnan(value))
-                else:
-                    self.assertEqual((kind(value), kind(row[factor]), kind(cell)), (kind(line[factor]),) * 3)
-        self.assertEqual(runs.where(**{"condition.failure": "B10", "preempt_signals.lead_s": 8.0}).row_count, 2)
+        stored = [row[0] for row in connection.execute(f'SELECT "{column}" FROM runs ORDER BY scenario, condition')]
+        for value, line, row, cell in zip(results.runs[column], lines, printed, stored, strict=True):
+            if line[column] == "":
+                self.assertEqual((row[column], cell), (None, None))
+                self.assertTrue(value == "" if kind is str else math.isnan(value))
+            else:
+                self.assertEqual((kind(value), kind(row[column]), kind(cell)), (kind(line[column]),) * 3)
+                self.assertEqual(isinstance(cell, str), kind is str)
+        self.assertEqual({line[column] for line in lines} - {""}, values)
+
+    def test_head_and_a_notebook_show_the_first_rows(self) -> None:
+        runs = self.results.runs
+        self.assertEqual((runs.head().row_count, runs.head(3).row_count, runs.head(10**6).row_count), (5, 3, 10))
+        self.assertEqual(list(runs.head(2)["condition"]), list(runs["condition"][:2]))
+        for count in (-1, 1.5, True):
+            self.assertIn("allowed: a number of rows", self.message_of(clearway.InputError, lambda: runs.head(count)))
+        shown = self.results.vehicles._repr_html_()
+        self.assertEqual(shown.count("<tr>"), 1 + 10)
+        self.assertIn(f"{self.results.vehicles.row_count} rows", shown)
+        table = clearway.Table({"a<b": np.array(["<x>", "y"]), "n": np.array([1.0 / 3.0, math.nan])})
+        self.assertIn("<tr><th>a&lt;b</th><th>n</th></tr>", table._repr_html_())
+        self.assertIn("<tr><td>&lt;x&gt;</td><td>0.333333</td></tr><tr><td>y</td><td></td></tr>", table._repr_html_())
+        self.assertIn("<p>0 rows, 0 columns</p>", clearway.Table({})._repr_html_())
 
     def test_where_and_pandas(self) -> None:
         corridor = self.results.runs.where(condition="corridor", replication=2)
