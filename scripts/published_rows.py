@@ -182,6 +182,8 @@ def find_blocks(page, text, faults):
             start_of_line = text.rfind("\n", 0, marker.start()) + 1
             if text.startswith("#", start_of_line):
                 faults.append(Fault(page, line, "a figure in a heading: links to it would break when its row changes"))
+            if not text[start_of_line:marker.start()].strip(" >"):
+                faults.append(Fault(page, line, "a figure at the start of a line, which Markdown takes for HTML: put a word before it"))
             if text[start_of_line:].lstrip().startswith("|"):
                 faults.append(Fault(page, line, "a figure in a table by hand, whose cells its | would divide: write a table block"))
             blocks.append(Block("figure", line, figure["spec"], *figure.span("text")))

@@ -107,14 +107,14 @@ class Rendered(Tree):
     def test_a_figure_has_sign_unit_and_interval(self):
         self.rows(row(mean="2.0", low="1.0", high="3.0"), row(measure="time_s", mean="165.0", low="", high=""),
                   row(measure="time_s:percent", unit="%"))
-        text = self.rendered("<!--= signals | city | corridor | time_s:difference -->?<!--/-->, "
+        text = self.rendered("It is <!--= signals | city | corridor | time_s:difference -->?<!--/-->, "
                              "<!--= signals | city |\ncorridor | time_s --><!--/-->, "
                              "<!--= signals | city | corridor | time_s:percent | mean -->x<!--/-->\n")
         self.assertEqual(re.findall(r"-->([^<]+)<!--/", text), ["+2.0 s [1.0, 3.0]", "165.0 s", "-25.2 %"])
 
     def test_a_figure_may_be_broken_across_lines(self):
         self.rows(row())
-        broken = "<!--= signals | city | corridor | time_s:difference -->-25.2 s\n[-29.0, -21.5]<!--/-->\n"
+        broken = "It is <!--= signals | city | corridor | time_s:difference -->-25.2 s\n[-29.0, -21.5]<!--/-->\n"
         self.assertEqual(self.rendered(broken), broken)
 
     def test_rows_of_other_behaviour_and_transcribed_ones_have_a_dagger_and_a_note(self):
@@ -167,7 +167,7 @@ class Faults(Tree):
         self.rows(row())
 
     def figure(self, spec):
-        return f"\n\n<!--= {spec} -->-25.2 s<!--/-->\n"
+        return f"\n\nIt is <!--= {spec} -->-25.2 s<!--/-->\n"
 
     def test_unknown_file(self):
         self.refused("docs/a.md:3", "no file results/gone.csv", self.figure("gone | city | corridor | time_s:difference"))
@@ -239,6 +239,11 @@ class Faults(Tree):
         self.refused("docs/a.md:3", "a figure in a heading", f"text\n\n## Gain {figure}\n")
         self.refused("docs/a.md:5", "a figure in a table by hand", f"text\n\n| a | b |\n|---|---|\n| a | {figure} |\n")
 
+    def test_a_figure_at_the_start_of_a_line(self):
+        figure = "<!--= signals | city | corridor | time_s:difference -->1<!--/-->"
+        self.refused("docs/a.md:2", "a figure at the start of a line", f"It is\n{figure} or so\n")
+        self.refused("docs/a.md:2", "a figure at the start of a line", f"- It is\n  {figure} or so\n")
+
     def test_a_picture_that_no_page_draws(self):
         (self.root / "docs/images").mkdir()
         (self.root / "docs/images/by_hand.svg").write_text("<svg/>", encoding="utf-8")
@@ -251,7 +256,7 @@ class Faults(Tree):
     def test_blocks_without_an_end(self):
         self.refused("docs/a.md:2", "this table has no end", "\n" + TABLE.replace("<!-- end of table -->", ""))
         self.refused("docs/a.md:1", "this table has no end", TABLE.replace("<!-- end of table -->", "") + TABLE)
-        self.refused("docs/a.md:1", "this figure has no end", "<!--= signals | city | corridor | time_s:difference -->1 s\n")
+        self.refused("docs/a.md:1", "this figure has no end", "It is <!--= signals | city | corridor | time_s:difference -->1 s\n")
 
     def test_specs(self):
         for old, new, words in (("titles:", "title:", "unknown key 'title'"), ("titles:", "rows: measure\ntitles:", "is there twice"),
