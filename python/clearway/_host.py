@@ -124,6 +124,17 @@ def serve(channel: Channel) -> None:
         channel.ring(ANSWER)
 
 
+def told(error: BaseException) -> str:
+    """What was raised, because a console may show no more than the first line, and its traceback from user code on."""
+    own = str(Path(__file__).parent)
+    trace = error.__traceback__
+    while trace is not None and trace.tb_frame.f_code.co_filename.startswith((own, "<frozen importlib")):
+        trace = trace.tb_next
+    cause = traceback.format_exception_only(error)[-1].strip()
+    text = "".join(traceback.format_exception(type(error), error, trace or error.__traceback__)).strip()
+    return f"{cause[:1000]}\n{text[-100_000:]}"
+
+
 def end_group(*_: Any) -> None:
     """Ends this process and all that user code has started."""
     for stream in (sys.stdout, sys.stderr):
@@ -147,8 +158,8 @@ def be_part(memory: int, read: int, write: int) -> None:
     except (SettingError, Unusable, _program.LoadedAgain) as error:
         channel.write_text(str(error))
         channel.ring(FAILED)
-    except BaseException:  # noqa: BLE001: even sys.exit() in user code is this run's failure
-        channel.write_text(traceback.format_exc().strip()[-100_000:])  # its end says what was raised
+    except BaseException as error:  # noqa: BLE001: even sys.exit() in user code is this run's failure
+        channel.write_text(told(error))
         channel.ring(FAILED)
     end_group()
 

@@ -427,7 +427,10 @@ class FaultTest(FolderCase):
             (found,) = failed["message"]
             self.assertIn(message, found)
             if name != "Dies":
+                self.assertRegex(found.splitlines()[0], r"bad.py: (\w+Error|SystemExit|KeyboardInterrupt)")  # the cause comes first
                 self.assertIn("Traceback", found)
+                answered = ("NotALease", "Nothing", "TooMuch", "Number")  # `act` has returned, so that nothing else is on the stack
+                self.assertEqual("_host.py" in found, name in answered, found)
                 self.assertIn("bad.py" if name not in ("Nothing", "TooMuch", "Number") else "act", found)
         self.assertEqual(set(results.errors["cause"]), {"python"})
         self.assertEqual(list(results.runs["condition"]), ["baseline"])
