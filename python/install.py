@@ -55,6 +55,7 @@ def install(source: Path, programs: Path, target: Path, version: str) -> None:
     info.mkdir()
     (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: clearway\nVersion: {version}\nRequires-Python: >=3.11\n"
                                    "Requires-Dist: numpy\n")
+    (info / "entry_points.txt").write_text("[gymnasium.envs]\nClearway = clearway._spec:register\n")
     (info / "INSTALLER").write_text("clearway\n")
     files = sorted(file.relative_to(target).as_posix() for folder in (package, info) for file in folder.rglob("*"))
     (info / "RECORD").write_text("".join(f"{file},,\n" for file in files) + f"{info.name}/RECORD,,\n")

@@ -26,6 +26,7 @@ Write a part:
 Learn one:
 
     env = clearway.env("intersection")        # Gymnasium's API; clearway.parallel_env: PettingZoo's; clearway.vector_env: many
+    env = gymnasium.make("Clearway/intersection-v0")
 
 Only numpy is imported here. pandas, h5py, torch and gymnasium are imported where something needs them.
 """
@@ -84,3 +85,7 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return __all__
+
+
+if "gymnasium" in sys.modules:
+    importlib.import_module("._spec", __name__).register()

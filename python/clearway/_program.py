@@ -82,6 +82,13 @@ def programs() -> Path:
         "`./clearway python` in Clearway's tree, or set CLEARWAY_PROGRAMS to their folder")
 
 
+def shipped(name: str) -> Path | None:
+    """A file or folder that comes with Clearway: below CLEARWAY_HOME, or beside a folder above the programs, as the programs find it."""
+    home = os.environ.get("CLEARWAY_HOME")
+    folders = [Path(home)] if home else programs().resolve().parents
+    return next((folder / name for folder in folders if (folder / name).exists()), None)
+
+
 def environment() -> dict[str, str]:
     """The environment for Clearway's programs: parts in Python run in this very Python."""
     values = dict(os.environ)

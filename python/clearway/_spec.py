@@ -3,11 +3,33 @@ from __future__ import annotations
 
 import dataclasses
 import importlib
+import sys
 from typing import Any
+
+from . import _program
 
 #: Name and version of the environment: another number when the same words would make another one.
 ID = "clearway/Emergency-v0"
 ENTRY_POINT = "clearway.environment:Env"
+
+
+def register() -> None:
+    """Gives Gymnasium a name for each scenario that comes with Clearway: ``gymnasium.make("Clearway/intersection-v0")``.
+
+    Does nothing before Gymnasium is imported. Then it is called by ``import clearway``, or, where the package is installed, by
+    Gymnasium, which calls the entry points ``gymnasium.envs`` (python/install.py).
+    """
+    registration = sys.modules.get("gymnasium.envs.registration")
+    if registration is None:
+        return
+    try:
+        scenarios = _program.shipped("scenarios")
+    except _program.EnvironmentFault:  # programs that are not built are told where one is needed
+        return
+    for file in sorted(scenarios.glob("*/scenario.toml")) if scenarios else []:
+        name = f"Clearway/{file.parent.name}-v0"
+        if name not in registration.registry:
+            registration.register(id=name, entry_point=ENTRY_POINT, kwargs={"scenario": file.parent.name})
 
 
 @dataclasses.dataclass

@@ -104,6 +104,13 @@ class GymnasiumTest(FolderCase):
         with clearway.env("intersection", seeds=[0], variant="dense") as dense, dense.spec.make() as other:
             self.check_equal(other.reset()[0], dense.reset()[0])
 
+    def test_gymnasium_makes_one_by_name(self) -> None:
+        if is_stand_in(gymnasium):
+            self.skipTest("gymnasium is not installed (it is in no Debian package)")
+        with gymnasium.make("Clearway/intersection-v0", seeds=[0]) as made:
+            self.assertIsInstance(made.unwrapped, clearway.Env)
+            self.check_equal(made.reset(seed=0)[0], self.env.reset(seed=0)[0])
+
     def test_signature_of_reset(self) -> None:
         parameters = inspect.signature(self.env.reset).parameters
         self.assertEqual(list(parameters), ["seed", "options"])

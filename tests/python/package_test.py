@@ -1,10 +1,11 @@
 """Import, installation and what is said when something is missing."""
+import json
 import subprocess
 import sys
 import unittest
 
 import clearway
-from support import FolderCase, PROGRAMS, program, python
+from support import FolderCase, PROGRAMS, SOURCE, program, python
 
 
 class ImportTest(FolderCase):
@@ -41,6 +42,20 @@ class ImportTest(FolderCase):
         self.assertEqual(program("--version").split()[1], clearway.__version__)
 
 
+# As much of gymnasium as keeps names; a name that is given twice fails.
+REGISTRATION = """
+import json, sys, types
+registration = types.ModuleType("gymnasium.envs.registration")
+registration.registry = {}
+def register(id, **given):
+    assert id not in registration.registry
+    registration.registry[id] = given
+registration.register = register
+sys.modules["gymnasium"] = types.ModuleType("gymnasium")
+sys.modules["gymnasium.envs.registration"] = registration
+"""
+
+
 class InstallTest(FolderCase):
     code = "import clearway, clearway._program as p; print(clearway.__file__, p.programs())"
 
@@ -51,6 +66,17 @@ class InstallTest(FolderCase):
         self.assertEqual(ended.stdout.split(), [str(self.folder / "packages/clearway/__init__.py"), str(PROGRAMS)], ended.stderr)
         self.assertEqual(sorted(file.name for file in (self.folder / "packages").iterdir()),
                          ["clearway", f"clearway-{clearway.__version__}.dist-info"])
+
+    def test_gymnasium_is_told_a_name_for_each_scenario(self) -> None:
+        program("python", "--to", "packages")
+        scenarios = sorted(file.parent.name for file in SOURCE.glob("scenarios/*/scenario.toml"))
+        for way in ("import clearway",
+                    "import importlib.metadata as metadata\n"  # as gymnasium does at its own import
+                    "[point.load()() for point in metadata.entry_points(group='gymnasium.envs') if point.name == 'Clearway']"):
+            ended = python(REGISTRATION + way + "\nprint(json.dumps(registration.registry))", PYTHONPATH=str(self.folder / "packages"))
+            self.assertEqual((ended.returncode, ended.stderr), (0, ""))
+            self.assertEqual(json.loads(ended.stdout), {
+                f"Clearway/{name}-v0": {"entry_point": "clearway.environment:Env", "kwargs": {"scenario": name}} for name in scenarios})
 
     def test_into_a_virtual_environment_that_is_made(self) -> None:
         program("python", "--venv", "mine")
