@@ -79,7 +79,10 @@ void set_kinds(const Given& given, Kinds& target, Problems& problems) {
     std::istringstream parts(given.text);
     for (std::string part; std::getline(parts, part, ',');) {
         const std::size_t equals = part.find('=');
-        weights[part.substr(0, equals)] = equals == std::string::npos ? "" : part.substr(equals + 1);
+        const std::string kind = part.substr(0, equals);
+        const std::string weight = equals == std::string::npos ? "" : part.substr(equals + 1);
+        if (!weights.emplace(kind, weight).second)
+            problems.push_back({given.where + " " + kind, "is given twice", "each kind once", "Remove one"});
     }
     core::for_each_field<Kinds>([&](const auto& field) { target.*field.member = 0.0; });
     std::ranges::move(core::apply_settings(weights, given.where + " ", target), std::back_inserter(problems));
@@ -102,12 +105,25 @@ void apply_emergency_kinds(const Override& row, const Given& given, ScenarioConf
              "of each [[emergency_trip]]"});
 }
 
-/// An override that has the type, range and meaning of a key.
-Override of_key(const char* name, const char* option, const char* key,
-                decltype(Override::apply) apply = nullptr) {
+/// An override that has the type, range and meaning of a key, and sets it.
+Override of_key(const char* name, const char* option, const char* key) {
     core::SettingInfo value = detail::key_info(key);
     value.name = name;
-    return {std::move(value), option, key, apply};
+    return {std::move(value), option, key, {key}};
+}
+
+Override density_factor() {
+    Override density = of_key("density", "--density", "demand.density");
+    density.replaced.clear();
+    density.apply = apply_density;
+    return density;
+}
+
+Override automated_share() {
+    Override share = of_key("automated_share", "--av-share", "measured.automated_share");
+    share.replaced = {"measured.automated_share", "demand.human", "demand.automated"};
+    share.apply = apply_share;
+    return share;
 }
 
 /// One whose value is text that `apply` reads.
@@ -116,11 +132,12 @@ Override of_text(const char* name, const char* option, const char* key, const ch
     core::SettingInfo value;
     value.name = name;
     value.doc = doc;
-    return {std::move(value), option, key, apply};
+    return {std::move(value), option, key, {key}, apply};
 }
 
 Override dense_variant() {
     Override variant = of_text("variant", "--dense", "dense", "The scenario's dense variant", apply_variant);
+    variant.replaced = {"demand.emergency", "time.warm_up_s", "time.window_s"};
     variant.value.words = core::words_of<Variant>();
     variant.is_flag = true;
     return variant;
@@ -130,8 +147,8 @@ Override dense_variant() {
 std::vector<Override> make_overrides() {
     return {
         dense_variant(),
-        of_key("density", "--density", "demand.density", apply_density),
-        of_key("automated_share", "--av-share", "measured.automated_share", apply_share),
+        density_factor(),
+        automated_share(),
         of_text("traffic_kinds", "--kinds", "kinds.traffic", "Weights of the kinds of traffic: car=8,truck=2",
                 apply_kinds),
         of_text("emergency_kinds", "--emergency-kinds", "kinds.emergency",
@@ -167,6 +184,14 @@ const std::vector<Override>& overrides() {
 
 bool is_override(const std::string& name) {
     return find(name) != nullptr;
+}
+
+bool replaces(const std::string& name, const std::string& value, const std::string& key) {
+    const Override* const override = find(name);
+    if (override == nullptr || (override->is_flag && value != override->value.words.back())) return false;
+    return std::ranges::any_of(override->replaced, [&](const std::string& replaced) {
+        return key == replaced || key.starts_with(replaced + ".");
+    });
 }
 
 void read_overrides(core::StrictTable& table, Options& options) {

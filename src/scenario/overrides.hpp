@@ -17,6 +17,8 @@ struct Override {
     core::SettingInfo value;  ///< Its name in study files and in Python, unit, range, words and meaning.
     std::string option;       ///< On the command line: `--friction`.
     std::string key;          ///< The key that it sets: `road.friction`.
+    /// Keys, or tables of keys, whose value it replaces, whatever that was. One that multiplies has none.
+    std::vector<std::string> replaced = {};
     /// Changes the configuration, if it does more than set its key. Appends what is wrong with what was
     /// given.
     void (*apply)(const Override&, const Given&, ScenarioConfig&, std::vector<core::Problem>&) = nullptr;
@@ -29,6 +31,9 @@ struct Override {
 const std::vector<Override>& overrides();
 
 bool is_override(const std::string& name);
+
+/// Whether override `name` with this value replaces whatever else sets `key` of a scenario.
+bool replaces(const std::string& name, const std::string& value, const std::string& key);
 
 /// Reads those that the table sets. Values are checked when a scenario is loaded; problems then name the
 /// place in this table.

@@ -129,6 +129,31 @@ void add_scenario(const std::string& path, const scenario::Options& options, con
     }
 }
 
+/// Adds a problem for each factor that changes nothing because an override sets the same key, and for each
+/// override that a factor sets anew in every combination. One at a time, an override is the value of the
+/// scenario that is not varied.
+void check_overridden(const toml::table& overrides, const std::string& path, const detail::Factors& factors,
+                      TomlReading& reading) {
+    const StrictTable reader(overrides, path, reading);
+    for (const scenario::Override& override : scenario::overrides()) {
+        const std::string& name = override.value.name;
+        const toml::node* const node = overrides.get(name);
+        if (node == nullptr) continue;
+        const std::string text = detail::setting_value(*node).value_or("");
+        for (const detail::Factor& factor : factors.list) {
+            if (factor.group != "scenario") continue;
+            if (factor.key == name && factors.design == detail::Design::all_combinations) {
+                reading.problems.push_back({factor.where, "replaces " + reader.where(name), "one of the two",
+                                            "Remove the override, or list its value in the factor"});
+            } else if (scenario::replaces(name, text, factor.key)) {
+                reading.problems.push_back(
+                    {factor.where, fmt::format("changes nothing, because {} replaces it", reader.where(name)),
+                     "one of the two", "Remove the override, or the factor"});
+            }
+        }
+    }
+}
+
 /// Adds a `[[scenario]]`: a scenario under a name of its own, with overrides in addition to those of the
 /// study.
 // NOLINTNEXTLINE(readability-function-size): a table, what it is read with, and what it fills
@@ -169,6 +194,9 @@ void read_scenarios(StrictTable& root, const detail::Factors& factors, TomlReadi
                      "");
     const toml::table* const given = root.table("overrides");
     const toml::table overrides = given == nullptr ? toml::table{} : *given;
+    check_overridden(overrides, "overrides", factors, reading);
+    for (const toml::table* table : own)
+        check_overridden(*table, "scenario", factors, reading);
     for (const detail::Assignment& assignment : detail::combinations(factors, detail::Subject::scenarios)) {
         const scenario::Options options = options_with(overrides, assignment, reading);
         for (const std::string& name : names)

@@ -151,6 +151,78 @@ TEST_F(Factors, MayVaryASettingOnce) {
                 HasSubstr("sets nothing"));
 }
 
+TEST_F(Factors, OnWhatAnOverrideSetsAreRefusedWithBothPlaces) {
+    struct Case {
+        const char* override;
+        const char* factor;
+    };
+    for (const Case& one : {Case{"friction = 0.5", "road.friction = [0.3, 0.7]"},
+                            Case{"horizon_s = 900", "time.horizon_s = [600, 1200]"},
+                            Case{"variant = \"dense\"", "demand.emergency = [1, 2]"},
+                            Case{"variant = \"dense\"", "time.warm_up_s = [10, 20]"},
+                            Case{"automated_share = 0.5", "demand.human = [20, 40]"},
+                            Case{"traffic_kinds = \"car=8,truck=2\"", "kinds.traffic.truck = [0.1, 0.2]"}}) {
+        const std::string override(one.override);
+        const std::string factor(one.factor);
+        const std::string text =
+            problems("[overrides]\n" + override + "\n[factors]\nscenario." + factor + "\n");
+        EXPECT_THAT(
+            text, testing::ContainsRegex("study.toml:8:[0-9]+: factors.scenario." +
+                                         factor.substr(0, factor.find(' ')) + ": changes nothing, because "))
+            << factor;
+        EXPECT_THAT(text, HasSubstr("study.toml:6:1: overrides." + override.substr(0, override.find(' ')) +
+                                    " replaces it (allowed: one of the two). Remove the override"));
+    }
+}
+
+TEST_F(Factors, BesideAnOverrideThatLeavesTheirKeyAreRead) {
+    for (const char* const both :
+         {"[overrides]\nfriction = 0.5\n[factors]\nscenario.road.speed_factor = [0.7, 0.8]\n",
+          "[overrides]\ndensity = 2\n[factors]\nscenario.demand.density = [0.5, 1]\n",
+          "[overrides]\nvariant = \"standard\"\n[factors]\nscenario.demand.emergency = [1, 2]\n",
+          "[overrides]\nvariant = \"dense\"\n[factors]\nscenario.warm_up_s = [10, 20]\n"}) {
+        const StudyConfig config = read(both);
+        ASSERT_EQ(config.scenarios.size(), 2U) << both;
+        EXPECT_NE(scenario::configuration_hash(config.scenarios[0]),
+                  scenario::configuration_hash(config.scenarios[1]))
+            << both;
+    }
+}
+
+TEST_F(Factors, AndAnOverrideOfOneNameAreRefusedUnlessItIsTheUnvariedValue) {
+    const std::string overrides = "[overrides]\nfriction = 0.5\n[factors]\nscenario.friction = [0.3, 0.7]\n";
+    EXPECT_THAT(
+        problems(overrides),
+        testing::AllOf(testing::ContainsRegex("study.toml:8:[0-9]+: factors.scenario.friction: replaces "),
+                       HasSubstr("study.toml:6:1: overrides.friction (allowed: one of the two)")));
+    const StudyConfig config = read(overrides + "design = \"one_at_a_time\"\n");
+    ASSERT_EQ(config.scenarios.size(), 3U);
+    EXPECT_EQ(config.scenarios[0].road.friction, 0.5);
+    EXPECT_EQ(config.scenarios[1].road.friction, 0.3);
+}
+
+TEST_F(Factors, OnWhatAScenarioOfItsOwnSetsAreRefused) {
+    const std::string icy = "[[scenario]]\nname = \"icy\"\nfrom = \"merge\"\nfriction = 0.3\n[factors]\n";
+    EXPECT_THAT(problems(icy + "scenario.road.friction = [0.3, 0.7]\n"),
+                testing::AllOf(testing::ContainsRegex(
+                                   "study.toml:10:[0-9]+: factors.scenario.road.friction: changes nothing"),
+                               HasSubstr("study.toml:8:1: scenario.friction replaces it")));
+    EXPECT_THAT(problems(icy + "scenario.friction = [0.3, 0.7]\n"),
+                HasSubstr("study.toml:8:1: scenario.friction (allowed"));
+}
+
+TEST_F(Factors, TwoOnOneKeyAreRefused) {
+    EXPECT_THAT(problems("[factors]\nscenario.road.friction = [0.3, 0.7]\nscenario.friction = [0.4, 0.8]\n"),
+                testing::AllOf(testing::ContainsRegex(
+                                   "study.toml:6:[0-9]+: factors.scenario.road.friction: is replaced by "),
+                               HasSubstr("factors.scenario.friction (allowed: one factor")));
+    EXPECT_THAT(problems("[factors]\nscenario.variant = [\"standard\", \"dense\"]\n"
+                         "scenario.time.window_s = [100, 200]\n"),
+                HasSubstr("factors.scenario.time.window_s: is replaced by another factor"));
+    EXPECT_EQ(problems("[factors]\nscenario.variant = [\"standard\"]\nscenario.demand.emergency = [1, 2]\n"),
+              "none");
+}
+
 TEST_F(Factors, OneAtATimeAreOfScenariosOrOfConditions) {
     EXPECT_THAT(problems("[factors]\ndesign = \"one_at_a_time\"\nscenario.demand.human = [40, 80]\n"
                          "failure.dark_share = [0.1, 0.2]\n"),
@@ -198,8 +270,26 @@ TEST_F(Factors, ThatAreUnknownNameTheNearest) {
     EXPECT_THAT(problems("[factors]\npredictor = [\"none\"]\n"), HasSubstr("'condition.predictor'"));
     EXPECT_THAT(problems("[factors]\nloop.policy_perod_s = [1]\n"), HasSubstr("'policy_period_s'"));
     EXPECT_THAT(problems("[factors]\nscenario.demand.humn = [1]\n"),
-                testing::AllOf(HasSubstr("demand.humn"), HasSubstr("'human'")));
-    EXPECT_THAT(problems("[factors]\nscenario.name.x = [1]\n"), HasSubstr("name is not a table"));
+                testing::AllOf(HasSubstr("demand.humn"), HasSubstr("'scenario.demand.human'")));
+    EXPECT_THAT(problems("[factors]\nscenario.name.x = [1]\n"), HasSubstr("'name.x' is unknown"));
+}
+
+TEST_F(Factors, OfScenariosThatAreUnknownAreNamedOnceWithTheirPlace) {
+    const auto message = [&](const std::string& key) {
+        return problems("[factors]\nscenario." + key + " = [1, 2]\n");
+    };
+    EXPECT_THAT(
+        message("fricton"),
+        testing::AllOf(testing::ContainsRegex("study.toml:6:[0-9]+: factors.scenario.fricton: "),
+                       testing::EndsWith("'fricton' is unknown (allowed: overrides and keys of `clearway "
+                                         "list scenario-keys`). Did you mean 'scenario.friction'?"),
+                       testing::Not(HasSubstr("\n"))));
+    EXPECT_THAT(message("demand.humans"), HasSubstr("Did you mean 'scenario.demand.human'?"));
+    EXPECT_THAT(message("speed_factor_mean"),
+                HasSubstr("Did you mean 'scenario.drivers.speed_factor_mean'?"));
+    EXPECT_THAT(message("drivers.friction"), HasSubstr("Did you mean 'scenario.friction'?"));
+    EXPECT_THAT(message("flow.share"),
+                testing::ContainsRegex("study.toml:6:[0-9]+: factors.scenario.flow.share: 'flow.share' is"));
 }
 
 TEST_F(Factors, WithoutValuesOrWithWrongOnesAreRefused) {

@@ -8,6 +8,8 @@
 
 #include "core/folder_name.hpp"
 #include "experiment/settings.hpp"
+#include "scenario/keys.hpp"
+#include "scenario/overrides.hpp"
 #include "study/detail/read_settings.hpp"
 
 namespace clearway::study::detail {
@@ -165,6 +167,21 @@ void check_repeated(const std::vector<Factor>& factors, Problems& problems) {
     }
 }
 
+/// A factor on a key would change nothing where another factor is an override of that key.
+void check_replaced(const std::vector<Factor>& factors, Problems& problems) {
+    for (const Factor& factor : factors) {
+        for (const Factor& other : factors) {
+            if (factor.group != "scenario" || other.group != "scenario") continue;
+            const bool replaced = std::ranges::any_of(other.values, [&](const FactorValue& value) {
+                return &factor != &other && scenario::replaces(other.key, value.text, factor.key);
+            });
+            if (!replaced) continue;
+            problems.push_back({factor.where, fmt::format("is replaced by another factor, {}", other.where),
+                                "one factor for each key", "Remove one of them"});
+        }
+    }
+}
+
 /// One at a time, a scenario and a condition would still be varied together.
 void check_design(const Factors& factors, Problems& problems) {
     const auto of_scenarios = [](const Factor& factor) { return factor.group == "scenario"; };
@@ -175,6 +192,40 @@ void check_design(const Factors& factors, Problems& problems) {
             {first->where, "cannot be varied one at a time beside settings of conditions",
              "factors of scenarios or of conditions, because every condition runs in every scenario",
              "Use two study files, or design = \"all_combinations\""});
+}
+
+/// Keys that every scenario may have, and overrides.
+std::vector<std::string> scenario_names() {
+    std::vector<std::string> names;
+    for (const scenario::Override& override : scenario::overrides())
+        names.push_back(override.value.name);
+    for (const core::FieldTable& table : scenario::key_tables()) {
+        if (table.title.starts_with("[[")) continue;
+        for (const core::SettingInfo& row : table.rows)
+            names.push_back(row.name);
+    }
+    for (const char* const list : {"measured.routes", "measured.additional", "measured.persons"})
+        names.emplace_back(list);
+    return names;
+}
+
+/// Removes the factors that no scenario knows and adds a problem for each, so that not every scenario reports
+/// them.
+void drop_unknown_keys(std::vector<Factor>& factors, Problems& problems) {
+    const std::vector<std::string> known = scenario_names();
+    std::erase_if(factors, [&](const Factor& factor) {
+        const bool is_stretch = factor.key.starts_with("road.stretch.");  // its name is the scenario's own
+        if (factor.group != "scenario" || is_stretch || std::ranges::find(known, factor.key) != known.end())
+            return false;
+        // `drivers.speed_factor_mean` for `speed_factor_mean`
+        const auto same_end = std::ranges::find_if(
+            known, [&](const std::string& name) { return last_part(name) == last_part(factor.key); });
+        const std::string near = same_end == known.end() ? core::nearest(factor.key, known) : *same_end;
+        problems.push_back({factor.where, fmt::format("'{}' is unknown", factor.key),
+                            "overrides and keys of `clearway list scenario-keys`",
+                            near.empty() ? "" : fmt::format("Did you mean 'scenario.{}'?", near)});
+        return true;
+    });
 }
 
 void check_names(const std::vector<Factor>& factors, const SettingsPlace& settings, Problems& problems) {
@@ -249,8 +300,10 @@ Factors read_factors(const toml::table& table, const SettingsPlace& settings, Pr
                                 group == "failure" ? "Did you mean 'condition.failure'?" : ""});
         }
     }
+    drop_unknown_keys(factors.list, problems);
     check_names(factors.list, settings, problems);
     check_repeated(factors.list, problems);
+    check_replaced(factors.list, problems);
     check_design(factors, problems);
     return factors;
 }
