@@ -116,9 +116,14 @@ std::vector<links::LinkPredictor> predictors_of(const LinkRequest& request,
     return predictors;
 }
 
+/// The file of a benchmark that comes with Clearway.
+std::optional<fs::path> shipped_benchmark(const std::string& name) {
+    return core::shipped(fs::path("studies") / "links" / (name + ".toml"));
+}
+
 fs::path benchmark_file(const std::string& name) {
     if (fs::is_regular_file(name)) return name;
-    const auto found = core::shipped(fs::path("studies") / "links" / (name + ".toml"));
+    const auto found = shipped_benchmark(name);
     if (found) return *found;
     throw core::InputError({"--benchmark", fmt::format("`{}` is neither a benchmark nor a file", name),
                             "eval_v1, eval_v2, or a TOML file",
@@ -158,6 +163,12 @@ links::LinkBenchmark own_benchmark(const LinkRequest& request) {
         problems.push_back(
             {"SCENARIO", "is missing", "names, folders or files", "Or give --benchmark eval_v2"});
     for (const std::string& name : request.scenarios) {
+        if (shipped_benchmark(name)) {
+            problems.push_back({name, "is a benchmark and not a scenario",
+                                "names, folders or files of scenarios",
+                                fmt::format("Say --benchmark {}", name)});
+            continue;
+        }
         try {
             scenario::ScenarioConfig config = scenario::load(name, request.options);
             const std::string label = config.name;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -124,7 +125,7 @@ std::string names_of(std::span<const Verb> verbs) {
 
 /// `study status` for `status` and what is nearly that; a part is found without the word before it.
 std::string meant(const std::string& word) {
-    std::map<std::string, std::string> commands;
+    std::map<std::string, std::string> commands = {{"reproduce", "study studies/dissertation.toml"}};
     for (const Verb& verb : all_verbs) {
         commands.emplace(verb.name, verb.name);
         for (const Verb& part : verb.parts)
@@ -135,6 +136,18 @@ std::string meant(const std::string& word) {
         names.push_back(name);
     const std::string near = core::nearest(word, names);
     return near.empty() ? "" : commands.at(near);
+}
+
+/// What is wrong with the word behind a verb that takes a file or a part: it is no file and nearly a part.
+std::optional<std::string> part_problem(const Verb& verb, const std::string& word) {
+    std::vector<std::string> names;
+    for (const Verb& part : verb.parts)
+        names.emplace_back(part.name);
+    const std::string near = core::nearest(word, names);
+    if (near.empty() || near == word || word.starts_with('-') || std::filesystem::exists(word))
+        return std::nullopt;
+    return fmt::format("`{0} {1}` is not a verb, and {1} is not a file. Did you mean '{0} {2}'?", verb.name,
+                       word, near);
 }
 
 /// The message for a command line that cannot be parsed, as the verb that was called states it.
@@ -163,7 +176,8 @@ std::optional<std::string> verb_problem(int argument_count, const char* const* a
                                near.empty() ? fmt::format("; verbs are {}", names_of(known))
                                             : fmt::format(". Did you mean '{}'?", near));
         }
-        if (found->configure != nullptr) return std::nullopt;
+        if (found->configure != nullptr)
+            return at + 1 < argument_count ? part_problem(*found, arguments[at + 1]) : std::nullopt;
         known = found->parts;
         before = word + " ";
     }

@@ -141,6 +141,7 @@ struct Arguments {
     std::vector<std::string> words;
     Printing printing = Printing::text;
     bool as_markdown = false;
+    bool with_reasons = false;
 };
 
 /// What is wrong with `clearway list WORD`.
@@ -155,14 +156,19 @@ core::InputError unknown_list(const std::string& word, const std::vector<Referen
 }
 
 void list_settings(const Arguments& arguments) {
-    const std::vector<experiment::Component> components =
-        experiment::components_named(arguments.words.size() > 1 ? arguments.words.back() : "");
+    const std::string part = arguments.words.size() > 1 ? arguments.words.back() : "";
+    const std::vector<experiment::Component> components = experiment::components_named(part);
     if (arguments.as_markdown) {
         fmt::print("{}", experiment::settings_markdown(components));
     } else if (arguments.printing == Printing::json) {
         fmt::print("{}", experiment::settings_json(components));
-    } else {
+    } else if (arguments.with_reasons) {
         fmt::print("{}", experiment::settings_console(components));
+    } else if (!part.empty() && components.size() > 1) {
+        fmt::print("{}", experiment::settings_of_parts(part, components));
+    } else {
+        fmt::print("{}\nWhat each is and why it has its default: --reasons\n",
+                   experiment::settings_lines(components));
     }
 }
 
@@ -181,6 +187,8 @@ void list_page(const ReferencePage& page, const Arguments& arguments) {
 
 void list_alone(const Arguments& arguments) {
     const std::string word = arguments.words.empty() ? "" : arguments.words.front();
+    if (arguments.with_reasons && word != "settings")
+        throw core::InputError({"--reasons", "is for settings", "list settings", "Leave it out"});
     if (word == "settings") return list_settings(arguments);
     const std::vector<ReferencePage> pages = reference_pages();
     const auto found = std::ranges::find(pages, word, &ReferencePage::name);
@@ -198,9 +206,14 @@ Action configure_list(CLI::App& app) {
         ->expected(0, 2)
         ->option_text("settings [NAME]|columns|scenario-keys [the names alone]");
     add_json_option(app, arguments->printing, "the lists");
-    app.add_flag("--markdown", arguments->as_markdown, "Print them as the page of docs/reference has them");
+    app.add_flag("--markdown", arguments->as_markdown, "Print them as the page of docs/reference has them")
+        ->excludes("--json");
+    app.add_flag("--reasons", arguments->with_reasons,
+                 "With settings: what each is, and why it has its default [a line for each]")
+        ->excludes("--json")
+        ->excludes("--markdown");
     return [arguments](const Invocation&) {
-        if (!arguments->words.empty() || arguments->as_markdown) {
+        if (!arguments->words.empty() || arguments->as_markdown || arguments->with_reasons) {
             list_alone(*arguments);
             return core::ExitCode::ok;
         }

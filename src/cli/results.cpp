@@ -66,7 +66,9 @@ Action configure_results(CLI::App& app) {
         "Print a JSON array with an object for each row [off]");
     csv->excludes(json);
     app.add_flag_callback(
-        "--list", [arguments] { arguments->asked = Asked::names; }, "Print the names of the tables [off]");
+           "--list", [arguments] { arguments->asked = Asked::names; }, "Print the names of the tables [off]")
+        ->excludes(csv)
+        ->excludes(json);
     return [arguments](const Invocation&) { return print_results(*arguments); };
 }
 

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,6 +12,30 @@
 
 namespace clearway::cli {
 
+namespace {
+
+/// What `clearway links train --help` says where the trainer cannot say it.
+constexpr const char* help_without_trainer =
+    "Train a net of link prediction.\n"
+    "Usage: clearway links train NET --data DIR --out DIR [OPTIONS]\n\n"
+    "Nets:\n"
+    "  graphsage                recommended: the net that repairs links best\n"
+    "  gradient_boosting        boosted trees on the same data\n"
+    "To compare, and to repeat the dissertation:\n"
+    "  logistic, graphsage_corrected, gcn, gat, graphsage_as_published\n\n"
+    "The program that trains, clearway-train, is not built yet: only training needs\n"
+    "libtorch and XGBoost. `./clearway links train` installs them and builds it.\n"
+    "Then `clearway links train NET --help` describes the options of a net.\n\n"
+    "Example:\n"
+    "  clearway links train graphsage --data data/graphsage --out trained/graphsage\n";
+
+bool asks_for_help(const std::vector<std::string>& words) {
+    return std::ranges::any_of(words,
+                               [](const std::string& word) { return word == "--help" || word == "-h"; });
+}
+
+}  // namespace
+
 /// clearway-train parses its own arguments, so that this program does not need libtorch.
 Action configure_train(CLI::App& app) {
     app.set_help_flag();  // clearway-train prints its own help
@@ -17,7 +43,12 @@ Action configure_train(CLI::App& app) {
     CLI::App* const command = &app;
     return [command](const Invocation&) -> core::ExitCode {
         const std::string trainer = campaign::sister_program("clearway-train");
-        if (!std::filesystem::exists(trainer))
+        const bool is_built = std::filesystem::exists(trainer);
+        if (!is_built && asks_for_help(command->remaining())) {
+            fmt::print("{}", help_without_trainer);
+            return core::ExitCode::ok;
+        }
+        if (!is_built)
             throw core::EnvironmentError(
                 fmt::format("clearway-train is not built, because {}", campaign::why_no_trainer));
         campaign::become(trainer, command->remaining());

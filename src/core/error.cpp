@@ -57,7 +57,9 @@ std::string listed(const std::vector<std::string>& words) {
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
     std::string best;
-    std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+    // At most two letters or a third of the word, and never all of it.
+    const std::size_t most = std::max(std::min<std::size_t>(2, word.size() / 2), word.size() / 3);
+    std::size_t best_distance = most + 1;
     for (const std::string& candidate : candidates) {
         const std::size_t distance = edit_distance(word, candidate);
         if (distance < best_distance) {
@@ -65,7 +67,12 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
             best = candidate;
         }
     }
-    return best;
+    if (best_distance <= 1) return best;
+    // The beginning of one word alone: `traj` for `trajectories`.
+    const auto begins = [&](const std::string& candidate) { return candidate.starts_with(word); };
+    constexpr std::size_t least_letters = 3;
+    const bool is_one = word.size() >= least_letters && std::ranges::count_if(candidates, begins) == 1;
+    return is_one ? *std::ranges::find_if(candidates, begins) : best;
 }
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates,

@@ -1,5 +1,7 @@
 #include "core/field_page.hpp"
 
+#include <algorithm>
+
 #include "core/json.hpp"
 #include "core/usage.hpp"
 
@@ -7,7 +9,7 @@ namespace clearway::core {
 namespace {
 
 /// `text` in lines of a terminal, each behind `indent` spaces.
-std::string field_lines(const std::string& text, std::size_t indent) {
+std::string indented(const std::string& text, std::size_t indent) {
     return wrapped(std::string(indent, ' ') + text, indent) + "\n";
 }
 
@@ -52,20 +54,38 @@ std::string head_of(const SettingInfo& row, FieldUse use) {
 }
 
 std::string console_row(const SettingInfo& row, FieldUse use) {
-    std::string text = field_lines(head_of(row, use), 2) + field_lines(without_full_stop(row.doc) + ".", 6);
+    std::string text = indented(head_of(row, use), 2) + indented(without_full_stop(row.doc) + ".", 6);
     if (!row.source.empty())
-        text += field_lines(
-            (use == FieldUse::read ? "From: " : "Why: ") + without_full_stop(row.source) + ".", 6);
+        text +=
+            indented((use == FieldUse::read ? "From: " : "Why: ") + without_full_stop(row.source) + ".", 6);
     return text;
 }
 
 }  // namespace
 
+std::string field_lines(const std::vector<FieldTable>& tables) {
+    std::string text;
+    for (const FieldTable& table : tables) {
+        text += text.empty() ? "" : "\n";
+        text += indented(fmt::format("{}: {}", table.title, table.summary), 0);
+        std::size_t width = 0;
+        for (const SettingInfo& row : table.rows)
+            width = std::max(width, row.name.size());
+        for (const SettingInfo& row : table.rows) {
+            const std::string preset = row.preset + (unit_of(row).empty() ? "" : " ") + unit_of(row);
+            const std::string range = range_of(row);
+            text += fmt::format("  {:<{}}  {:<10}{}{}\n", row.name, width, preset, range.empty() ? "" : "  ",
+                                range);
+        }
+    }
+    return text;
+}
+
 std::string fields_console(const std::vector<FieldTable>& tables, FieldUse use) {
     std::string text;
     for (const FieldTable& table : tables) {
         text += text.empty() ? "" : "\n";
-        text += field_lines(fmt::format("{}: {}", table.title, table.summary), 0);
+        text += indented(fmt::format("{}: {}", table.title, table.summary), 0);
         for (const SettingInfo& row : table.rows)
             text += console_row(row, use);
     }

@@ -20,6 +20,8 @@ enum class FieldUse {
     read,  ///< Reads them: the origin is shown.
 };
 
+/// One line for each field that is set: name, default, unit and allowed values.
+std::string field_lines(const std::vector<FieldTable>& tables);
 /// Every field with unit, meaning and what `use` asks for, in 80 columns.
 std::string fields_console(const std::vector<FieldTable>& tables, FieldUse use);
 /// A list of objects with `table`, `name`, `unit`, `default`, `minimum` and `maximum` or `words`,

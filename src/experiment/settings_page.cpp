@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/field_page.hpp"
+#include "core/usage.hpp"
 #include "policy/policy.hpp"
 
 namespace clearway::experiment {
@@ -84,6 +85,19 @@ std::vector<Component> components_named(const std::string& name) {
                                 core::did_you_mean(name, known)});
     }
     return found;
+}
+
+std::string settings_lines(const std::vector<Component>& components) {
+    return core::field_lines(with_shared_rows(field_tables(components)));
+}
+
+std::string settings_of_parts(const std::string& policy, const std::vector<Component>& parts) {
+    std::string text = core::wrapped(
+        fmt::format("{}: no settings of its own; it has those of the policies that it combines", policy), 0);
+    for (const Component& part : parts)
+        text += fmt::format("\n  {:<16} {:2} settings: clearway list settings {}", part.name,
+                            part.table.rows.size(), part.name);
+    return text + "\n";
 }
 
 std::string settings_console(const std::vector<Component>& components) {

@@ -11,8 +11,12 @@ namespace clearway::experiment {
 /// name. Throws core::InputError for an unknown name, suggesting the nearest.
 std::vector<Component> components_named(const std::string& name);
 
-/// Every setting with unit, range, default and reason, in 80 columns.
+/// A line for each setting: name, default, unit and allowed values.
+std::string settings_lines(const std::vector<Component>& components);
+/// Every setting with unit, range, default, meaning and reason, in 80 columns.
 std::string settings_console(const std::vector<Component>& components);
+/// The parts that a policy combines, and the command that lists the settings of each.
+std::string settings_of_parts(const std::string& policy, const std::vector<Component>& parts);
 /// The same as a JSON list of objects.
 std::string settings_json(const std::vector<Component>& components);
 /// The page `docs/reference/settings.md`: one table per component.

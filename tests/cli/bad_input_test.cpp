@@ -111,6 +111,39 @@ TEST_F(BadInputTest, settings_and_models_are_checked_before_anything_runs) {
     EXPECT_THAT(clearway({"list", "setings"}).err, HasSubstr("cannot be listed alone"));
 }
 
+TEST_F(BadInputTest, a_name_without_a_condition_and_options_for_several_are_refused) {
+    write_line_scenario();
+    const auto refused = [&](std::vector<std::string> words, const std::string& message) {
+        words.insert(words.begin(), {"run", "line", "--out", "out"});
+        const Ended ended = clearway(words);
+        EXPECT_EQ(ended.code, 3) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(message));
+        EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+    };
+    refused({"--name", "mine"}, "--name: `mine` names no condition, because none of your own is described");
+    refused({"--condition", "corridor", "--name", "mine"}, "Describe a condition, or leave --name out");
+    refused({"--policy", "none", "--name", "mine"}, "--name: `mine` names no condition");
+    refused({"--condition", "graph_simulation", "solo", "--failure", "B10"},
+            "--condition: names graph_simulation, solo, and the options change one condition");
+    refused({"--condition", "graph_simulatoin"}, "Did you mean 'graph_simulation'?");
+}
+
+TEST_F(BadInputTest, a_benchmark_that_is_given_as_a_scenario_is_named_with_its_option) {
+    const Ended ended = clearway({"links", "evaluate", "eval_v1", "--out", "out"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, HasSubstr("eval_v1: is a benchmark and not a scenario (allowed: names, folders or "
+                                     "files of scenarios). Say --benchmark eval_v1"));
+}
+
+TEST_F(BadInputTest, kinds_given_twice_are_refused) {
+    write_line_scenario();
+    const Ended ended = clearway({"run", "line", "--kinds", "car=8,truck=2,car=3", "--out", "out"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, HasSubstr("--kinds car: is given twice"));
+    EXPECT_THAT(clearway({"run", "line", "--emergency-kinds", "ambulance=1,ambulance=2", "--out", "out"}).err,
+                HasSubstr("--emergency-kinds ambulance: is given twice"));
+}
+
 TEST_F(BadInputTest, fields_of_a_failure_are_checked_before_anything_runs) {
     write_line_scenario();
     const Ended ended = clearway({"run", "line", "--out", "out", "--failure",

@@ -136,6 +136,36 @@ TEST_F(HelpTest, a_part_of_a_verb_is_found_without_the_verb_and_with_another) {
     EXPECT_THAT(clearway({"scenario", "zzz"}).err, HasSubstr("verbs are init, import, check, signals"));
 }
 
+TEST_F(HelpTest, a_word_that_is_nearly_a_part_and_no_file_names_the_part) {
+    const Ended ended = clearway({"study", "statuss", "runs/mine"});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, HasSubstr("`study statuss` is not a verb, and statuss is not a file. Did you mean "
+                                     "'study status'?"));
+    EXPECT_THAT(clearway({"python", "environmnt"}).err, HasSubstr("Did you mean 'python environment'?"));
+    write("statuss", "seeed = 4");
+    EXPECT_THAT(clearway({"study", "statuss"}).err, HasSubstr("statuss:1:")) << "a file of this name is read";
+}
+
+TEST_F(HelpTest, reproduce_names_the_study_file_of_the_dissertation) {
+    const Ended ended = clearway({"reproduce"});
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, HasSubstr("Did you mean 'study studies/dissertation.toml'?"));
+}
+
+TEST_F(HelpTest, flags_that_json_excludes_are_named_with_it) {
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"list", "settings", "--json", "--markdown"},
+                                               {"list", "settings", "--json", "--reasons"},
+                                               {"export", "results", "out", "--json", "--list"},
+                                               {"replay", "out/a/b/0", "--json", "--csv", "belief"},
+                                               {"replay", "out/a/b/0", "--json", "--view"}}) {
+        const Ended ended = clearway(words);
+        EXPECT_EQ(ended.code, 2) << core::shell_text(words);
+        EXPECT_THAT(ended.err, HasSubstr("--json excludes --")) << core::shell_text(words);
+        EXPECT_THAT(ended.out, IsEmpty());
+    }
+}
+
 TEST_F(HelpTest, a_study_asks_for_its_file_and_its_parts_for_their_own) {
     EXPECT_THAT(clearway({"study"}).err, HasSubstr("clearway study: file is required"));
     EXPECT_THAT(clearway({"study", "status"}).err, HasSubstr("clearway study status: folder is required"));
@@ -224,6 +254,19 @@ TEST_F(HelpTest, reference_pages_are_those_that_are_committed) {
     }
 }
 
+TEST_F(HelpTest, settings_are_a_line_each_and_have_reasons_where_they_are_asked_for) {
+    const auto count = [](const std::string& text) { return std::ranges::count(text, '\n'); };
+    const std::string lines = clearway({"list", "settings", "failure"}).out;
+    EXPECT_THAT(lines,
+                AllOf(HasSubstr("failure.loss_rate"), HasSubstr("--reasons"), Not(HasSubstr("Why: "))));
+    EXPECT_LE(count(lines), 60);
+    const std::string reasons = clearway({"list", "settings", "failure", "--reasons"}).out;
+    EXPECT_THAT(reasons, AllOf(HasSubstr("failure.loss_rate"), HasSubstr("Why: ")));
+    EXPECT_THAT(clearway({"list", "settings", "corridor"}).out,
+                AllOf(HasSubstr("clearway list settings clear_lane"), Not(HasSubstr("lead_s"))));
+    EXPECT_EQ(clearway({"list", "columns", "--reasons"}).code, 3);
+}
+
 TEST_F(HelpTest, a_list_that_is_unknown_is_told_the_nearest) {
     const Ended ended = clearway({"list", "colums"});
     EXPECT_EQ(ended.code, 3);
@@ -254,6 +297,11 @@ TEST_F(HelpTest, without_the_trainer_train_says_what_to_do_and_doctor_finds_all_
     const core::Exit trained =
         core::run({folder() / "clearway", {"links", "train", "graphsage"}, {}, folder() / "train.txt"});
     EXPECT_EQ(trained.code, 4);
+    const core::Exit helped =
+        core::run({folder() / "clearway", {"links", "train", "--help"}, {}, folder() / "help.txt"});
+    EXPECT_EQ(helped.code, 0);
+    EXPECT_THAT(read("help.txt"), AllOf(HasSubstr("Usage: clearway links train NET"), HasSubstr("graphsage"),
+                                        HasSubstr("is not built"), HasSubstr("Example:")));
     EXPECT_THAT(read("train.txt"),
                 AllOf(HasSubstr("clearway-train is not built"), HasSubstr("./clearway links train")));
     const core::Exit fit = core::run({folder() / "clearway", {"doctor"}, {}, folder() / "doctor.txt"});

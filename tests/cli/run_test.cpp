@@ -75,6 +75,7 @@ TEST_F(RunTest, settings_change_the_usual_condition_or_the_one_that_is_named) {
                 ElementsAre("baseline", "corridor_lead_s_12"));
     EXPECT_THAT(conditions({"--condition", "graph_simulation", "--set", "dissertation.ahead_m=80"}, "named"),
                 ElementsAre("baseline", "graph_simulation", "dissertation_ahead_m_80"));
+    EXPECT_THAT(conditions({"--policy", "none"}, "none"), ElementsAre("baseline"));
     EXPECT_THAT(conditions({"--policy", "none", "--set", "siren.compliance=1"}, "sirens"),
                 ElementsAre("baseline_compliance_1", "no_policy_compliance_1"));
 }

@@ -46,6 +46,21 @@ TEST(Nearest, FindsTheWordThatWasMeant) {
     EXPECT_EQ(nearest("x", {}), "");
 }
 
+TEST(Nearest, LeavesHalfOfAShortWord) {
+    EXPECT_EQ(nearest("on", {"ab", "off"}), "");
+    EXPECT_EQ(nearest("gta", {"run", "gcn"}), "");
+    EXPECT_EQ(nearest("gan", {"run", "gcn"}), "gcn");
+    EXPECT_EQ(nearest("lst", {"run", "list"}), "list");
+    EXPECT_EQ(nearest("x", {"y"}), "");
+}
+
+TEST(Nearest, TakesTheBeginningOfOneWordAlone) {
+    EXPECT_EQ(nearest("traj", {"train", "trajectories"}), "trajectories");
+    EXPECT_EQ(nearest("traj", {"trajectory_of_all", "trajectories"}), "");
+    EXPECT_EQ(nearest("tr", {"figures", "trajectories"}), "");
+    EXPECT_EQ(nearest("seed", {"sees", "seeds_of_all"}), "sees") << "one letter is nearer";
+}
+
 TEST(Nearest, PrefersTheSmallerDistanceThenTheEarlierWord) {
     EXPECT_EQ(nearest("lanes", {"lines", "lane", "lanes_m"}), "lines");
     EXPECT_EQ(nearest("lanes", {"planets", "lane"}), "lane");

@@ -281,6 +281,36 @@ TEST(SettingsPage, OfAPolicyThatCombinesOthersHasTheirs) {
     }
 }
 
+TEST(SettingsPage, HasALineForEachSettingOfAPart) {
+    const std::string text = settings_lines(components_named("preempt_signals"));
+    EXPECT_THAT(text, testing::ContainsRegex("\n  preempt_signals.lead_s +8 s +0 to 60\n"));
+    EXPECT_THAT(text, testing::ContainsRegex("\n  preempt_signals.memory +forget +forget, hold_eta, "));
+    for (const Component& component : components()) {
+        const std::string lines = settings_lines({component});
+        EXPECT_EQ(std::ranges::count(lines, '\n'), 1U + component.table.rows.size());
+        EXPECT_LE(std::ranges::count(lines, '\n'), 60) << component.name << " does not fit on a page";
+    }
+}
+
+TEST(SettingsPage, OfACombinationPointsToItsParts) {
+    const std::string text = settings_of_parts("corridor", components_named("corridor"));
+    EXPECT_THAT(text, testing::StartsWith("corridor: no settings of its own"));
+    EXPECT_THAT(text, testing::ContainsRegex("give_way +[0-9]+ settings: clearway list settings give_way\n"));
+    EXPECT_THAT(text, testing::Not(HasSubstr("lead_s")));
+}
+
+TEST(SettingsPage, ListsASettingThatPartsShareOnce) {
+    const std::string text = settings_lines(components());
+    std::set<std::string> names;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("  ")) continue;
+        const std::string name = line.substr(2, line.find(' ', 2) - 2);
+        EXPECT_TRUE(names.insert(name).second) << name << " is listed twice";
+    }
+    EXPECT_TRUE(names.contains("PART.lease_s"));
+}
+
 TEST(Settings, AComplianceOutsideZeroToOneIsRefused) {
     EXPECT_THAT(problems_of("requests.compliance", "1.5"),
                 testing::AllOf(HasSubstr("requests.compliance: 1.5 is out of range"), HasSubstr("0 to 1")));

@@ -21,15 +21,24 @@ bool has_own_condition(const experiment::ConditionSpec& own) {
 
 /// The condition that the options describe. Without --policy they change the one that is named with
 /// --condition, or else the usual one; `--policy none` and device.bluelight mean the car-following model
-/// alone.
+/// alone. Throws core::InputError if they would change several.
 experiment::ConditionSpec own_condition(const ConditionWords& words,
                                         const std::vector<experiment::ConditionSpec>& chosen) {
     DescribedCondition described = words.own;
     experiment::ConditionSpec& own = described.condition;
     const bool names_policies = !own.policies.empty();
     const bool changes = has_own_condition(condition_of(described));
-    if (names_policies || !changes || own.bluelight == traffic::BlueLight::on || chosen.size() > 1)
-        return condition_of(described);
+    if (names_policies || !changes || own.bluelight == traffic::BlueLight::on) return condition_of(described);
+    if (chosen.size() > 1) {
+        std::vector<std::string> names;
+        for (const experiment::ConditionSpec& condition : chosen)
+            names.push_back(condition.name);
+        throw core::InputError(
+            {"--condition",
+             fmt::format("names {}, and the options change one condition", core::listed(names)),
+             "one condition to change, or several as they are",
+             "Leave one, or describe a condition of your own with --policy"});
+    }
     const experiment::ConditionSpec base =
         chosen.empty() ? experiment::built_in_condition(experiment::usual_condition, "--condition")
                        : chosen.front();
@@ -60,7 +69,16 @@ std::vector<experiment::ConditionSpec> chosen_conditions(const ConditionWords& w
             throw core::InputError(
                 {"--name", fmt::format("`{}` is a built-in condition", own.name), "", "Choose another name"});
         add_once(chosen, own);
+        return chosen;
     }
+    if (!own.name.empty())
+        throw core::InputError(
+            {"--name",
+             fmt::format("`{}` names no condition, because none of your own is described", own.name),
+             "a name beside --policy, --failure, --predictor, --set or another option of a condition",
+             "Describe a condition, or leave --name out"});
+    if (!words.own.condition.policies.empty())
+        add_once(chosen, experiment::built_in_condition("baseline", "--policy"));
     return chosen;
 }
 
