@@ -49,7 +49,7 @@ core::SettingsTable actuation_table() {
                           "Signals that take part in policies: their ids separated by commas, `all` or "
                           "`none`. The others hear "
                           "no request and keep their programs",
-                          "all: as all figures were measured that do not name it"});
+                          "all: as in all results that do not name it"});
     table.check = [](const core::Settings& settings, const std::string& where) {
         core::Settings numbers = settings;
         std::vector<core::Problem> problems;

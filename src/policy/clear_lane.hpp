@@ -35,8 +35,7 @@ struct ClearLaneConfig : AskSettings {
         using core::Field;
         return std::make_tuple(
             Field{"horizon_m", "m", &C::horizon_m, 1.0, 1000.0, "Lanes are cleared this far ahead",
-                  "300 m helped less in the merge scenario and cost others 2 to 7 % of time loss (measured "
-                  "when lanes were compared over 800 m)"},
+                  "trials at the merge: 300 m helps less and costs others more"},
             Field{"beside_m", "m", &C::beside_m, 0.0, 100.0,
                   "An automated vehicle at most this far behind the emergency vehicle's front opens a gap",
                   "assumed: a gap of two cars"},
@@ -49,7 +48,7 @@ struct ClearLaneConfig : AskSettings {
             Field{"gap_worth_s", "s", &C::gap_worth_s, 0.0, 60.0,
                   "If there is no gap alongside, the emergency vehicle falls back to one when the lane gains "
                   "this",
-                  "measured at the dense merge: 2 s is no better"},
+                  "trials at the dense merge: 2 s is no better"},
             Field{"usual_headway_s", "s", &C::usual_headway_s, 0.1, 5.0,
                   "Headway that a gap must leave to the vehicles ahead and behind",
                   "Intelligent Driver Model"},
@@ -58,15 +57,14 @@ struct ClearLaneConfig : AskSettings {
                   "assumed: half"},
             Field{"fall_back_mps", "m/s", &C::fall_back_mps, 0.1, 20.0,
                   "The emergency vehicle falls back by at most this relative to that lane's traffic",
-                  "measured: 3 m/s helped less"},
+                  "trials: 3 m/s helps less"},
             Field{"fall_back_s", "s", &C::fall_back_s, 0.5, 60.0,
                   "And only as fast as needed to reach the gap in this time", "assumed"},
             Field{"keep_open_m", "m", &C::keep_open_m, 0.0, 500.0,
                   "An automated vehicle less than this behind such a gap keeps it open",
-                  "measured: 90 m is no better"},
+                  "trials: 90 m is no better"},
             Field{"choice_m", "m", &C::choice_m, 1.0, 5000.0, "Stretch over which lanes are compared",
-                  "800 m (with worth_s 1) cut the EVs' time loss by 3 % less at the sparse merge, by 0.7 % "
-                  "more at the dense one; 1200 m by 2 % more at the sparse one, at the others' cost"},
+                  "trials at the merge: 800 m helps less in sparse traffic, 1200 m costs others more"},
             Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
                   "assumed: walking pace is 1.4 m/s"},
             Field{"halted_delay_s", "s", &C::halted_delay_s, 0.0, 60.0,

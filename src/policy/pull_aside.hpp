@@ -21,12 +21,10 @@ struct PullAsideConfig : detail::LanePlanConfig {
         using core::Field;
         const auto own = std::make_tuple(
             Field{"horizon_m", "m", &C::horizon_m, 10.0, 2000.0, "Vehicles this far ahead pull aside",
-                  "first trials: the length of a queue"},
+                  "assumed: the length of a queue"},
             Field{"slow_share", "1", &C::slow_share, 0.01, 2.0,
                   "Only those slower than this share of the emergency vehicle's allowed speed",
-                  "trials on the arterial, 10 pairs each: against 0.6 the emergency vehicle gains 6 to 52 s "
-                  "and "
-                  "others up to 45 s, most where a quarter does not cooperate"},
+                  "trials on the arterial: better than 0.6 for the emergency vehicle and for others"},
             detail::lifetime_field<C>());
         return std::tuple_cat(own, detail::LanePlanConfig::fields());
     }

@@ -27,8 +27,8 @@ struct RecoverSignalsConfig {
             Field{"near_m", "m", &C::near_m, 1.0, 2000.0,
                   "A signal counts as disturbed once an emergency vehicle is this near", "assumed"},
             Field{"lasting_s", "s", &C::lasting_s, 0.0, 600.0, "And for this long after it has passed",
-                  "dense intersection: the others lost 5 % more time than the baseline at 20 s, 3 % at 60 s, "
-                  "1 % at 120 s, where emergency vehicles gained less"},
+                  "trials at the dense intersection: others lose more at 20 s, emergency vehicles gain less "
+                  "at 120 s"},
             Field{"close_m", "m", &C::close_m, 0.0, 300.0,
                   "Moving vehicles closer than this to the stop line count as waiting, too", "assumed"},
             Field{"change_vehicles", "1", &C::change_vehicles, 0.0, 50.0,
@@ -43,7 +43,7 @@ struct RecoverSignalsConfig {
                   "Vehicles do not count whose way behind the signal has less than this free of standing "
                   "vehicles; "
                   "0: however full it is",
-                  "0: as all figures were measured that do not name it"},
+                  "0: however full, as in all results that do not name it"},
             Field{"short_block_m", "m", &C::short_block_m, 0.0, 1000.0,
                   "Signals on closed loops of blocks shorter than this keep their cycle; 0: none does",
                   "docs/findings/short-blocks.md; no scenario of the other findings has such loops"});

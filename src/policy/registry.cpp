@@ -77,17 +77,19 @@ const traffic::Registry<PolicyEntry>& policies() {
                                   "preempt_signals, recover_signals, clear_lane and give_way together",
                                   {"preempt_signals", "recover_signals", "clear_lane", "give_way"}),
             entry<GreenWave, GreenWaveConfig>(
-                "green_wave", "Opponent: green at every signal on the route, planned once by arrival times",
+                "green_wave",
+                "For comparison: green at every signal on the route, planned once by arrival times",
                 {Trait::asks_signals, Trait::compares_only}),
             entry<CheckInOut, CheckInOutConfig>(
                 "check_in_out",
-                "Opponent: a detector before the stop line calls green, one behind it releases",
+                "For comparison: a detector before the stop line calls green, one behind it releases",
                 {Trait::asks_signals, Trait::compares_only}),
             entry<LineOfSight, LineOfSightConfig>(
-                "line_of_sight", "Opponent: an optical emitter calls green while the signal is in its beam",
+                "line_of_sight",
+                "For comparison: an optical emitter calls green while the signal is in its beam",
                 {Trait::asks_signals, Trait::compares_only}),
             entry<RedPrivilege, RedPrivilegeConfig>(
-                "red_privilege", "Opponent: the emergency vehicle passes red slowly and yielding",
+                "red_privilege", "For comparison: the emergency vehicle passes red slowly and yielding",
                 {Trait::compares_only}),
             entry<VacateLane, VacateLaneConfig>(
                 "vacate_lane", "Vehicles leave the emergency vehicle's way, planned round those who will not",

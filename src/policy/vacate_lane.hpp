@@ -21,11 +21,11 @@ struct VacateLaneConfig : detail::LanePlanConfig {
     static constexpr auto fields() {
         using C = VacateLaneConfig;
         using core::Field;
-        const auto own = std::make_tuple(
-            Field{"horizon_m", "m", &C::horizon_m, 10.0, 2000.0,
-                  "The way is planned and vacated this far ahead",
-                  "first trials: 150 to 300 m is the better trade against 800 m, which cost others more"},
-            detail::lifetime_field<C>());
+        const auto own =
+            std::make_tuple(Field{"horizon_m", "m", &C::horizon_m, 10.0, 2000.0,
+                                  "The way is planned and vacated this far ahead",
+                                  "trials: 800 m costs others more than the emergency vehicle gains by it"},
+                            detail::lifetime_field<C>());
         return std::tuple_cat(own, detail::LanePlanConfig::fields());
     }
 };

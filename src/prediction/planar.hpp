@@ -9,7 +9,7 @@
 
 namespace clearway::prediction {
 
-// Opponents that do not use the road network: they move vehicles and judge links in the plane. The position
+// Comparisons that do not use the road network: they move vehicles and judge links in the plane. The position
 // on the map (lane, lane position, position in the route), which policies also need, is that of dead
 // reckoning along the route. Where exits are not known, a vehicle that its speed took past the end of its
 // route has left.

@@ -28,7 +28,7 @@ struct RouteRuleConfig {
     static constexpr auto fields() {
         using C = RouteRuleConfig;
         constexpr const char* queues =
-            "of those tried (1, 1.5, 2; 3.5, 5, 8) the best AP in B20 on study seed 7001";
+            "the best average precision in B20 of those tried, 1 to 8, on a seed of its own";
         return std::make_tuple(
             core::Field{"start_acceleration_mps2", "m/s2", &C::start_acceleration_mps2, 0.0, 10.0,
                         "Acceleration of a vehicle that was seen standing, once its light is green and the "

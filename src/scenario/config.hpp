@@ -120,7 +120,7 @@ struct Times {
                         "Emergency vehicles depart at this time or later.",
                         "60 s: the first vehicles have passed most of the road"},
             core::Field{"window_s", "s", &S::window_s, 1.0, 86400.0, "All vehicles depart in [0, window_s].",
-                        "facts of the project: 100, 120, 200 s"},
+                        "assumed: 100 to 200 s for the counts of TABLE I"},
             core::Field{
                 "horizon_s", "s", &S::horizon_s, 1.0, 604800.0,
                 "A run that is not over by then is cut off, and its vehicles count as running at end.",
@@ -171,12 +171,12 @@ struct Dense {
         using S = Dense;
         return std::make_tuple(
             core::Field{"factor", "1", &S::factor, 0.0, 100.0, "Factor on human and automated vehicles.",
-                        "facts of the project: 10, 7, 8"},
+                        "assumed: 7 to 10 times the counts of TABLE I"},
             core::Field{"emergency", "1", &S::emergency, 0.0, 1000.0, "Emergency vehicles.",
-                        "facts of the project: 6, 6, 14"},
+                        "assumed: twice as many as usual, or more"},
             core::Field{"warm_up_s", "s", &S::warm_up_s, 0.0, 86400.0, "See time.warm_up_s.", "scenario"},
             core::Field{"window_s", "s", &S::window_s, 1.0, 86400.0, "See time.window_s.",
-                        "facts of the project: 400, 400, 600 s"});
+                        "assumed: 400 to 600 s, so that the dense demand can enter"});
     }
 };
 
@@ -217,13 +217,14 @@ struct Drivers {
                         "docs/decisions/0001-step-length.md"},
             core::Field{"speed_factor_mean", "1", &S::speed_factor_mean, 0.1, 3.0,
                         "Human drivers: mean ratio of desired speed to road limit.",
-                        "facts of the project: N(1, 0.1)"},
+                        "assumed: N(1, 0.1), SUMO's usual spread of passenger cars"},
             core::Field{"speed_factor_deviation", "1", &S::speed_factor_deviation, 0.0, 1.0,
-                        "Its standard deviation before truncation.", "facts of the project: N(1, 0.1)"},
+                        "Its standard deviation before truncation.",
+                        "assumed: N(1, 0.1), SUMO's usual spread of passenger cars"},
             core::Field{"speed_factor_minimum", "1", &S::speed_factor_minimum, 0.1, 3.0,
-                        "Lower bound of the truncation.", "facts of the project: [0.75, 1.25]"},
+                        "Lower bound of the truncation.", "assumed: 2.5 standard deviations"},
             core::Field{"speed_factor_maximum", "1", &S::speed_factor_maximum, 0.1, 3.0,
-                        "Upper bound of the truncation.", "facts of the project: [0.75, 1.25]"});
+                        "Upper bound of the truncation.", "assumed: 2.5 standard deviations"});
     }
 };
 
@@ -325,9 +326,9 @@ struct Trips {
         using S = Trips;
         return std::make_tuple(
             core::Field{"minimum_length_m", "m", &S::minimum_length_m, 0.0, 1e6,
-                        "Shortest trip of a human or automated vehicle.", "facts of the project"},
+                        "Shortest trip of a human or automated vehicle.", "assumed: several junctions"},
             core::Field{"emergency_minimum_length_m", "m", &S::emergency_minimum_length_m, 0.0, 1e6,
-                        "Shortest trip of an emergency vehicle.", "facts of the project"},
+                        "Shortest trip of an emergency vehicle.", "assumed: twice that of other vehicles"},
             core::Field{"minimum_edge_m", "m", &S::minimum_edge_m, 0.0, 1000.0,
                         "Trips start and end on edges at least this long.",
                         "assumed: the longest vehicle, a bus of 12 m, fits"},
@@ -444,7 +445,7 @@ struct Measured {
                         "Share of the cars that are automated.", "dissertation TABLE I, city: 26 of 73"},
             core::Field{"emergency_minimum_length_m", "m", &S::emergency_minimum_length_m, 0.0, 1e6,
                         "Emergency vehicles take measured routes of cars at least this long.",
-                        "facts of the project"});
+                        "assumed: as trips.emergency_minimum_length_m"});
     }
 };
 

@@ -41,7 +41,7 @@ struct PrivilegeConfig {
                 "0: scenarios before this one leave it out"},
             Field{"margin_m", "m", &C::margin_m, 0.0, 2.0,
                   "Room that the emergency vehicle keeps to vehicles beside it, both sides together",
-                  "first trials: a driver who squeezes through"},
+                  "assumed: a driver who squeezes through"},
             Field{"between_mps", "m/s", &C::between_mps, 0.5, 40.0,
                   "Highest speed while a vehicle is beside it with less than a metre of room",
                   "40 km/h, assumed"},

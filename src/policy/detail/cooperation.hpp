@@ -19,9 +19,9 @@ constexpr auto lifetime_field() {
     return core::Field{"lease_s",
                        "s",
                        &Config::lease_s,
-                       1.0,
+                       0.1,
                        60.0,
-                       "Lifetime of a request that is not renewed; at least two periods",
+                       "Lifetime of a lease that is not renewed; at least two periods",
                        "assumed: four decisions at the usual period"};
 }
 
