@@ -206,7 +206,8 @@ Action configure_list(CLI::App& app) {
         ->expected(0, 2)
         ->option_text("settings [NAME]|columns|scenario-keys [the names alone]");
     add_json_option(app, arguments->printing, "the lists");
-    app.add_flag("--markdown", arguments->as_markdown, "Print them as the page of docs/reference has them")
+    app.add_flag("--markdown", arguments->as_markdown,
+                 "Print them as the page of docs/reference has them [off]")
         ->excludes("--json");
     app.add_flag("--reasons", arguments->with_reasons,
                  "With settings: what each is, and why it has its default [a line for each]")
