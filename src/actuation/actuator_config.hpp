@@ -38,16 +38,14 @@ struct ActuatorConfig {
                 "Shortest yellow before a green is withdrawn, on a dry road. With `clearance` `fixed` it is "
                 "the yellow. On a slippery road each yellow is longer, also that of the signal's own program",
                 "the shortest of ITE, MUTCD and RiLSA"},
-            Field{
-                "all_red_s", "s", &C::all_red_s, 0.0, 10.0,
-                "With `clearance` `fixed`: red of a link before one that conflicts with it gets green. With "
-                "the others it comes only before a green to which one must yield that had right of way",
-                "assumed: usual in towns"},
-            Field{
-                "clearing_s", "s", &C::clearing_s, 0.0, 30.0,
-                "A green that conflicts waits up to this much longer while a vehicle that has lost green is "
-                "still inside the junction",
-                "assumed: a waiting left-turner needs 4 s to leave"},
+            Field{"all_red_s", "s", &C::all_red_s, 0.0, 10.0,
+                  "With `clearance` `fixed`: red of a link before a conflicting link gets green. Otherwise: "
+                  "only before a green to which a link that had right of way must yield",
+                  "assumed: usual in towns"},
+            Field{"clearing_s", "s", &C::clearing_s, 0.0, 30.0,
+                  "A conflicting green waits up to this much longer while a vehicle that has lost green is "
+                  "still inside the junction",
+                  "assumed: a waiting left-turner needs 4 s to leave"},
             Field{"walking_s", "s", &C::walking_s, 0.0, 120.0,
                   "A green waits up to this much longer while a pedestrian is on a crossing that vehicles "
                   "with green will cross, or "
@@ -79,10 +77,10 @@ struct ActuatorConfig {
                 "between "
                 "two greens; older figures were made with `fixed`"},
             Field{"entry_green_s", "s", &C::entry_green_s, 0.0, 60.0,
-                  "No green ends earlier for a hold, nor before the program's own least",
+                  "No green ends earlier for a hold, nor before the program's own minimum",
                   "NTCIP 1202 v03, preemptMinimumGreen: set by the city; 5 s assumed"},
-            Field{"walk_s", "s", &C::walk_s, 0.0, 60.0, "No green for people on foot ends earlier for a hold",
-                  "MUTCD 2009, 4E.06: 7 s, 4 s at the least"});
+            Field{"walk_s", "s", &C::walk_s, 0.0, 60.0, "No pedestrian green ends earlier for a hold",
+                  "MUTCD 2009, 4E.06: 7 s, at least 4 s"});
     }
 };
 

@@ -47,8 +47,7 @@ core::SettingsTable actuation_table() {
                           {},
                           all_equipped,
                           "Signals that take part in policies: their ids separated by commas, `all` or "
-                          "`none`. The others hear "
-                          "no request and keep their programs",
+                          "`none`. The others receive no request and keep their programs",
                           "all: as in all results that do not name it"});
     table.check = [](const core::Settings& settings, const std::string& where) {
         core::Settings numbers = settings;

@@ -215,12 +215,12 @@ struct FailureConfig : RequestChannel, SignalRequestChannel {
                 "emergency_sensor_range_m", "m", &C::emergency_sensor_range_m, 0.0, 1000.0,
                 "Emergency vehicles see every vehicle within this distance that no third one hides, without "
                 "any message",
-                "off; 80 m: radar of a car"},
+                "off; 80 m: a car's radar"},
             Field{"emergency_sensor_sigma_m", "m", &C::emergency_sensor_sigma_m, 0.0, 100.0,
                   "Standard error of a position that an emergency vehicle sees, along each axis",
                   "0.5 m assumed, as on-board sensors"},
             Field{"emergency_dark", "", &C::emergency_dark, 0, 0,
-                  "Whether reports of emergency vehicles are lost, and their radios fail, as those of others",
+                  "Whether reports and radios of emergency vehicles fail as those of other vehicles do",
                   "yes: the frozen presets treat all vehicles alike"});
     }
     static constexpr auto request_fields() {
@@ -248,7 +248,7 @@ struct FailureConfig : RequestChannel, SignalRequestChannel {
                   "message",
                   "0.5 s: every decision at the usual period"},
             Field{"request_hops", "1", of<Way>(&C::hops), 1, 5,
-                  "How often a message is sent: beyond 1, automated vehicles that hear it send it on",
+                  "Number of hops of a message: above 1, automated vehicles that receive it relay it",
                   "1: no relays"});
     }
     static constexpr auto signal_request_fields() {

@@ -21,8 +21,8 @@
 
 namespace clearway::pipeline {
 
-/// Brings what policies ask for to those who hear it. Part of the environment: it knows the truth, and
-/// nothing of it comes back to a policy.
+/// Delivers requests of policies to the vehicles and signals that receive them. Part of the environment: it
+/// knows the truth, and nothing of it comes back to a policy.
 ///
 /// A lease is a request when its beneficiary is another than its target. One to a stretch of road becomes a
 /// request to each vehicle that is there when it is sent; a message goes out even where nobody is. All
@@ -106,10 +106,11 @@ class Requests {
     void ask_vehicle(const traffic::Lease& lease, core::VehicleKey vehicle, const Moment& moment);
     void ask_stretch(const traffic::Lease& lease, const Moment& moment);
     void ask_signal(const traffic::Lease& lease, core::SignalIndex signal, const Moment& moment);
-    /// Those who hear what the sender asks of vehicles now; the message is sent when it is asked for first.
+    /// Vehicles that receive what the sender asks of vehicles now; the first call of a step sends the
+    /// message.
     const Hearing& hearing_of(core::VehicleKey sender, const Moment& moment);
     Hearing spread(core::VehicleKey sender, const Moment& moment);
-    /// Marks who hears a message of the row `from` and had not heard it with fewer hops.
+    /// Marks vehicles that receive a message of the row `from` and had not received it with fewer hops.
     void transmit(core::VehicleIndex from, int hop, const truth::Snapshot& snapshot, Hearing& hearing);
     static bool is_unreachable(core::VehicleKey vehicle, const Moment& moment);
     void deliver(const traffic::Lease& lease, double latency_s, core::Seconds now);

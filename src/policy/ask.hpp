@@ -31,9 +31,9 @@ struct AskSettings {
         using core::Field;
         return std::make_tuple(
             Field{"ask", "", &C::ask, 0, 0,
-                  "Whom it asks: every vehicle, or those that the emergency vehicle is believed to be linked "
+                  "Which vehicles it asks: all, or those that the emergency vehicle is believed to be linked "
                   "with",
-                  "everyone: older conditions read places alone"},
+                  "everyone: earlier conditions use positions only"},
             Field{"ask_probability", "1", &C::ask_probability, 0.0, 1.0,
                   "linked: a believed link counts when its probability is at least this", "even odds"},
             Field{"ask_hops", "1", &C::ask_hops, 1, 5,

@@ -27,8 +27,8 @@ struct CheckInOutConfig {
     }
 };
 
-/// An opponent that cities own: a detector before the stop line calls the signal when an emergency vehicle
-/// passes it, and one behind releases it. Neither knows of queues or of speed. A vehicle that enters between
+/// In use today: a detector before the stop line requests green when an emergency vehicle passes it, and
+/// one behind cancels the request. Neither knows of queues or of speed. A vehicle that enters between
 /// the two calls at once.
 class CheckInOut : public ConfiguredPolicy<CheckInOutConfig> {
   public:

@@ -40,20 +40,19 @@ struct GeocastConfig {
                 "lane", "", &C::lane, 0, 0,
                 "Lane that is cleared: left and right are the innermost and the outermost that the emergency "
                 "vehicle may use where it is",
-                "left: where faster traffic is led past slower"},
+                "left: the lane for overtaking"},
             Field{"aside_m", "m", &C::aside_m, 0.0, 2000.0,
-                  "Slow vehicles on that lane pull aside this far ahead; 0: nobody does", "as pull_aside"},
+                  "Slow vehicles on that lane pull aside this far ahead; 0: none", "as pull_aside"},
             Field{"slow_share", "1", &C::slow_share, 0.01, 2.0,
                   "Slow: below this share of the emergency vehicle's allowed speed",
-                  "assumed: who drives faster can change lanes"},
+                  "assumed: faster vehicles can change lanes"},
             Field{"interval_s", "s", &C::interval_s, 0.1, 60.0,
                   "Time between two messages, at least that between two decisions",
                   "assumed: 1 Hz, as reports"},
-            Field{
-                "lease_s", "s", &C::lease_s, 1.0, 60.0,
-                "Who heard a message obeys it for this long; with less than interval_s, the lane is free at "
-                "times only",
-                "trials on the arterial: the best of 2, 5, 10 and 20 s for the emergency vehicle"},
+            Field{"lease_s", "s", &C::lease_s, 1.0, 60.0,
+                  "A vehicle follows a message for this long; below interval_s, the lane is not cleared all "
+                  "the time",
+                  "trials on the arterial: the best of 2, 5, 10 and 20 s for the emergency vehicle"},
             Field{"ask_humans", "1", &C::ask_humans, 0, 1,
                   "1: human drivers are asked, too; those who comply (requests.compliance) do it",
                   "0: automated vehicles alone"});

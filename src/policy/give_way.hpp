@@ -41,22 +41,22 @@ struct GiveWayConfig : AskSettings {
                   "Vehicles closer than this to the junction are asked",
                   "assumed: more than the usual braking distance in towns"},
             Field{"longest_s", "s", &C::longest_s, 1.0, 600.0,
-                  "For one emergency vehicle a junction is kept free no longer than this, and nobody is "
-                  "asked to "
-                  "stand longer",
+                  "Longest time that a junction is kept free for one emergency vehicle, and that a vehicle "
+                  "is asked to stand",
                   "assumed"},
-            Field{
-                "fastest_road_mps", "m/s", &C::fastest_road_mps, 1.0, 50.0,
-                "Nobody is asked to stop on roads with a higher limit",
-                "60 km/h, above the usual limit of towns: on faster roads nobody expects a vehicle to stop"},
+            Field{"fastest_road_mps", "m/s", &C::fastest_road_mps, 1.0, 50.0,
+                  "No vehicle is asked to stop on roads with a higher limit",
+                  "60 km/h, above the usual limit of towns: on faster roads drivers do not expect a vehicle "
+                  "to stop"},
             detail::lifetime_field<C>());
         return std::tuple_cat(own, AskSettings::fields());
     }
 };
 
-/// At junctions without signals where an emergency vehicle must yield, those who have right of way stop
-/// before the junction until it has passed, and with them everybody behind. The queue ahead of the emergency
-/// vehicle then goes, too. Nobody is asked to stop in a roundabout, nor ahead of an emergency vehicle.
+/// At junctions without signals where an emergency vehicle must yield, vehicles with right of way stop
+/// before the junction until it has passed, and with them all vehicles behind. The queue ahead of the
+/// emergency vehicle then goes, too. No vehicle is asked to stop in a roundabout, nor ahead of an emergency
+/// vehicle.
 class GiveWay : public ConfiguredPolicy<GiveWayConfig> {
   public:
     using ConfiguredPolicy::ConfiguredPolicy;

@@ -29,7 +29,7 @@ struct GreenWaveConfig {
     }
 };
 
-/// An opponent: every signal on an emergency vehicle's route turns green around the time at which the vehicle
+/// A reference: every signal on an emergency vehicle's route turns green around the time at which the vehicle
 /// would get there at its allowed speed. The plan is made once, when the vehicle appears, and never
 /// corrected.
 class GreenWave : public ConfiguredPolicy<GreenWaveConfig> {

@@ -17,9 +17,8 @@ struct LineOfSightConfig {
         using core::Field;
         return std::make_tuple(
             Field{"range_m", "m", &C::range_m, 1.0, 2000.0,
-                  "The receiver at the signal sees the emitter from this distance of its stop line, as the "
-                  "crow "
-                  "flies",
+                  "The receiver at the signal detects the emitter within this straight-line distance of its "
+                  "stop line",
                   "assumed: receivers of infrared emitters reach 760 m at most and are set to less in towns"},
             Field{"half_angle_deg", "deg", &C::half_angle_deg, 1.0, 90.0,
                   "And while the stop line lies within this angle of the vehicle's heading",
@@ -27,7 +26,7 @@ struct LineOfSightConfig {
     }
 };
 
-/// An opponent that cities own: an optical emitter on the emergency vehicle calls a signal on its route while
+/// In use today: an optical emitter on the emergency vehicle requests green from a signal on its route while
 /// that lies in its beam. It knows neither speed nor queues; vehicles and buildings do not block it, and a
 /// signal beside the route does not answer.
 class LineOfSight : public ConfiguredPolicy<LineOfSightConfig> {

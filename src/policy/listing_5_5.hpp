@@ -38,7 +38,7 @@ struct Listing55Config : detail::EdgeRule {
     }
 };
 
-/// The dissertation's listing 5.5, *as published*, with the score of section 4.3 in our reading. An opponent
+/// The dissertation's listing 5.5, *as published*, with the score of section 4.3 in our reading. A reference
 /// that keeps the listing's defects, each noted in the source where it acts; docs/findings/policies.md says
 /// what they cost.
 class Listing55 : public ConfiguredPolicy<Listing55Config> {

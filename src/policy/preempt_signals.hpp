@@ -46,16 +46,16 @@ struct PreemptSignalsConfig {
             Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
                   "assumed: walking pace is 1.4 m/s"},
             Field{"short_block_m", "m", &C::short_block_m, 0.0, 1000.0,
-                  "Signals on closed loops of blocks shorter than this are held only as `exit_room_m` and "
-                  "`signals_ahead` allow; 0: none is on one",
+                  "For signals on closed loops of blocks shorter than this, `exit_room_m` and "
+                  "`signals_ahead` limit holds; 0: no signal is limited",
                   "docs/findings/short-blocks.md; no scenario of the other findings has such loops"},
             Field{"exit_room_m", "m", &C::exit_room_m, 0.0, 200.0,
-                  "There no request begins while standing vehicles leave less than this free behind the "
-                  "signal; 0: however full it is",
-                  "0: no gain by it is shown, docs/findings/short-blocks.md"},
+                  "On such loops no request begins while standing vehicles leave less than this free behind "
+                  "the signal; 0: no limit",
+                  "0: no gain from it is shown, docs/findings/short-blocks.md"},
             Field{"signals_ahead", "1", &C::signals_ahead, 0.0, 50.0,
-                  "There at most so many of the next signals are held for one emergency vehicle; 0: all of "
-                  "them",
+                  "On such loops at most this many of the next signals are held for one emergency vehicle; "
+                  "0: no limit",
                   "fewest jams of 0, 2 and 3: docs/findings/short-blocks.md, confirmed on fresh "
                   "seeds"},
             Field{"lease_s", "s", &C::lease_s, 0.0, 60.0,

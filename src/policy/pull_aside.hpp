@@ -31,7 +31,7 @@ struct PullAsideConfig : detail::LanePlanConfig {
 };
 
 /// Queues make room: vehicles that stand or crawl on the emergency vehicle's way pull aside until it has
-/// passed. The way leads round those who will not (detail::LanePlan). Without the sublane model the vehicles
+/// passed. The way leads around those that do not (detail::LanePlan). Without the sublane model the vehicles
 /// stop beside the road, from whichever lane, which is more generous than a real queue; with it they keep to
 /// the edge of their lane.
 class PullAside : public ConfiguredPolicy<PullAsideConfig> {

@@ -25,8 +25,8 @@ struct PullOverConfig : AskSettings {
                   "Only those slower than this share of the emergency vehicle's allowed speed",
                   "assumed: others are not in its way"},
             Field{"oncoming_m", "m", &C::oncoming_m, 0.0, 2000.0,
-                  "Oncoming vehicles this far ahead pull over, too, while somebody ahead who is not asked is "
-                  "to be overtaken; 0: never",
+                  "Oncoming vehicles this far ahead also pull over while a vehicle that is not asked has to "
+                  "be overtaken; 0: never",
                   "assumed: overtaking at 100 km/h takes 10 s, and the oncoming vehicle comes as far"},
             detail::lifetime_field<C>());
         return std::tuple_cat(own, AskSettings::fields());

@@ -40,9 +40,8 @@ struct RecoverSignalsConfig {
                   "Lifetime of a lease that is not renewed; at least two periods",
                   "assumed: four decisions at the usual period"},
             Field{"exit_room_m", "m", &C::exit_room_m, 0.0, 200.0,
-                  "Vehicles do not count whose way behind the signal has less than this free of standing "
-                  "vehicles; "
-                  "0: however full it is",
+                  "A vehicle does not count while standing vehicles leave less than this free on its way "
+                  "behind the signal; 0: every vehicle counts",
                   "0: however full, as in all results that do not name it"},
             Field{"short_block_m", "m", &C::short_block_m, 0.0, 1000.0,
                   "Signals on closed loops of blocks shorter than this keep their cycle; 0: none does",

@@ -68,8 +68,8 @@ const traffic::Registry<PolicyEntry>& policies() {
             entry<PreemptSignals, PreemptSignalsConfig, RequestMemorySettings>(
                 "preempt_signals", "Green for the emergency vehicle's approach on its arrival",
                 {Trait::asks_signals}),
-            entry<RecoverSignals, RecoverSignalsConfig>("recover_signals",
-                                                        "Gives time back to the approaches that waited"),
+            entry<RecoverSignals, RecoverSignalsConfig>(
+                "recover_signals", "Gives green time back to the approaches that waited"),
             entry<ClearLane, ClearLaneConfig>("clear_lane",
                                               "Automated vehicles ahead leave the emergency vehicle's lane",
                                               {Trait::renews_requests}),
@@ -92,26 +92,26 @@ const traffic::Registry<PolicyEntry>& policies() {
                 "red_privilege", "For comparison: the emergency vehicle passes red slowly and yielding",
                 {Trait::compares_only}),
             entry<VacateLane, VacateLaneConfig>(
-                "vacate_lane", "Vehicles leave the emergency vehicle's way, planned round those who will not",
+                "vacate_lane", "Vehicles clear a path, planned around those that do not cooperate",
                 {Trait::renews_requests}),
             entry<PullAside, PullAsideConfig>(
-                "pull_aside", "Vehicles of a queue pull aside until the emergency vehicle has passed",
+                "pull_aside", "Vehicles in a queue pull aside until the emergency vehicle has passed",
                 {Trait::renews_requests}),
             entry<HoldCross, HoldCrossConfig>("hold_cross",
-                                              "Cross traffic stops at its line although it has green",
+                                              "Cross traffic stops at its stop line although it has green",
                                               {Trait::renews_requests}),
             entry<GiveWay, GiveWayConfig>(
                 "give_way", "At junctions without signals, vehicles with right of way stop and yield",
                 {Trait::renews_requests}),
             entry<RescueLane, RescueLaneConfig>(
-                "rescue_lane", "Slow traffic keeps to the edges of its lanes, a lane between them opens",
+                "rescue_lane", "Slow traffic moves to the edges of its lanes and opens a lane between them",
                 {Trait::renews_requests, Trait::sublane_model}),
             entry<PullOver, PullOverConfig>(
                 "pull_over",
                 "Slower vehicles ahead stop on the shoulder until the emergency vehicle has passed",
                 {Trait::renews_requests, Trait::shoulder}),
             entry<Geocast, GeocastConfig>(
-                "geocast", "Whoever hears it clears a lane for the emergency vehicle: a message to a place",
+                "geocast", "Every vehicle that receives the message clears a lane for the emergency vehicle",
                 {Trait::renews_requests}),
         });
     return registry;

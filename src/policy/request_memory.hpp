@@ -34,10 +34,11 @@ struct RequestMemorySettings {
         using C = RequestMemorySettings;
         using core::Field;
         return std::make_tuple(
-            Field{"memory", "", &C::memory, 0, 0,
-                  "What a signal believes of an emergency vehicle between its messages; graph without a "
-                  "predictor knows vehicles whose newest report arrived, and is dead_reckon for others",
-                  "forget: least is assumed of the controller"},
+            Field{
+                "memory", "", &C::memory, 0, 0,
+                "What a signal assumes about an emergency vehicle between its messages; without a predictor, "
+                "graph knows vehicles whose newest report arrived and equals dead_reckon for others",
+                "forget: assumes least about the controller"},
             Field{"timeout_s", "s", &C::timeout_s, 0.0, 60.0,
                   "forget: a request ends when nothing was heard for longer than this",
                   "assumed: three messages at the usual interval are missed"},

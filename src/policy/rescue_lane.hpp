@@ -19,7 +19,7 @@ struct RescueLaneConfig : AskSettings {
     /// beside the rear one, its own length more. Assumed: an ambulance of 6.5 m that steers round one after
     /// the other.
     static constexpr double apart_m = 12.0;
-    /// One of them, or else who drives ahead of one, then drives at this share of its speed. Assumed: 1 m/s
+    /// One of them, or else the vehicle ahead of one, then drives at this share of its speed. Assumed: 1 m/s
     /// in a jam of 2 m/s.
     static constexpr double stagger_share = 0.5;
     double room_m = 0.4;
@@ -38,11 +38,11 @@ struct RescueLaneConfig : AskSettings {
                   "Vehicles whose fronts are up to this far behind the emergency vehicle's are asked, too",
                   "assumed: its own length, a truck that catches up beside it, and as much again"},
             Field{"slow_mps", "m/s", &C::slow_mps, 0.1, 60.0,
-                  "Where somebody ahead is slower than this, all are asked",
+                  "If a vehicle ahead is slower than this, all vehicles are asked",
                   "50 km/h, assumed: faster traffic leaves a lane instead"},
             Field{"stagger_m", "m", &C::stagger_m, 0.0, 500.0,
-                  "Two abreast between which the emergency vehicle does not fit are moved apart within this "
-                  "distance; 0: never",
+                  "Two vehicles abreast that leave too little room for the emergency vehicle are moved apart "
+                  "within this distance; 0: never",
                   "assumed: it takes ten seconds"},
             Field{"room_m", "m", &C::room_m, 0.0, 2.0,
                   "Room that the emergency vehicle needs beside it, both sides together",
@@ -55,10 +55,10 @@ struct RescueLaneConfig : AskSettings {
 /// Before slow traffic on several lanes the vehicles of the leftmost lanes keep to the left edge of their
 /// lanes and the others to the right edge, so that the emergency vehicle can drive between them
 /// (privilege.between_lanes). It lies between the two leftmost lanes, or where fewer vehicles that are not
-/// asked stand beside it. Who is beside the emergency vehicle or shortly behind it keeps to its edge too, or
-/// it would hold the vehicle where it is; so does who still drives fast towards the slow ones, or it would
-/// drive on between the lanes. Two abreast that leave too little room, such as two trucks or two that are not
-/// asked, would block it: one of them slows down, or else who drives ahead of one, until they are apart.
+/// asked stand beside it. Vehicles beside or just behind the emergency vehicle keep to their edge too, or
+/// they would hold it where it is; so do fast vehicles that approach the slow ones, or they would drive on
+/// between the lanes. Two abreast that leave too little room, such as two trucks or two vehicles that are not
+/// asked, would block it: one of them, or else the vehicle ahead of one, slows down until they are apart.
 /// Needs the sublane model.
 class RescueLane : public ConfiguredPolicy<RescueLaneConfig> {
   public:

@@ -30,7 +30,7 @@ struct VacateLaneConfig : detail::LanePlanConfig {
     }
 };
 
-/// Plans the emergency vehicle's way through the lanes, round those who will not make room, and vacates it:
+/// Plans the emergency vehicle's way through the lanes, around vehicles that make no room, and vacates it:
 /// vehicles on the way change lanes, those beside it stay where they are, and the emergency vehicle follows
 /// the plan.
 class VacateLane : public ConfiguredPolicy<VacateLaneConfig> {

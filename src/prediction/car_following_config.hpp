@@ -35,9 +35,8 @@ struct CarFollowingConfig {
     static constexpr auto fields() {
         using C = CarFollowingConfig;
         using core::Field;
-        constexpr const char* sumo =
-            "SUMO 1.15's IDM, by which the scenarios drive unless they say otherwise";
-        constexpr const char* piece = "off shows what the piece is worth";
+        constexpr const char* sumo = "SUMO 1.15's IDM, the default of the scenarios";
+        constexpr const char* piece = "0 shows how much this part contributes";
         return std::make_tuple(
             Field{"step_s", "s", &C::step_s, 0.05, 1.0, "Step of the twins' motion",
                   "assumed: twice SUMO's own step"},
@@ -47,13 +46,12 @@ struct CarFollowingConfig {
                   "mean of the scenarios' drivers"},
             Field{"know_speed_factor", "1", &C::know_speed_factor, 0, 1,
                   "1: each driver's own speed factor is taken from its registration, times speed_factor",
-                  "off: what a driver wants is not to be seen"},
+                  "off: a desired speed cannot be observed"},
             Field{"estimate", "1", &C::estimate, 0, 1,
                   "1: each driver's speed factor is estimated from the speeds that it showed",
                   "off: in trials links were not predicted better with it"},
-            Field{"follow_leaders", "1", &C::follow_leaders, 0, 1, "0: twins do not heed vehicles ahead",
-                  piece},
-            Field{"obey_signals", "1", &C::obey_signals, 0, 1, "0: twins do not heed signals", piece});
+            Field{"follow_leaders", "1", &C::follow_leaders, 0, 1, "0: twins ignore vehicles ahead", piece},
+            Field{"obey_signals", "1", &C::obey_signals, 0, 1, "0: twins ignore signals", piece});
     }
 };
 

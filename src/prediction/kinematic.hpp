@@ -17,10 +17,10 @@ struct LastSeenConfig {
 
     static constexpr auto fields() {
         using C = LastSeenConfig;
-        return std::make_tuple(
-            core::Field{"start_speed_mps", "m/s", &C::start_speed_mps, 0.0, 50.0,
-                        "How fast a vehicle that stood may go by now, beside the speed it had",
-                        "mean over 3 s from standstill at 1.4 m/s2"});
+        return std::make_tuple(core::Field{"start_speed_mps", "m/s", &C::start_speed_mps, 0.0, 50.0,
+                                           "Speed added to the last reported one, in the growth of the "
+                                           "position's standard deviation with age",
+                                           "mean over 3 s from standstill at 1.4 m/s2"});
     }
 };
 

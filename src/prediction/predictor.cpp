@@ -62,20 +62,20 @@ const traffic::Registry<PredictorEntry>& predictors() {
                                                        "vehicles stay where they were last seen"),
             registered<make_dead_reckoning, DeadReckoningConfig>(
                 "dead_reckoning", "dead reckoning",
-                "vehicles go on at their reported speed along their route"),
+                "vehicles continue at their reported speed along their route"),
             registered<make_dead_reckoning_heading, DeadReckoningConfig>(
                 "dead_reckoning_heading", "dead reckoning by heading",
-                "vehicles go straight on by heading and speed"),
+                "vehicles continue straight at their heading and speed"),
             registered<make_kalman, KalmanConfig>(
                 "kalman", "Kalman filter",
                 "a constant-velocity Kalman filter per vehicle, P(d < r) from both covariances"),
             registered<make_route_rule, RouteRuleConfig>(
                 "route_rule", "route rule",
-                "dead reckoning held by red lights and leaders, drawn to where surviving links can be"),
+                "dead reckoning limited by red lights and leaders, corrected by surviving links"),
             registered<make_car_following, CarFollowingConfig>(
                 "car_following", "car-following twin",
-                "vehicles drive on by the Intelligent Driver Model: behind leaders, before red, along their "
-                "route"),
+                "vehicles follow the Intelligent Driver Model along their route, behind leaders and before "
+                "red lights"),
             registered<make_common_neighbours, CommonNeighboursConfig>(
                 "common_neighbours", "common neighbours",
                 "comparison: links by the number of vehicles near both when last seen",
@@ -84,8 +84,8 @@ const traffic::Registry<PredictorEntry>& predictors() {
                                       "comparison: regression on distances, ages and speeds of a pair",
                                       {Trait::compares_only}, check_logistic),
             registered<make_gradient_boosting>("gradient_boosting", "gradient boosting",
-                                               "boosted trees on what graphsage is given of a pair, of both "
-                                               "ends and, summed, of their neighbours",
+                                               "boosted trees on the inputs of graphsage: the pair, both "
+                                               "vehicles, and sums over their neighbours",
                                                {}, check_gradient_boosting),
             registered<make_graphsage_as_published>("graphsage_as_published", "GraphSAGE, as published",
                                                     "dissertation: its net on raw coordinates",
@@ -109,8 +109,7 @@ const traffic::Registry<PredictorEntry>& predictors() {
                 check_graphsage),
             registered<make_oracle, OracleConfig>(
                 oracle_name, "oracle, which knows the truth",
-                "knows the truth, spoiled by settings: the ceiling of every repair, and none itself",
-                {Trait::knows_truth}),
+                "the truth, degraded by settings: an upper bound for every repair", {Trait::knows_truth}),
         });
     return registry;
 }

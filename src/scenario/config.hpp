@@ -96,8 +96,8 @@ struct NetworkSource {
                         "scenario"},
             core::Field{"restrict", "", &S::restrict, 0, 0, "none or largest_car_component (imports only).",
                         "none: the network as it is"},
-            core::Field{"attribution", "", &S::attribution, 0, 0, "Whom users of the map data must name.",
-                        "licence"},
+            core::Field{"attribution", "", &S::attribution, 0, 0,
+                        "Attribution that users of the map data must give.", "licence"},
             core::Field{
                 "preemption", "", &S::preemption, 0, 0,
                 "CSV of the signals' preemption parameters (clearway scenario signals writes it); optional.",
@@ -191,11 +191,12 @@ struct SpeedLimits {
         using S = SpeedLimits;
         return std::make_tuple(
             core::Field{"human_kmh", "km/h", &S::human_kmh, 1.0, 400.0,
-                        "No human driver drives faster, whatever the road allows.", "dissertation TABLE I"},
+                        "Highest speed of human drivers, also where the road allows more.",
+                        "dissertation TABLE I"},
             core::Field{"automated_kmh", "km/h", &S::automated_kmh, 1.0, 400.0,
-                        "No automated vehicle drives faster.", "dissertation TABLE I"},
+                        "Highest speed of automated vehicles.", "dissertation TABLE I"},
             core::Field{"emergency_kmh", "km/h", &S::emergency_kmh, 1.0, 400.0,
-                        "No emergency vehicle drives faster.", "dissertation TABLE I"},
+                        "Highest speed of emergency vehicles.", "dissertation TABLE I"},
             core::Field{"road_kmh", "km/h", &S::road_kmh, 0.0, 400.0,
                         "Roads with a higher limit are limited to this; 0 leaves the roads as they are.",
                         "0: the network's own limits"});
@@ -257,7 +258,7 @@ struct Slow {
         using S = Slow;
         return std::make_tuple(
             core::Field{"share", "1", &S::share, 0.0, 1.0,
-                        "Share of the human and automated vehicles that drive slowly.", "0: nobody does"},
+                        "Share of the human and automated vehicles that drive slowly.", "0: none"},
             core::Field{"speed_factor", "1", &S::speed_factor, 0.1, 1.0,
                         "Their desired speed divided by the road limit.",
                         "assumed: a laden truck on a road of 100 km/h"});
@@ -276,7 +277,7 @@ struct Privilege : traffic::PrivilegeConfig {
                                         "1: emergency vehicles alone overtake on the lane of oncoming "
                                         "traffic, where the network joins "
                                         "the two; otherwise all do",
-                                        "0: scenarios before this one leave it out"}),
+                                        "0: earlier scenarios leave it out"}),
             traffic::PrivilegeConfig::fields());
     }
 };

@@ -11,10 +11,10 @@ namespace clearway::sensing {
 
 /// Number of a message of a sender: message k goes out at the first decision at or after k x interval since
 /// time 0 of the simulation at which there is something to send, or never. All draws are keyed by it, so they
-/// depend neither on the step length nor on who else sends.
+/// depend neither on the step length nor on other senders.
 using MessageNumber = std::uint64_t;
 
-/// Who hears whom when an emergency vehicle asks for something: a pure function of (sender, receiver, message
+/// Which receivers hear a request of an emergency vehicle: a pure function of (sender, receiver, message
 /// number, distance), so that all conditions of a replication have the same channel.
 ///
 /// A receiver in outage (Gilbert-Elliott) hears nothing. Otherwise it hears a message that reaches it, except

@@ -53,11 +53,11 @@ struct PassRed {};
 using Action =
     std::variant<DriveAt, ChangeLane, HoldLane, PullAside, StopAtLine, HoldGreen, AdjustGreen, PassRed>;
 
-/// Who is meant by a message to a stretch of road.
+/// Which vehicles a message to a stretch of road addresses.
 enum class Addressed : std::uint8_t { automated, drivers };
-/// A stretch of a lane, for a message to whoever is there (geocast): those whose front is behind `from_m` and
-/// not beyond `to_m`, and who are slower than `below_mps`. The sender need not know who that is. Each vehicle
-/// that hears the message knows its own place and speed.
+/// A stretch of a lane, for a message to the vehicles there (geocast): those whose front is between `from_m`
+/// and `to_m`, and which are slower than `below_mps`. The sender need not know which they are. Each vehicle
+/// that receives the message knows its own place and speed.
 struct Stretch {
     core::LaneIndex lane;
     float from_m = 0.0F;  ///< From the start of the lane.

@@ -37,7 +37,7 @@ struct Preemption {
                   "(preemptDelay)",
                   "0"},
             Field{"minimum_green_s", "s", &P::minimum_green_s, 0.0, 255.0,
-                  "No green ends earlier for a request, nor before the program's own least "
+                  "No green ends earlier for a request, nor before the program's own minimum "
                   "(preemptMinimumGreen)",
                   "actuation.entry_green_s"},
             Field{"walk_s", "s", &P::walk_s, 0.0, 255.0,
@@ -47,12 +47,11 @@ struct Preemption {
                   "(preemptEnterPedClear)",
                   "the program; without one, length of the crossing and walking speed"},
             Field{"minimum_duration_s", "s", &P::minimum_duration_s, 0.0, 65535.0,
-                  "From the beginning of the transition; a hold does not end earlier though the request has "
-                  "(preemptMinimumDuration)",
+                  "From the beginning of the transition; a hold lasts at least this long even if its request "
+                  "has ended (preemptMinimumDuration)",
                   "0"},
             Field{"dwell_s", "s", &P::dwell_s, 1.0, 255.0,
-                  "A hold that was begun is shown at least this long though the request has ended "
-                  "(preemptDwellGreen)",
+                  "A hold is shown at least this long even if its request has ended (preemptDwellGreen)",
                   "none: a hold ends with its request"},
             Field{"maximum_presence_s", "s", &P::maximum_presence_s, 0.0, 65535.0,
                   "Longest time away from the program; 0: no limit (preemptMaximumPresence)",
@@ -60,12 +59,12 @@ struct Preemption {
             Field{"exit_phase", "1", &P::exit_phase, 0, 255,
                   "Phase at which the program goes on after a hold: its row in the program, from 0 "
                   "(preemptExitPhase)",
-                  "what a policy asks for; otherwise where the program is"},
+                  "the phase that a policy asks for; otherwise the phase of the program at that time"},
             Field{"lockout_s", "s", &P::lockout_s, 0.0, 600.0,
                   "The program runs at least this long between holds", "actuation.lockout_s"},
             Field{"priority", "1", &P::priority, 0, 255,
-                  "Requests of a lower priority are not granted; those of policies have 0 unless they say "
-                  "else",
+                  "Requests of a lower priority are not granted; those of policies have priority 0 unless "
+                  "they state another",
                   "0: all are"});
     }
 };

@@ -26,8 +26,8 @@ struct PrivilegeConfig {
         using core::Field;
         return std::make_tuple(
             Field{"pass_red", "1", &C::pass_red, 0, 1,
-                  "1: emergency vehicles pass red signals, slowly and yielding to those who have green",
-                  "0: scenarios before this one leave it out"},
+                  "1: emergency vehicles pass red signals, slowly and yielding to traffic that has green",
+                  "0: earlier scenarios leave it out"},
             Field{"red_mps", "m/s", &C::red_mps, 0.5, 30.0, "Highest speed at a stop line that shows red",
                   "20 km/h, assumed: slow enough to stop for traffic that has green"},
             Field{"red_near_m", "m", &C::red_near_m, 1.0, 1000.0,
@@ -38,7 +38,7 @@ struct PrivilegeConfig {
             Field{
                 "between_lanes", "1", &C::between_lanes, 0, 1,
                 "1: emergency vehicles drive between two lanes where there is room; needs the sublane model",
-                "0: scenarios before this one leave it out"},
+                "0: earlier scenarios leave it out"},
             Field{"margin_m", "m", &C::margin_m, 0.0, 2.0,
                   "Room that the emergency vehicle keeps to vehicles beside it, both sides together",
                   "assumed: a driver who squeezes through"},

@@ -24,7 +24,7 @@ enum class Refusal : std::uint8_t {
     no_such_link,              ///< Never legal.
     no_such_signal,            ///< Never legal.
     not_an_emergency_vehicle,  ///< Only emergency vehicles pass red.
-    not_controllable,          ///< Human drivers take no leases unless they heed them.
+    not_controllable,          ///< Human drivers follow no leases unless they comply.
     on_a_junction,             ///< There are no lanes to choose from, and no stop line.
     outdated,                  ///< A newer request was there before it.
     outranked,                 ///< Another lease for the same target goes first.

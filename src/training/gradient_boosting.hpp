@@ -55,7 +55,8 @@ struct BoostingConfig {
             Field{"test_share", "1", &C::test_share, 0.01, 0.8, "Share of the data's seeds that only measure",
                   "as graphsage"},
             Field{"easy_share", "1", &C::easy_share, 0.001, 1.0,
-                  "Share kept of the pairs that the route rule is sure of, which then count for all",
+                  "Share kept of the pairs about which the route rule is certain, weighted to represent all "
+                  "of them",
                   "assumed: memory"});
     }
 };

@@ -57,7 +57,8 @@ struct RepairConfig {
             Field{"test_share", "1", &C::test_share, 0.01, 0.8, "Share of the data's seeds that only measure",
                   "assumed"},
             Field{"easy_share", "1", &C::easy_share, 0.001, 1.0,
-                  "Share kept of the pairs that the route rule is sure of, which then count for all",
+                  "Share kept of the pairs about which the route rule is certain, weighted to represent all "
+                  "of them",
                   "docs/models/graphsage.md"},
             Field{"motion_weight", "1", &C::motion_weight, 0.0, 100.0,
                   "Weight of the motion loss beside the link loss", "assumed"},

@@ -12,7 +12,7 @@
 
 namespace clearway::truth {
 
-/// A vehicle that stands beside the road: it is in nobody's way and no sensor looks there, but it hears
+/// A vehicle parked beside the road: it blocks no other vehicle and no sensor sees it, but it receives
 /// requests.
 struct BesideRoad {
     core::VehicleKey key;

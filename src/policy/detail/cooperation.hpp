@@ -10,7 +10,7 @@
 
 namespace clearway::policy::detail {
 
-/// Pulling aside goes before changing lanes: who stands in a queue cannot do the latter.
+/// Pulling aside goes before changing lanes: a vehicle that stands in a queue cannot change lanes.
 inline constexpr int aside_priority = 1;
 
 /// A lifetime, the same field in every part that makes room.

@@ -42,7 +42,7 @@ struct PlanScene {
     const Audience& audience;  ///< Who is asked to make room.
 };
 
-/// The way of an emergency vehicle through the lanes ahead, round those who will not make room: the cheapest
+/// The way of an emergency vehicle through the lanes ahead, around vehicles that make no room: the cheapest
 /// sequence of lanes over cells of 10 m, by dynamic programming. So one vehicle that does not cooperate costs
 /// two lane changes and not the lane. Refers to the view; use it within one `act`.
 class LanePlan {

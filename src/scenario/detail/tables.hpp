@@ -32,7 +32,7 @@ constexpr auto tables() {
         Table{"dense", &S::dense, "What the dense variant changes; optional"},
         Table{"limits", &S::limits, "Speed limits of classes"},
         Table{"drivers", &S::drivers, "Car-following model and desired speeds"},
-        Table{"car_following", &S::following, "Other drivers than usual; optional"},
+        Table{"car_following", &S::following, "Drivers that differ from the default; optional"},
         Table{"siren", &S::siren, "Human drivers who yield to a siren; optional"},
         Table{"slow", &S::slow, "Vehicles slower than the rest; optional"},
         Table{"privilege", &S::privilege, "What the law allows EVs, in every condition; optional"},
