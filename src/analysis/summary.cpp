@@ -83,6 +83,16 @@ void compare(const Pairs& pairs, MetricKind kind, ResampleCache& resamples, Comp
     comparison.bootstrap = bootstrap_bca_of_mean(resamples.of(differences.size()), differences);
 }
 
+/// The values of the replications in which neither run locked.
+Values without_locks(Values values, const Values& locks, const Values& baseline_locks) {
+    for (std::size_t row = 0; row < values.size(); ++row) {
+        const bool locked = (row < locks.size() && locks[row].value_or(0.0) > 0.0) ||
+                            (row < baseline_locks.size() && baseline_locks[row].value_or(0.0) > 0.0);
+        if (locked) values[row].reset();
+    }
+    return values;
+}
+
 /// All metrics of all runs of a condition, each by replication.
 std::vector<Values> values_of(const Runs& runs) {
     std::vector<Values> values(all_metrics().size(), Values(runs.size()));
@@ -257,6 +267,8 @@ void adjust(ScenarioSummary& scenario) {
 
 void compare_conditions(const Runs& runs, const Runs& baseline_runs, const ConditionSummary& baseline,
                         ResampleCache& resamples, ConditionSummary& summary) {
+    const Values& locks = summary.metric("locks").values;
+    const Values& baseline_locks = baseline.metric("locks").values;
     for (std::size_t metric = 0; metric < summary.metrics.size(); ++metric) {
         MetricSummary& one = summary.metrics[metric];
         Comparison& comparison = one.comparison.emplace();
@@ -265,6 +277,11 @@ void compare_conditions(const Runs& runs, const Runs& baseline_runs, const Condi
                                    : pairs_of(one.values, baseline.metrics[metric].values);
         compare(pairs, one.metric.kind, resamples, comparison);
         comparison.incomplete_pairs = std::max(runs.size(), baseline_runs.size()) - comparison.complete_pairs;
+        const Values& base = baseline.metrics[metric].values;
+        const Pairs unlocked = pairs_of(without_locks(one.values, locks, baseline_locks), base);
+        comparison.locked_pairs = pairs_of(one.values, base).condition.size() - unlocked.condition.size();
+        if (comparison.locked_pairs > 0)
+            comparison.unlocked = difference_of(unlocked, one.metric.kind, resamples.level());
         comparison.condition_values = pairs.condition;
         comparison.baseline_values = pairs.baseline;
     }
@@ -378,6 +395,12 @@ double ConditionSummary::total(std::string_view name) const {
     for (const std::optional<double>& value : metric(name).values)
         sum += value.value_or(0.0);
     return sum;
+}
+
+std::size_t ConditionSummary::locked_runs() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(metric("locks").values,
+                              [](const std::optional<double>& locks) { return locks.value_or(0.0) > 0.0; }));
 }
 
 const ConditionSummary* ScenarioSummary::find(const std::string& condition) const {

@@ -63,8 +63,11 @@ struct Comparison {
     std::optional<Interval> bootstrap;        ///< BCa interval of the mean difference; not for counts.
     std::optional<double> median;             ///< Of the paired differences.
     std::optional<Interval> median_interval;  ///< From order statistics.
-    std::optional<double> effect_size;        ///< Cohen's d for pairs, d_z.
-    std::optional<double> t_p;                ///< Not for counts, which are far from normal.
+    /// Complete pairs with a lock in at least one of their runs (metrics::RunMetrics::locks).
+    std::size_t locked_pairs = 0;
+    MaybeEstimate unlocked;             ///< The difference over the other pairs; nothing if no pair locked.
+    std::optional<double> effect_size;  ///< Cohen's d for pairs, d_z.
+    std::optional<double> t_p;          ///< Not for counts, which are far from normal.
     std::optional<double> wilcoxon_p;
     /// `t_p` (for counts `wilcoxon_p`), adjusted over all comparisons of a scenario in this metric.
     std::optional<double> holm_p;
@@ -119,6 +122,8 @@ struct ConditionSummary {
     const MetricSummary& metric(std::string_view name) const;
     /// Sum of a metric over the runs.
     double total(std::string_view metric) const;
+    /// Complete runs with a lock.
+    std::size_t locked_runs() const;
 };
 
 struct ScenarioSummary {

@@ -217,8 +217,61 @@ Finding error_finding(const results::RunError& error, const std::filesystem::pat
     return {aborted ? "aborts" : "loads", Grade::failed, text};
 }
 
+Finding lock_finding(const LockTrials& trials) {
+    const auto runs = [&](std::size_t locked) {
+        return locked == 0 ? fmt::format("none of {} trial runs", trials.trials)
+                           : fmt::format("{} of {} trial runs", locked, trials.trials);
+    };
+    const std::string text =
+        fmt::format("this network locks by itself in {}; with time.ignore_junction_blocker_s = {:g} in {}",
+                    runs(trials.locked_without), trials.ignored_after_s, runs(trials.locked_with));
+    if (trials.locked_with > 0)
+        return {"locks", Grade::falls_short, text,
+                "less traffic, or look at the junction that locks: run.json"};
+    if (trials.locked_without > 0)
+        return {"locks", Grade::note, text,
+                fmt::format("keep time.ignore_junction_blocker_s = {:g} in scenario.toml",
+                            trials.ignored_after_s)};
+    return {"locks", Grade::ok, text};
+}
+
+namespace {
+
+/// Makes the runs of LockTrials in a folder of their own, which it removes.
+LockTrials try_locks(const scenario::ScenarioConfig& scenario, std::uint64_t seed, std::uint32_t count,
+                     RunOptions options) {
+    scenario::ScenarioConfig with = scenario;
+    scenario::ScenarioConfig without = scenario;
+    std::optional<double>& after_s = with.time.ignore_junction_blocker_s;
+    if (after_s.value_or(-1.0) < 0.0) after_s = scenario::usual_ignore_junction_blocker_s;
+    without.time.ignore_junction_blocker_s.reset();
+    without.name += "-off";
+    LockTrials trials{.trials = count, .ignored_after_s = *after_s};
+    study::StudyConfig config =
+        study_of(with, {experiment::built_in_condition("baseline", "check")}, seed, count);
+    config.scenarios.push_back(without);
+    options.folder += "-locks";
+    options.workers = 0;
+    std::filesystem::remove_all(options.folder);
+    const study::Plan plan = plan_for(config, options);
+    const results::Store store = prepare_run_folder(plan, options);
+    const StudyResult result = run_missing(plan, store, options);
+    if (result.exit_code != core::ExitCode::ok)
+        throw core::Error(result.exit_code,
+                          fmt::format("not every trial run ended well; see {}", options.folder.string()));
+    for (const experiment::RunKey& key : plan.manifest.runs()) {
+        const auto record = store.read(key, results::VehicleRows::emergency);
+        if (!record || record->metrics.locks == 0) continue;
+        ++(key.scenario == with.name ? trials.locked_with : trials.locked_without);
+    }
+    std::filesystem::remove_all(options.folder);
+    return trials;
+}
+
+}  // namespace
+
 core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double asked_density,
-                              std::uint64_t seed, RunOptions options) {
+                              std::uint64_t seed, std::uint32_t lock_trials, RunOptions options) {
     const study::StudyConfig config =
         study_of(scenario, {experiment::built_in_condition("baseline", "check")}, seed, 1);
     options.folder = std::filesystem::path("runs") / ("check-" + scenario.name);
@@ -244,6 +297,8 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double a
         const results::RunTiming timing = store.read_timing(key).value_or(results::RunTiming{});
         findings.push_back({"memory", Grade::ok, fmt::format("{} MiB", timing.peak_kib / 1024)});
         std::filesystem::remove_all(options.folder);
+        if (lock_trials > 0)
+            findings.push_back(lock_finding(try_locks(scenario, seed, lock_trials, options)));
     } else {
         findings = {error_finding(store.read_error(key).value_or(results::RunError{}), options.folder)};
     }

@@ -56,10 +56,21 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
 /// What a run that failed says about it. Its inputs are kept in `folder`.
 Finding error_finding(const results::RunError& error, const std::filesystem::path& folder);
 
+/// How often a scenario locks by itself, as configured and with the other choice about
+/// `time.ignore_junction_blocker_s`, each in `trials` runs.
+struct LockTrials {
+    std::uint32_t trials = 0;
+    std::size_t locked_with = 0;     ///< Runs with a lock while vehicles that block a junction are ignored.
+    std::size_t locked_without = 0;  ///< The same while they are not.
+    double ignored_after_s = 0.0;
+};
+Finding lock_finding(const LockTrials& trials);
+
 /// Makes one run of the baseline in `runs/check-SCENARIO`, which is kept only if the run fails, judges it and
-/// prints the findings. `asked_density` is that of the options by which the scenario was loaded. Returns ok,
+/// prints the findings. With `lock_trials` above 0 it makes as many runs more of each kind of LockTrials.
+/// `asked_density` is that of the options by which the scenario was loaded. Returns ok,
 /// fell_short or runs_failed, or how the run was interrupted.
 core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double asked_density,
-                              std::uint64_t seed, RunOptions options);
+                              std::uint64_t seed, std::uint32_t lock_trials, RunOptions options);
 
 }  // namespace clearway::campaign

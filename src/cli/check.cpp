@@ -14,6 +14,7 @@ Action configure_check(CLI::App& app) {
     struct Arguments {
         std::string scenario;
         std::uint64_t seed = 1;
+        std::uint32_t lock_trials = 0;
         campaign::RunOptions run;
         scenario::Options options;
     };
@@ -22,6 +23,10 @@ Action configure_check(CLI::App& app) {
         ->required()
         ->option_text("SCENARIO (required)");
     add_seed_option(app, arguments->seed);
+    app.add_option("--lock-trials", arguments->lock_trials,
+                   "Also look for locks in N runs with time.ignore_junction_blocker_s, and in N without")
+        ->check(CLI::Range(0U, 1000U))
+        ->option_text("N, 0 to 1000 [0]");
     add_limit_options(app, arguments->run.limits);
     add_json_option(app, arguments->run.publish.printing, "the findings");
     add_scenario_options(app, arguments->options);
@@ -29,7 +34,7 @@ Action configure_check(CLI::App& app) {
         arguments->run.command = invocation.command;
         return campaign::check_scenario(scenario::load(arguments->scenario, arguments->options),
                                         arguments->options.number("density", 1.0), arguments->seed,
-                                        arguments->run);
+                                        arguments->lock_trials, arguments->run);
     };
 }
 

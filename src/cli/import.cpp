@@ -75,7 +75,8 @@ core::ExitCode import(Arguments& arguments) {
         const std::filesystem::path& folder = arguments.request.folder;
         const std::string scenario = folder.is_absolute() ? folder.string() : "./" + folder.string();
         fmt::print("{}picture: {}/network.svg\nNext: {}\n", scenario_import::to_text(findings),
-                   folder.string(), core::shell_text({"clearway", "scenario", "check", scenario}));
+                   folder.string(),
+                   core::shell_text({"clearway", "scenario", "check", scenario, "--lock-trials", "6"}));
     }
     return findings.bad_vehicles_share > scenario_import::most_bad_vehicles ? core::ExitCode::fell_short
                                                                             : core::ExitCode::ok;

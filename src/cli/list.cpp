@@ -42,10 +42,13 @@ Section scenarios() {
     Section section{"scenarios", "Scenarios (run SCENARIO, dataset SCENARIO, init --from SCENARIO)", {}};
     for (const std::string& name : scenario::list()) {
         const scenario::ScenarioConfig config = scenario::load(name);
+        const std::string newest = scenario::newest(name);
         section.entries.push_back({name,
-                                   fmt::format("{} ({})", config.title, config.version),
+                                   fmt::format("{} ({}{})", config.title, config.version,
+                                               newest == name ? "" : "; for new studies " + newest),
                                    {{"title", config.title},
                                     {"version", config.version},
+                                    {"newest", newest},
                                     {"dense_variant", config.dense.has_value()},
                                     {"step_length_s", config.time.step_length_s},
                                     {"attribution", config.network.attribution}}});

@@ -24,6 +24,11 @@ void ClosedLoop::begin(const experiment::ConditionSpec& condition, const Control
     timing_ = {};
 }
 
+metrics::StandingReasons ClosedLoop::standing_reasons() const {
+    return {.at_stop = [this](core::VehicleKey vehicle) { return session_.is_stopped(vehicle); },
+            .pedestrian_on = [this](core::LaneIndex crossing) { return session_.has_pedestrian(crossing); }};
+}
+
 void ClosedLoop::warm_up(core::Seconds end, core::Seconds step_length) {
     assert(!controller_ && step_length.value > 0.0);
     while (session_.time().value + step_length.value <= end.value)

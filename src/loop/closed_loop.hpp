@@ -43,6 +43,9 @@ class ClosedLoop {
     /// Releases everything that the controller holds. Returns what became of its leases.
     metrics::LeaseTotals finish();
 
+    /// Asks the session, which outlives what is returned.
+    metrics::StandingReasons standing_reasons() const;
+
     /// Timing of the steps since `begin`, or of all steps before it.
     const LoopTiming& timing() const { return timing_; }
 

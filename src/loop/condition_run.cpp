@@ -17,7 +17,7 @@ long peak_kib() {
 
 metrics::LeaseTotals run_condition(ClosedLoop& loop, metrics::Recorder& recorder,
                                    const experiment::ConditionSpec& condition, Stage stage) {
-    recorder.watch(std::move(stage.layout));
+    recorder.watch(std::move(stage.layout), loop.standing_reasons());
     recorder.configure(
         metrics::RecorderConfig::of_latency(core::Seconds(pipeline::observed_failure(condition).latency_s)));
     loop.begin(condition, stage.context);

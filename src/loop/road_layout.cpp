@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "core/ids.hpp"
 #include "roads/route.hpp"
@@ -67,6 +70,56 @@ void add_signal_heads(const roads::Network& network, metrics::RoadLayout& layout
     }
 }
 
+/// The junction of a crossing's edge `:J_c0`.
+std::string junction_of(const std::string& crossing) {
+    return crossing.substr(1, crossing.rfind("_c") - 1);
+}
+
+void add_crossings(const roads::Network& network, metrics::LaneChain& chain) {
+    std::map<std::string, std::vector<core::LaneIndex>> crossings;
+    for (const roads::Edge& edge : network.edges())
+        if (edge.crossing) crossings[junction_of(edge.id)].push_back(core::LaneIndex{edge.first_lane});
+    for (const std::string& junction : chain.junctions) {
+        const auto found = crossings.find(junction);
+        chain.crossings.push_back(found == crossings.end() ? std::vector<core::LaneIndex>{} : found->second);
+    }
+}
+
+/// Gives the lanes inside a junction the edge from which a way across it starts.
+void add_approach(const roads::Network& network, core::LaneIndex from, metrics::LaneChain& chain) {
+    for (const roads::Connection& start : network.connections_from(from)) {
+        core::LaneIndex inside = start.via;
+        while (inside.exists()) {
+            chain.approach[inside.value] = chain.edge[from.value];
+            const auto onwards = network.connections_from(inside);
+            inside = onwards.empty() ? core::LaneIndex::none() : onwards.front().via;
+        }
+    }
+}
+
+metrics::LaneChain lane_chain(const roads::Network& network) {
+    metrics::LaneChain chain;
+    for (std::uint32_t lane = 0; lane < network.lanes().size(); ++lane) {
+        const core::LaneIndex from{lane};
+        std::vector<metrics::LaneWay>& ways = chain.ways.emplace_back();
+        for (const roads::Connection& connection : network.connections_from(from))
+            ways.push_back({network.lane(connection.to).edge,
+                            connection.via.exists() ? connection.via : connection.to, connection.signal,
+                            connection.signal_link});
+        chain.edge.push_back(network.lane(from).edge);
+        chain.length_m.push_back(network.lane(from).length_m);
+    }
+    chain.approach = chain.edge;
+    for (std::uint32_t lane = 0; lane < network.lanes().size(); ++lane)
+        if (!network.edge(chain.edge[lane]).internal) add_approach(network, core::LaneIndex{lane}, chain);
+    for (const roads::Edge& edge : network.edges()) {
+        chain.edge_ids.push_back(edge.id);
+        chain.junctions.push_back(edge.internal ? "" : edge.to_junction);
+    }
+    add_crossings(network, chain);
+    return chain;
+}
+
 /// To the end of the edge of lane `last`, at the speed limits.
 double least_time_s(const roads::Network& network, const std::vector<core::EdgeIndex>& route,
                     core::LaneIndex last) {
@@ -120,6 +173,7 @@ metrics::RoadLayout road_layout(const roads::Network& network,
     add_approaches(network, counts, layout);
     add_signal_ways(network, layout);
     add_signal_heads(network, layout);
+    layout.chain = lane_chain(network);
     for (const roads::Signal& signal : network.signals())
         layout.signals.push_back(signal.id);
     for (const roads::Lane& lane : network.lanes()) {

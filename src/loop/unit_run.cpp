@@ -25,6 +25,8 @@ sumo::SessionConfig session_config(const experiment::RunJob& unit, const scenari
     config.seed = prepared.simulator_seed;
     if (prepared.time.time_to_teleport_s)
         config.time_to_teleport = core::Seconds(*prepared.time.time_to_teleport_s);
+    if (prepared.time.ignore_junction_blocker_s)
+        config.ignore_junction_blocker = core::Seconds(*prepared.time.ignore_junction_blocker_s);
     if (unit.traffic_model == experiment::TrafficModel::sublane) {
         config.extra_arguments = {"--lateral-resolution", scenario::sublane_resolution_m};
     }

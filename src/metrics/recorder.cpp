@@ -15,6 +15,7 @@
 #include "metrics/detail/elements.hpp"
 #include "metrics/detail/flow_watch.hpp"
 #include "metrics/detail/hold_watch.hpp"
+#include "metrics/detail/lock_watch.hpp"
 #include "metrics/detail/mean.hpp"
 #include "metrics/detail/signal_log.hpp"
 #include "metrics/detail/trace_hash.hpp"
@@ -303,6 +304,7 @@ struct Recorder::State {
     std::optional<detail::TrafficWatch> traffic;
     std::optional<detail::FlowWatch> flow;
     std::optional<detail::HoldWatch> holds;
+    std::optional<detail::LockWatch> locks;
     std::optional<detail::ConflictWatch> conflicts;
     std::optional<detail::CrossWatch> cross_streets;
     std::optional<detail::SignalLog> signal_log;
@@ -319,11 +321,12 @@ void Recorder::configure(RecorderConfig config) {
     state_->config = config;
 }
 
-void Recorder::watch(RoadLayout layout) {
+void Recorder::watch(RoadLayout layout, StandingReasons reasons) {
     state_->layout = std::move(layout);
     state_->traffic.emplace(state_->layout);
     state_->flow.emplace(state_->layout);
     state_->holds.emplace(state_->layout);
+    state_->locks.emplace(state_->layout, std::move(reasons));
     state_->conflicts.emplace();
     state_->cross_streets.emplace(state_->layout);
 }
@@ -338,6 +341,7 @@ void Recorder::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
         state_->traffic->step(snapshot, state_->row_before);
         state_->flow->step(snapshot, state_->row_before);
         state_->holds->step(snapshot, leases);
+        state_->locks->step(snapshot, roster);
         state_->conflicts->step(snapshot, roster);
         state_->cross_streets->step(snapshot);
     }
@@ -385,6 +389,8 @@ RunSummary Recorder::finish(const RunEnd& end) const {
     if (state_->traffic) {
         summary.traffic = state_->traffic->tables();
         summary.traffic.holds = state_->holds->rows();
+        summary.traffic.locks = state_->locks->rows();
+        state_->locks->describe(metrics);
         state_->flow->describe(metrics);
         state_->conflicts->describe(metrics);
         metrics.cross_street_delay_s = state_->cross_streets->delay_s();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -50,6 +51,12 @@ struct RecorderConfig {
     }
 };
 
+/// What a simulator is asked about a vehicle that stands without a red ahead. An empty function answers no.
+struct StandingReasons {
+    std::function<bool(core::VehicleKey)> at_stop;       ///< Planned or commanded.
+    std::function<bool(core::LaneIndex)> pedestrian_on;  ///< Whether somebody walks on a crossing.
+};
+
 /// What the recorder needs at the end of a run.
 struct RunEnd {
     /// Complete files (the session is closed): one, or one per vehicle of a solo run.
@@ -76,8 +83,8 @@ class Recorder {
     void configure(RecorderConfig config);
 
     /// From the next step on, also records where time is lost, how emergency vehicles travel, and safety
-    /// measures.
-    void watch(RoadLayout layout);
+    /// measures. `reasons` are asked while the recorder steps.
+    void watch(RoadLayout layout, StandingReasons reasons = {});
 
     /// One step: counts events and adds snapshot and leases to the trace hash. The roster lists every vehicle
     /// of the snapshot.

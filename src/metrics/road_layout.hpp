@@ -53,6 +53,28 @@ struct SignalHead {
     std::vector<std::uint16_t> foes;  ///< Links that conflict with it.
 };
 
+/// A way from the end of a lane, inside junctions too.
+struct LaneWay {
+    core::EdgeIndex next;  ///< Edge of `to`.
+    core::LaneIndex
+        onto;  ///< The lane that a vehicle drives on next: the first inside the junction, or `to`.
+    core::SignalIndex signal;  ///< Or none.
+    std::uint16_t link = 0;
+};
+
+/// The lanes as vehicles follow each other on them, all by core::LaneIndex.
+struct LaneChain {
+    std::vector<std::vector<LaneWay>> ways;
+    std::vector<core::EdgeIndex> edge;
+    std::vector<float> length_m;
+    /// The edge outside junctions: of a lane inside one, the edge that leads there.
+    std::vector<core::EdgeIndex> approach;
+    /// By core::EdgeIndex: its id, the junction at its end, and the crossings for pedestrians there.
+    std::vector<std::string> edge_ids;
+    std::vector<std::string> junctions;
+    std::vector<std::vector<core::LaneIndex>> crossings;
+};
+
 /// What a recorder has to know of the map to say where time was lost: plain numbers, so that it needs no map.
 struct RoadLayout {
     static constexpr std::int32_t no_approach = -1;
@@ -65,6 +87,7 @@ struct RoadLayout {
     std::vector<std::string> signals;                   ///< Ids, by core::SignalIndex.
     std::vector<SignalWay> signal_ways;                 ///< Ordered by `to`.
     std::vector<std::vector<SignalHead>> signal_heads;  ///< By core::SignalIndex, then link.
+    LaneChain chain;
     /// Vehicles of the demand depart until this time; flows are measured until then.
     double demand_until_s = 0.0;
     /// Whether to keep the emergency vehicles' journeys, which take as much space as everything else

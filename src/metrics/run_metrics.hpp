@@ -82,6 +82,11 @@ struct RunMetrics {
     std::uint64_t emergency_pedestrian_collisions = 0;
 
     // From the fork of the conditions on.
+    std::uint64_t locks = 0;
+    std::uint64_t locked_vehicles = 0;
+    std::uint64_t locked_emergency_vehicles = 0;
+    double locked_vehicle_s = 0.0;
+    double longest_lock_s = 0.0;
     std::optional<double> emergency_least_ttc_s;
     std::uint64_t emergency_conflicts = 0;
     std::optional<double> emergency_greatest_drac_mps2;
@@ -201,6 +206,18 @@ struct RunMetrics {
         using core::Field;
         return std::make_tuple(
             Field{"teleports", "1", &M::teleports, 0.0, 1e9, "Teleports", "events"},
+            Field{"locks", "1", &M::locks, 0.0, 1e9,
+                  "Locks: places where vehicles stood over 60 s with no red, no stop and no queue to a red "
+                  "ahead",
+                  "docs/reference/metrics.md"},
+            Field{"locked_vehicles", "1", &M::locked_vehicles, 0.0, 1e9, "Vehicles that stood in a lock",
+                  "docs/reference/metrics.md"},
+            Field{"locked_emergency_vehicles", "1", &M::locked_emergency_vehicles, 0.0, 1e9,
+                  "EVs that stood in a lock", "docs/reference/metrics.md"},
+            Field{"locked_vehicle_s", "s", &M::locked_vehicle_s, 0.0, 1e12,
+                  "Time that vehicles stood in locks, summed over vehicles", "docs/reference/metrics.md"},
+            Field{"longest_lock_s", "s", &M::longest_lock_s, 0.0, 1e9, "Duration of the longest lock",
+                  "docs/reference/metrics.md"},
             Field{"collisions", "1", &M::collisions, 0.0, 1e9, "Collisions, on lanes and at junctions",
                   "events"},
             Field{"junction_collisions", "1", &M::junction_collisions, 0.0, 1e9, "Collisions at junctions",

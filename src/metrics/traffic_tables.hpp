@@ -117,6 +117,28 @@ struct SignalHoldRow {
     }
 };
 
+/// A lock: vehicles stood at a junction over 60 s with no red, no stop and no queue to a red ahead of them.
+struct LockRow {
+    std::string edge;      ///< On which, or inside the junction behind which, the first of the queue stood.
+    std::string junction;  ///< At its end. Both are texts from a file, so printers escape them.
+    double from_s = 0.0;
+    double lasted_s = 0.0;
+    std::uint64_t vehicles = 0;
+    std::uint64_t emergency_vehicles = 0;
+
+    bool operator==(const LockRow&) const = default;
+
+    static constexpr auto fields() {
+        using R = LockRow;
+        using core::Field;
+        return std::make_tuple(
+            Field{"from_s", "s", &R::from_s, 0.0, 1e9, "When the first vehicle came to a stand", ""},
+            Field{"lasted_s", "s", &R::lasted_s, 0.0, 1e9, "Until no vehicle stood in it any more", ""},
+            Field{"vehicles", "1", &R::vehicles, 0.0, 1e9, "Vehicles that stood in it", ""},
+            Field{"emergency_vehicles", "1", &R::emergency_vehicles, 0.0, 1e9, "Of them: EVs", ""});
+    }
+};
+
 /// Where a run lost time, and how its emergency vehicles travelled.
 struct TrafficTables {
     std::vector<ApproachRow> approaches;  ///< By edge, then class; no rows without vehicles.
@@ -124,6 +146,7 @@ struct TrafficTables {
     std::vector<JourneyRow> journeys;     ///< By vehicle; empty where they are not kept.
     std::vector<EdgeTimeRow> edge_times;  ///< By vehicle, in driving order.
     std::vector<SignalHoldRow> holds;     ///< By signal; no rows for signals that were not held.
+    std::vector<LockRow> locks;           ///< By start.
 
     bool operator==(const TrafficTables&) const = default;
 };

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "report/detail/json.hpp"
+#include "report/facts.hpp"
+#include "report/locks.hpp"
 #include "report/text.hpp"
 #include "results/factor_columns.hpp"
 
@@ -134,7 +136,12 @@ std::string numbers_of(const Comparison& comparison) {
 
 Json to_json(const Comparison& comparison) {
     const auto& difference = comparison.difference;
-    return {{"complete_pairs", comparison.complete_pairs},
+    const auto& unlocked = comparison.unlocked;
+    return {{"locked_pairs", comparison.locked_pairs},
+            {"difference_without_locks", json_of(mean_of(unlocked))},
+            {"interval_95_without_locks",
+             shown_interval(unlocked) != nullptr ? json_of(unlocked->interval) : Json(nullptr)},
+            {"complete_pairs", comparison.complete_pairs},
             {"incomplete_pairs", comparison.incomplete_pairs},
             {"vehicles_left_out", comparison.vehicles_left_out},
             {"difference", json_of(mean_of(difference))},
@@ -245,6 +252,9 @@ std::string differing_text(const analysis::Summary& summary) {
 std::string objections_text(const ScenarioSummary& scenario) {
     std::string text;
     for (const ConditionSummary& condition : scenario.conditions) {
+        if (const std::string locks = lock_words(condition); !locks.empty())
+            text += fmt::format("{}: {}: {}.\n", printable(scenario.scenario),
+                                printable(condition.condition.name), locks);
         for (const std::string& why : {analysis::emergency_objections(condition.objections),
                                        analysis::other_objections(condition.objections)}) {
             if (!why.empty())
@@ -310,6 +320,10 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
                 const Comparison& comparison = *condition.metric(name).comparison;
                 any_few = any_few || comparison.complete_pairs < analysis::fewest_for_interval;
                 rows += labels.of(condition) + numbers_of(comparison);
+                if (const std::string words =
+                        locked_pairs_words(comparison, usual_least_relevant_s, Script::plain);
+                    !words.empty())
+                    rows += "  " + words + "\n";
             }
             if (metric == nullptr) continue;
             fmt::format_to(out, "{}: {}{}\n{}", printable(scenario.scenario), metric->doc,
@@ -342,6 +356,7 @@ std::string comparison_json(const analysis::Summary& summary, const std::vector<
                                {"condition", condition.condition.name},
                                {"compared_with", condition.baseline},
                                {"safety_checks", experiment::name(condition.condition.safety_checks)},
+                               {"locks", detail::locks_json(condition)},
                                {"objections", analysis::emergency_objections(condition.objections)},
                                {"objections_of_others", analysis::other_objections(condition.objections)},
                                {"metrics", std::move(values)},

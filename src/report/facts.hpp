@@ -78,6 +78,8 @@ struct Precision {
     std::vector<PrecisionPoint> points;  ///< From five replications on, at most `precision_points` of them.
     double deviation_s = 0.0;            ///< Of the paired differences.
     std::uint64_t needed = 0;            ///< For a half width of the least relevant difference (FHWA's rule).
+    std::optional<std::uint64_t> needed_unlocked =
+        {};  ///< Without the pairs that locked; nothing if none did.
 };
 /// Larger numbers of replications are not suggested: the user should accept a larger difference.
 inline constexpr std::uint64_t most_replications_asked = 200;
@@ -117,6 +119,14 @@ struct JourneyFacts {
 inline constexpr std::array event_metrics = {"leases_issued", "leases_refused",       "leases_expired",
                                              "collisions",    "emergency_collisions", "teleports"};
 
+/// The emergency vehicle of a condition that took longest.
+struct WorstTrip {
+    std::string vehicle;  ///< SUMO's id; text from a file, so printers escape it.
+    std::uint32_t replication = 0;
+    double seconds = 0.0;  ///< Of the trip, or until its end if it did not arrive.
+    bool arrived = true;
+};
+
 /// A run without a result.
 struct FailedRun {
     std::uint32_t replication = 0;
@@ -150,7 +160,8 @@ struct ConditionFacts : analysis::ConditionSummary {
     bool knows_truth = false;  ///< Its predictor is no repair: it is given the truth.
     double least_relevant_s = 0.0;  ///< Smaller mean differences of EV times do not count.
     std::vector<FailedRun> failed;
-    Distribution distribution;           ///< Of EV travel times.
+    Distribution distribution;  ///< Of EV travel times.
+    std::optional<WorstTrip> worst_trip;
     std::optional<Precision> precision;  ///< Nothing below two pairs.
 
     const std::string& name() const { return condition.name; }

@@ -48,6 +48,10 @@ Json paired_json(const analysis::Comparison& paired) {
     detail::put_ends(object, detail::pointer_to(paired.bootstrap), "bca_low_95", "bca_high_95");
     object["median"] = json_of(paired.median);
     detail::put_ends(object, detail::pointer_to(paired.median_interval), "median_low_95", "median_high_95");
+    object["locked_pairs"] = paired.locked_pairs;
+    object["mean_without_locks"] = json_of(mean_of(paired.unlocked));
+    detail::put_ends(object, shown_interval(paired.unlocked), "without_locks_low_95",
+                     "without_locks_high_95");
     object["effect_size_dz"] = json_of(paired.effect_size);
     object["t_p"] = json_of(paired.t_p);
     object["holm_p"] = json_of(paired.holm_p);
@@ -138,6 +142,7 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
                    {"response_in_time_1", to_json(response.in_time, "replications")},
                    {"events", events_of(condition)},
                    {"safety", safety_of(condition)},
+                   {"locks", detail::locks_json(condition)},
                    {"emergency_outcomes", to_json(condition.emergency)},
                    {"other_outcomes", to_json(condition.others)}};
     if (condition.is_compared()) {
@@ -152,6 +157,8 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
         result["precision"] = {
             {"deviation_s", condition.precision->deviation_s},
             {"replications_needed", open ? Json(condition.precision->needed) : Json(nullptr)}};
+        if (const auto& needed = condition.precision->needed_unlocked)
+            result["precision"]["replications_needed_without_locks"] = *needed;
     }
     if (condition.is_compared()) result["objections"] = to_json(condition.objections);
     if (condition.is_compared()) result["verdict"] = verdict(scenario, condition, Script::plain).text();

@@ -62,6 +62,13 @@ struct SignalHolds {
     double held_s = 0.0;
 };
 
+/// Locks at the junction at the end of an edge, over all runs.
+struct MapLocks {
+    std::size_t edge = 0;  ///< In RoadMap::edges.
+    std::uint64_t condition = 0;
+    std::uint64_t baseline = 0;
+};
+
 /// Where the edge of a road network lies in time, seen from the nearest station.
 struct ReachedEdge {
     std::optional<double> baseline_s;   ///< At the end of the edge; nothing if no station leads there.
@@ -87,6 +94,7 @@ struct ScenarioMap {
     std::size_t condition = 0;  ///< In the scenario; the one that its first screen is about.
     std::vector<EdgeTimes> times;
     std::vector<SignalHolds> holds;
+    std::vector<MapLocks> locks = {};
     std::optional<Reach> reach;  ///< Nothing for a scenario without stations.
 };
 

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "report/locks.hpp"
+
 namespace clearway::report {
 namespace {
 
@@ -182,6 +184,30 @@ std::string scenario_headline(const ScenarioFacts& scenario, const ConditionFact
     words = joined(std::move(words), missing_clause(condition));
     if (condition.is_unchecked()) words = joined(std::move(words), "the simulator's safety checks were off");
     return words + ".";
+}
+
+std::string worst_trips(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+    std::string words;
+    const ConditionFacts* const baseline = scenario.baseline_of(condition);
+    for (const ConditionFacts* const one : {&condition, baseline}) {
+        if (one == nullptr || !one->worst_trip) continue;
+        const WorstTrip& trip = *one->worst_trip;
+        words = joined(std::move(words),
+                       fmt::format("{}: {} in replication {}, {}{}", one->title, printable(trip.vehicle),
+                                   trip.replication, seconds(trip.seconds, script),
+                                   trip.arrived ? "" : ", did not arrive"));
+    }
+    return words.empty() ? words : "Longest trip, " + words + ".";
+}
+
+std::string locks_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    std::string words;
+    const ConditionFacts* const baseline = scenario.baseline_of(condition);
+    for (const ConditionFacts* const one : {&condition, baseline}) {
+        const std::string locks = one == nullptr ? "" : lock_words(*one);
+        if (!locks.empty()) words = joined(std::move(words), one->title + ": " + locks);
+    }
+    return words.empty() ? words : "Vehicles locked each other. " + words + ".";
 }
 
 std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scenario) {

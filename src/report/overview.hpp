@@ -20,6 +20,11 @@ const ConditionFacts* featured_condition(const StudyFacts& study, const Scenario
 /// Plain text, not escaped.
 std::string scenario_headline(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
 
+/// The longest EV trip of the condition and of its baseline; empty if no EV entered. Plain text.
+std::string worst_trips(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
+/// The locks of the condition and of its baseline; empty if there are none. Plain text.
+std::string locks_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition);
+
 /// How many of the scenario's conditions help, and that the featured one is the largest of several gains;
 /// empty if only one is compared. Plain text.
 std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scenario);

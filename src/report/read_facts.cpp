@@ -113,6 +113,10 @@ std::optional<Precision> precision_of(const std::optional<analysis::Comparison>&
     const double wanted_s = least_relevant_s > 0.0 ? least_relevant_s : usual_least_relevant_s;
     precision.needed = std::max(analysis::fewest_replications,
                                 analysis::required_replications(precision.deviation_s, wanted_s, level));
+    if (comparison->unlocked && comparison->unlocked->n >= 2)
+        precision.needed_unlocked =
+            std::max(analysis::fewest_replications,
+                     analysis::required_replications(comparison->unlocked->deviation, wanted_s, level));
     return precision;
 }
 
@@ -173,13 +177,23 @@ ConditionFacts* find(const Conditions& conditions, const experiment::RunKey& key
     return found == conditions.end() ? nullptr : found->second;
 }
 
+void note_trip(const metrics::VehicleRow& vehicle, std::uint32_t replication, ConditionFacts& condition) {
+    if (!vehicle.travel_time_s) return;
+    std::optional<WorstTrip>& worst = condition.worst_trip;
+    if (worst && worst->seconds >= *vehicle.travel_time_s) return;
+    worst = WorstTrip{vehicle.id, replication, *vehicle.travel_time_s,
+                      vehicle.outcome == metrics::VehicleOutcome::arrived};
+}
+
 void add_distributions(const results::Results& results, const Conditions& conditions) {
     std::map<ConditionFacts*, std::pair<std::vector<double>, std::uint64_t>> times;
     for (const results::RunRecord& run : results.runs) {
-        auto& [seconds, all] = times[find(conditions, run.key)];
+        ConditionFacts* const condition = find(conditions, run.key);
+        auto& [seconds, all] = times[condition];
         for (const metrics::VehicleRow& vehicle : run.vehicles) {
             if (vehicle.vehicle_class != traffic::VehicleClass::emergency) continue;
             ++all;
+            if (condition != nullptr) note_trip(vehicle, run.key.replication, *condition);
             if (vehicle.outcome == metrics::VehicleOutcome::arrived && vehicle.travel_time_s)
                 seconds.push_back(*vehicle.travel_time_s);
         }

@@ -6,47 +6,47 @@
 namespace clearway::report {
 namespace {
 
-using Row = std::pair<const char*, const char*>;  // metric, title
+using Titled = std::pair<const char*, const char*>;  // metric, title
 
 constexpr std::array rows = {
-    Row{"collisions", "Collisions, on lanes and at junctions"},
-    Row{"junction_collisions", "Collisions at junctions"},
-    Row{"emergency_collisions", "Collisions with an EV"},
-    Row{"emergency_junction_collisions", "Collisions with an EV at junctions"},
-    Row{"emergency_brakings", "Emergency brakings (9 m/s\u00b2; trucks and buses 7)"},
-    Row{"teleports", "Teleports"},
-    Row{"emergency_conflicts", "Conflicts near an EV (time to collision below 1.5 s)"},
-    Row{"emergency_least_ttc_s", "Least time to collision near an EV, s"},
-    Row{"emergency_greatest_drac_mps2", "Greatest deceleration to avoid a crash near an EV, m/s\u00b2"},
-    Row{"emergency_red_passages", "EVs past a red signal"},
-    Row{"others_red_passages", "Others past a red signal"},
-    Row{"others_hard_brakings", "Hard brakings of others (3.4 m/s\u00b2)"},
-    Row{"others_jerk_mps3", "Jerk of others, root mean square, m/s\u00b3"},
-    Row{"signal_throughput_per_hour", "Vehicles past stop lines of signals, per hour"},
-    Row{"signal_queue_vehicles", "Queue on an approach to a signal, mean, vehicles"},
-    Row{"signal_longest_queue_vehicles", "Longest queue, vehicles"},
-    Row{"worst_approach_delay_s", "Time lost on the worst approach, s per vehicle"},
-    Row{"cross_street_delay_s",
+    Titled{"collisions", "Collisions, on lanes and at junctions"},
+    Titled{"junction_collisions", "Collisions at junctions"},
+    Titled{"emergency_collisions", "Collisions with an EV"},
+    Titled{"emergency_junction_collisions", "Collisions with an EV at junctions"},
+    Titled{"emergency_brakings", "Emergency brakings (9 m/s\u00b2; trucks and buses 7)"},
+    Titled{"teleports", "Teleports"},
+    Titled{"emergency_conflicts", "Conflicts near an EV (time to collision below 1.5 s)"},
+    Titled{"emergency_least_ttc_s", "Least time to collision near an EV, s"},
+    Titled{"emergency_greatest_drac_mps2", "Greatest deceleration to avoid a crash near an EV, m/s\u00b2"},
+    Titled{"emergency_red_passages", "EVs past a red signal"},
+    Titled{"others_red_passages", "Others past a red signal"},
+    Titled{"others_hard_brakings", "Hard brakings of others (3.4 m/s\u00b2)"},
+    Titled{"others_jerk_mps3", "Jerk of others, root mean square, m/s\u00b3"},
+    Titled{"signal_throughput_per_hour", "Vehicles past stop lines of signals, per hour"},
+    Titled{"signal_queue_vehicles", "Queue on an approach to a signal, mean, vehicles"},
+    Titled{"signal_longest_queue_vehicles", "Longest queue, vehicles"},
+    Titled{"worst_approach_delay_s", "Time lost on the worst approach, s per vehicle"},
+    Titled{"cross_street_delay_s",
         "Time lost on cross streets in the 15 min after an EV, vehicle-s per passage"},
 };
 
 /// Shown only if signals were asked for green.
 constexpr std::array signal_rows = {
-    Row{"signal_calls", "Requests that reached a signal"},
-    Row{"signal_calls_granted", "Requests granted"},
-    Row{"held_greens_useless", "Greens held in which the EV did not pass"},
-    Row{"signal_entry_delay_s", "From request to transition, s"},
-    Row{"signal_time_to_service_s", "From request to green, s"},
-    Row{"signal_dwell_s", "Hold, s"},
-    Row{"signal_recovery_s", "From the end of a hold to the program in step again, s"},
+    Titled{"signal_calls", "Requests that reached a signal"},
+    Titled{"signal_calls_granted", "Requests granted"},
+    Titled{"held_greens_useless", "Greens held in which the EV did not pass"},
+    Titled{"signal_entry_delay_s", "From request to transition, s"},
+    Titled{"signal_time_to_service_s", "From request to green, s"},
+    Titled{"signal_dwell_s", "Hold, s"},
+    Titled{"signal_recovery_s", "From the end of a hold to the program in step again, s"},
 };
 
 /// Shown only if there are pedestrians.
 constexpr std::array pedestrian_rows = {
-    Row{"pedestrian_collisions", "Collisions with a pedestrian"},
-    Row{"emergency_pedestrian_collisions", "Collisions of an EV with a pedestrian"},
-    Row{"pedestrian_count", "Walks of pedestrians"},
-    Row{"pedestrian_time_loss_s", "Time lost on a walk over a crossing, s"},
+    Titled{"pedestrian_collisions", "Collisions with a pedestrian"},
+    Titled{"emergency_pedestrian_collisions", "Collisions of an EV with a pedestrian"},
+    Titled{"pedestrian_count", "Walks of pedestrians"},
+    Titled{"pedestrian_time_loss_s", "Time lost on a walk over a crossing, s"},
 };
 
 }  // namespace
@@ -55,7 +55,7 @@ std::vector<SafetyRow> safety_rows(const analysis::ConditionSummary& summary) {
     std::vector<SafetyRow> facts;
     if (summary.complete_runs == 0) return facts;
     const double driven_km = summary.total("vehicle_km");
-    std::vector<Row> shown(rows.begin(), rows.end());
+    std::vector<Titled> shown(rows.begin(), rows.end());
     if (summary.total("signal_calls") > 0.0)
         shown.insert(shown.end(), signal_rows.begin(), signal_rows.end());
     if (summary.total("pedestrian_count") > 0.0)

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "report/locks.hpp"
 #include "traffic/step_length.hpp"
 
 namespace clearway::report {
@@ -190,6 +191,22 @@ std::string sentence_of_parts(const char* what, const std::vector<analysis::Idle
     return text.empty() ? text : fmt::format(" {}: {}.", what, text);
 }
 
+/// The locks of a condition and of its baseline, before the effects that they may decide.
+std::string locks_of(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+    const ConditionFacts* const baseline = scenario.baseline_of(condition);
+    const std::string with = lock_words(condition);
+    const std::string without = baseline == nullptr ? "" : lock_words(*baseline);
+    if (with.empty() && without.empty()) return {};
+    std::string words = fmt::format("{} (baseline: {}); ", with.empty() ? "no lock" : with,
+                                    without.empty() ? "none" : without);
+    const auto& comparison = condition.outcome(primary).comparison;
+    const double wanted_s =
+        condition.least_relevant_s > 0.0 ? condition.least_relevant_s : usual_least_relevant_s;
+    const std::string pairs = comparison ? locked_pairs_words(*comparison, wanted_s, script) : "";
+    if (!pairs.empty()) words += fmt::format("EV travel time, s: {}; ", pairs);
+    return words;
+}
+
 }  // namespace
 
 Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
@@ -202,6 +219,7 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     Verdict words = lead(scenario, condition, script);
     words.finding = absent + words.finding;
     std::string& text = words.figures;
+    text.insert(0, locks_of(scenario, condition, script));
     const std::string others = analysis::other_objections(condition.objections);
     if (!others.empty()) text += "; " + others;
     if (shown_interval(condition.difference(primary)) != nullptr) text += costs(scenario, condition, script);

@@ -29,7 +29,7 @@ struct RunRecord {
     experiment::Provenance provenance;
     metrics::RunMetrics metrics;
     std::vector<metrics::VehicleRow> vehicles;
-    /// Where time was lost; empty for solo. Journeys, edge times and holds are
+    /// Where time was lost; empty for solo. Journeys, edge times, holds and locks are
     /// written but not read back; see Store::read_traffic.
     metrics::TrafficTables traffic;
     /// By policy, then action. Nothing in a record of a version which kept only totals.

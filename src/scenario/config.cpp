@@ -101,6 +101,35 @@ void set_key(toml::table& root, const std::string& dotted, const std::string& va
     core::set_value(*table, dotted.substr(begin), value);
 }
 
+/// Puts the keys of `changes` over those of `table`; tables are merged, anything else is replaced.
+void change(toml::table& table, const toml::table& changes) {
+    for (const auto& [key, node] : changes) {
+        toml::table* const below = table[key].as_table();
+        if (below != nullptr && node.is_table())
+            change(*below, *node.as_table());
+        else
+            table.insert_or_assign(key, node);
+    }
+}
+
+/// The table of a scenario file. One that names a `base` has the keys of the scenario in the folder of that
+/// name beside its own, changed by its own keys; relative paths then start where those of the base do.
+toml::table read_scenario(const std::filesystem::path& file, std::filesystem::path& folder) {
+    toml::table table = core::parse_toml(core::read_file(file), file.string());
+    folder = file.parent_path().empty() ? "." : file.parent_path();
+    const std::optional<std::string> base = table["base"].value<std::string>();
+    if (!base) return table;
+    const std::filesystem::path base_file =
+        (std::filesystem::absolute(folder) / ".." / *base / "scenario.toml").lexically_normal();
+    if (!std::filesystem::is_regular_file(base_file))
+        throw core::InputError({file.string() + ": base", fmt::format("there is no {}", base_file.string()),
+                                "a scenario in a folder beside this one", ""});
+    table.erase("base");
+    toml::table whole = read_scenario(base_file, folder);
+    change(whole, table);
+    return whole;
+}
+
 }  // namespace
 
 DemandKind ScenarioConfig::demand_kind() const {
@@ -121,9 +150,8 @@ std::string ScenarioConfig::where(const std::string& key) const {
 ScenarioConfig load(const std::string& name_or_path, const Options& options) {
     const std::filesystem::path file = detail::scenario_file(name_or_path);
     ScenarioConfig config;
-    config.folder = file.parent_path().empty() ? "." : file.parent_path();
     core::TomlReading reading{file.string(), {}, {}};
-    toml::table table = core::parse_toml(core::read_file(file), reading.file);
+    toml::table table = read_scenario(file, config.folder);
     for (const auto& [key, value] : options.settings)
         set_key(table, key, value);
     read_root(table, reading, config);

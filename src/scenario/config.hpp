@@ -112,6 +112,7 @@ struct Times {
     double horizon_s = 1800.0;
     double step_length_s = 0.25;
     std::optional<double> time_to_teleport_s;
+    std::optional<double> ignore_junction_blocker_s;
 
     static constexpr auto fields() {
         using S = Times;
@@ -130,9 +131,17 @@ struct Times {
                         "docs/decisions/0001-step-length.md"},
             core::Field{"time_to_teleport_s", "s", &S::time_to_teleport_s, -1.0, 86400.0,
                         "SUMO teleports a vehicle that has stood this long past the jam; -1: never.",
-                        "none: SUMO's 300 s"});
+                        "none: SUMO's 300 s"},
+            core::Field{"ignore_junction_blocker_s", "s", &S::ignore_junction_blocker_s, -1.0, 86400.0,
+                        "A vehicle that has stood inside a junction for this long no longer blocks those who "
+                        "cross its way; -1: it always does.",
+                        "none: -1. New scenarios and imports are written with 10 s: "
+                        "docs/decisions/0016-locks.md"});
     }
 };
+
+/// What new scenarios and imports are written with, s: docs/decisions/0016-locks.md.
+inline constexpr double usual_ignore_junction_blocker_s = 10.0;
 
 /// Table `[demand]`. It sets the numbers of human and automated vehicles unless the demand is measured.
 struct Demand {
@@ -531,8 +540,13 @@ void store(const ScenarioConfig& config, const std::filesystem::path& folder);
 /// Names of the scenarios that come with Clearway, sorted.
 std::vector<std::string> list();
 
+/// The scenario that a new study should use in place of `name`: `city_v2` for `city`; `name` if there is
+/// none.
+std::string newest(const std::string& name);
+
 /// Makes `folder` a copy of scenario `from` (name, folder or file) for the user to edit; it is named after
-/// the folder. Throws core::InputError when the folder exists and is not empty.
+/// the folder, and gets `usual_ignore_junction_blocker_s` unless it has a value. Throws core::InputError when
+/// the folder exists and is not empty.
 void init(const std::filesystem::path& folder, const std::string& from);
 
 /// A path of a scenario: `$SUMO_HOME` replaced, relative ones below `config.folder`.

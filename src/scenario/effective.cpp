@@ -1,4 +1,5 @@
 #include <optional>
+#include <string_view>
 #include <type_traits>
 
 #include <fmt/format.h>
@@ -144,6 +145,23 @@ std::string renamed(const std::string& text, const std::string& name) {
            (end == std::string::npos ? "\n" : text.substr(end));
 }
 
+/// Whether the file stands for itself; one with a `base` is a list of changes.
+bool is_whole(const std::string& text) {
+    return !toml::parse(text).contains("base");
+}
+
+/// The text with the usual remedy against locks in its table [time], unless it has a value of its own.
+std::string unlocked(const std::string& text) {
+    const toml::table table = toml::parse(text);
+    if (table["time"]["ignore_junction_blocker_s"]) return text;
+    const std::string line =
+        fmt::format("ignore_junction_blocker_s = {:.1f}\n", usual_ignore_junction_blocker_s);
+    constexpr std::string_view header = "[time]\n";
+    const std::size_t at = text.find(header);
+    if (at == std::string::npos) return text + "\n[time]\n" + line;
+    return text.substr(0, at + header.size()) + line + text.substr(at + header.size());
+}
+
 }  // namespace
 
 std::string to_toml(const ScenarioConfig& config) {
@@ -183,8 +201,9 @@ void init(const std::filesystem::path& folder, const std::string& from) {
     core::make_folder(folder);
     copy_files(config, folder);
     const std::filesystem::path named = folder.has_filename() ? folder : folder.parent_path();
-    core::write_atomically(folder / "scenario.toml",
-                           renamed(core::read_file(source), named.filename().string()));
+    const std::string text = core::read_file(source);
+    core::write_atomically(folder / "scenario.toml", unlocked(renamed(is_whole(text) ? text : to_toml(config),
+                                                                      named.filename().string())));
 }
 
 }  // namespace clearway::scenario

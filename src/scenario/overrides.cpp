@@ -158,6 +158,7 @@ std::vector<Override> make_overrides() {
         of_key("horizon_s", "--horizon", "time.horizon_s"),
         of_key("step_length_s", "--step-length", "time.step_length_s"),
         of_key("time_to_teleport_s", "--time-to-teleport", "time.time_to_teleport_s"),
+        of_key("ignore_junction_blocker_s", "--ignore-junction-blocker", "time.ignore_junction_blocker_s"),
         of_key("siren_compliance", "--siren", "siren.compliance"),
         of_key("road_speed_factor", "--road-speed", "road.speed_factor"),
         of_key("friction", "--friction", "road.friction"),

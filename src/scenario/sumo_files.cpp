@@ -56,6 +56,10 @@ void write_sumo_files(const ScenarioConfig& config, const BuiltNetwork& network,
         run.lateral_model == traffic::LateralModel::sublane
             ? fmt::format("    <lateral-resolution value=\"{}\"/>\n", sublane_resolution_m)
             : "";
+    const std::string blockers = prepared.time.ignore_junction_blocker_s
+                                     ? fmt::format("    <ignore-junction-blocker value=\"{}\"/>\n",
+                                                   *prepared.time.ignore_junction_blocker_s)
+                                     : "";
     const std::string additional = copied(prepared.additional_files, folder);
     core::write_atomically(
         folder / "run.sumocfg",
@@ -65,10 +69,10 @@ void write_sumo_files(const ScenarioConfig& config, const BuiltNetwork& network,
             "    <route-files value=\"{}\"/>\n"
             "    <additional-files value=\"{}\"/>\n    <begin value=\"0\"/>\n    <end value=\"{}\"/>\n"
             "    <step-length value=\"{}\"/>\n    <seed value=\"{}\"/>\n"
-            "    <time-to-teleport value=\"{}\"/>\n{}    <xml-validation value=\"never\"/>\n"
+            "    <time-to-teleport value=\"{}\"/>\n{}{}    <xml-validation value=\"never\"/>\n"
             "    <collision.action value=\"warn\"/>\n</configuration>\n",
             routes, additional, prepared.time.horizon_s, prepared.time.step_length_s, prepared.simulator_seed,
-            prepared.time.time_to_teleport_s.value_or(300.0), lateral));
+            prepared.time.time_to_teleport_s.value_or(300.0), blockers, lateral));
 }
 
 }  // namespace clearway::scenario

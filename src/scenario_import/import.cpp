@@ -47,6 +47,7 @@ struct Sources {
     SumoFiles demand;
     double step_length_s = 1.0;  ///< Of the SUMO scenario; SUMO's default.
     std::optional<double> time_to_teleport_s;
+    std::optional<double> ignore_junction_blocker_s;
 };
 
 void check_folder(const std::filesystem::path& folder) {
@@ -83,6 +84,7 @@ void add_configuration(const std::filesystem::path& file, Import& import, Source
                       configuration.end_s,  configuration.scale,      configuration.rerouting};
     sources.step_length_s = configuration.step_length_s;
     sources.time_to_teleport_s = configuration.time_to_teleport_s;
+    sources.ignore_junction_blocker_s = configuration.ignore_junction_blocker_s;
     if (configuration.scale != 1.0)
         import.findings.changes.push_back(fmt::format(
             "option scale of the configuration: each vehicle occurs {:g} times", configuration.scale));
@@ -278,6 +280,8 @@ void take_over_times(const Sources& sources, scenario::ScenarioConfig& config) {
     if (sources.step_length_s >= finest_s && sources.step_length_s <= traffic::coarsest_trusted_step_s)
         config.time.step_length_s = sources.step_length_s;
     config.time.time_to_teleport_s = sources.time_to_teleport_s;
+    if (sources.ignore_junction_blocker_s)
+        config.time.ignore_junction_blocker_s = sources.ignore_junction_blocker_s;
 }
 
 void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfig& config) {
@@ -311,6 +315,7 @@ scenario::ScenarioConfig start_config(const Import& import) {
         fmt::format("{}, imported from {}", config.name, import.request.files.front().filename().string());
     config.network.file = network_name;
     config.limits.automated_kmh = config.limits.human_kmh;
+    config.time.ignore_junction_blocker_s = scenario::usual_ignore_junction_blocker_s;
     config.folder = import.scenario;
     return config;
 }

@@ -340,6 +340,13 @@ std::optional<core::MetresPerSecond> Session::allowed_speed(core::VehicleKey veh
                            [&] { return core::MetresPerSecond(state_->sumo->allowed_speed_mps(found->id)); });
 }
 
+bool Session::is_stopped(core::VehicleKey vehicle) const {
+    const Vehicle* found = state_->observer.fleet().find(vehicle);
+    if (found == nullptr || !found->on_road) return false;
+    return state_->guarded("SUMO cannot tell whether a vehicle is at a stop",
+                           [&] { return state_->sumo->is_stopped(found->id); });
+}
+
 bool Session::has_pedestrian(core::LaneIndex crossing) const {
     const std::string& lane = state_->names.names().lanes.at(crossing.value);
     return state_->guarded("SUMO cannot report pedestrians on a crossing",

@@ -36,9 +36,11 @@ struct SessionConfig {
     std::vector<std::filesystem::path> additional_files;
     std::filesystem::path folder;  ///< Receives tripinfo.xml and sumo.log.
     core::Seconds begin{0.0};
-    core::Seconds step_length{0.25};           ///< [0.01, 1].
-    std::uint64_t seed = 1;                    ///< For SUMO's own generator; reduced to 31 bits.
-    core::Seconds time_to_teleport{300.0};     ///< Negative: never.
+    core::Seconds step_length{0.25};        ///< [0.01, 1].
+    std::uint64_t seed = 1;                 ///< For SUMO's own generator; reduced to 31 bits.
+    core::Seconds time_to_teleport{300.0};  ///< Negative: never.
+    /// A vehicle that has stood inside a junction this long no longer blocks it. Negative: it always does.
+    core::Seconds ignore_junction_blocker{-1.0};
     std::vector<std::string> extra_arguments;  ///< As on SUMO's command line.
     Names names;
 };
@@ -125,6 +127,8 @@ class Session : public truth::SelfKnowledge {
     std::optional<std::vector<truth::LaneOutlook>> lane_outlook(core::VehicleKey vehicle) const override;
     std::optional<core::MetresPerSecond> allowed_speed(core::VehicleKey vehicle) const override;
     bool has_pedestrian(core::LaneIndex crossing) const override;
+    /// Whether a vehicle on the road stands at a stop, planned or commanded.
+    bool is_stopped(core::VehicleKey vehicle) const;
     std::string running_program(core::SignalIndex signal) const override;
 
   private:

@@ -213,10 +213,11 @@ TEST_F(CityTest, an_import_says_what_to_type_next_in_words_for_a_shell) {
     write("town.osm", scenario_import::town_map());
     const Ended relative = clearway({"scenario", "import", "town.osm", "--name", "my folder/town"});
     ASSERT_EQ(relative.code, 0) << relative.err;
-    EXPECT_THAT(relative.out, HasSubstr("Next: clearway scenario check './my folder/town'\n"));
+    EXPECT_THAT(relative.out,
+                HasSubstr("Next: clearway scenario check './my folder/town' --lock-trials 6\n"));
     const std::string absolute = (folder() / "other").string();
     EXPECT_THAT(clearway({"scenario", "import", "town.osm", "--name", absolute}).out,
-                HasSubstr("Next: clearway scenario check " + absolute + "\n"));
+                HasSubstr("Next: clearway scenario check " + absolute + " --lock-trials 6\n"));
 }
 
 TEST_F(CityTest, what_cannot_be_imported_is_bad_input_and_leaves_nothing) {

@@ -55,14 +55,15 @@ ReferencePage columns() {
 ReferencePage scenario_keys() {
     std::vector<core::FieldTable> tables = scenario::key_tables();
     tables.push_back(scenario::override_table());
-    return {
-        "scenario-keys", "Keys of the scenario file",
-        "Every key of `scenario.toml`. A study varies those of plain tables as factors: "
-        "`scenario.demand.human =\n"
-        "[40, 80]`. What they mean for emergency vehicles (EV) and traffic stands in [the scenario\n"
-        "file](scenario-file.md). Beside them stand `name`, `version` and `title` of the scenario. The last\n"
-        "table lists the overrides, which change any scenario without editing its file.",
-        core::FieldUse::set, std::move(tables)};
+    return {"scenario-keys", "Keys of the scenario file",
+            "Every key of `scenario.toml`. A study varies those of plain tables as factors: "
+            "`scenario.demand.human =\n"
+            "[40, 80]`. What they mean for emergency vehicles (EV) and traffic stands in [the scenario\n"
+            "file](scenario-file.md). Beside them stand `name`, `version` and `title` of the scenario, and "
+            "`base`: a\n"
+            "scenario in a folder beside its own, whose keys the file changes. The last table lists the "
+            "overrides, which change any scenario without editing its file.",
+            core::FieldUse::set, std::move(tables)};
 }
 
 }  // namespace

@@ -75,6 +75,16 @@ void draw_loss(MapCanvas& canvas, const MapEdge& edge) {
     canvas.add(fmt::format("<path class=\"losing\" d=\"M{:.1f} {:.1f}l5 -9h-10z\"/>\n", x, y));
 }
 
+/// A cross at the junction of a lock; paler where only the baseline locked.
+void draw_locks(MapCanvas& canvas, const RoadMap& roads, const ScenarioMap& map) {
+    for (const MapLocks& one : map.locks) {
+        if (roads.edges[one.edge].shape.empty()) continue;
+        const auto [x, y] = canvas.place(roads.edges[one.edge].shape.back());
+        canvas.add(fmt::format("<path class=\"lock{}\" d=\"M{:.1f} {:.1f}l6 6m0 -6l-6 6\"/>\n",
+                               one.condition == 0 ? " before" : "", x - 3.0, y - 3.0));
+    }
+}
+
 DataTable data_of(const RoadMap& roads, const ScenarioMap& map,
                   const std::vector<const analysis::ApproachCost*>& losing) {
     DataTable table{{"What", "id", "passages or holds", "baseline, s", "condition, s", "gain, s"}, {}};
@@ -85,6 +95,9 @@ DataTable data_of(const RoadMap& roads, const ScenarioMap& map,
     for (const SignalHolds& one : map.holds)
         table.rows.push_back({"signal held, per run", roads.signals[one.signal].id,
                               number(one.holds, typeset(2)), "", number(one.held_s, typeset(1)), ""});
+    for (const MapLocks& one : map.locks)
+        table.rows.push_back({"locks, all runs", roads.edges[one.edge].id, "", grouped(one.baseline),
+                              grouped(one.condition), ""});
     for (const analysis::ApproachCost* const approach : losing)
         table.rows.push_back({"others lose, s per run", approach->edge, "",
                               number_or_dash(approach->baseline_s, typeset(0)), "",
@@ -100,6 +113,9 @@ std::vector<LegendEntry> entries_of(const ScenarioMap& map, bool losing) {
         if (used) entries.push_back(stripe_entry(band.style, band.words));
     }
     if (!map.holds.empty()) entries.push_back(dot_entry("held", "signal held, larger: longer"));
+    if (!map.locks.empty())
+        entries.push_back({"<path class=\"lock\" d=\"M17 3l6 6m0 -6l-6 6\"/>",
+                           "vehicles locked each other (pale: baseline)"});
     if (losing)
         entries.push_back({"<path class=\"losing\" d=\"M20 10l5 -9h-10z\"/>", "others lose time here"});
     return entries;
@@ -117,6 +133,7 @@ Figure gain_map_figure(const ScenarioFacts& scenario) {
     canvas.edges(all_edges(roads), "road");
     draw_ways(canvas, roads, map);
     draw_holds(canvas, roads, map);
+    draw_locks(canvas, roads, map);
     const std::vector<const analysis::ApproachCost*> losing = losing_approaches(condition);
     for (std::size_t row = 0; row < std::min(losing.size(), drawn_losses); ++row) {
         if (const auto edge = roads.find_edge(losing[row]->edge)) draw_loss(canvas, roads.edges[*edge]);

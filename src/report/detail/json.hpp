@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/estimate.hpp"
+#include "analysis/summary.hpp"
 #include "core/settings.hpp"
 
 namespace clearway::report::detail {
@@ -40,6 +41,15 @@ inline Json factors_json(const core::Settings& factors) {
         const auto number = core::number_from(value);
         object[name] = number ? Json(*number) : Json(value);
     }
+    return object;
+}
+
+/// Sums over the complete runs, and how many of them locked.
+inline Json locks_json(const analysis::ConditionSummary& condition) {
+    Json object = {{"locked_runs", condition.locked_runs()}};
+    for (const char* const metric :
+         {"locks", "locked_vehicles", "locked_emergency_vehicles", "locked_vehicle_s"})
+        object[metric] = condition.total(metric);
     return object;
 }
 

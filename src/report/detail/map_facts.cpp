@@ -12,6 +12,7 @@ namespace {
 struct Sums {
     std::map<std::size_t, EdgeTimes> times;  ///< Sums, not means.
     std::map<std::string, metrics::SignalHoldRow> holds;
+    std::map<std::size_t, MapLocks> locks;  ///< By edge.
     std::uint64_t runs = 0;
 };
 
@@ -25,9 +26,22 @@ Passages passages_of(const metrics::TrafficTables& tables) {
     return passages;
 }
 
+void add_locks(const metrics::TrafficTables& tables, const std::map<std::string, std::size_t>& edges,
+               std::uint64_t MapLocks::*count, Sums& sums) {
+    for (const metrics::LockRow& row : tables.locks) {
+        const auto edge = edges.find(row.edge);
+        if (edge == edges.end()) continue;
+        MapLocks& locks = sums.locks[edge->second];
+        locks.edge = edge->second;
+        ++(locks.*count);
+    }
+}
+
 void add_pair(const metrics::TrafficTables& without, const metrics::TrafficTables& with,
               const std::map<std::string, std::size_t>& edges, Sums& sums) {
     ++sums.runs;
+    add_locks(without, edges, &MapLocks::baseline, sums);
+    add_locks(with, edges, &MapLocks::condition, sums);
     const Passages baseline = passages_of(without);
     for (const auto& [passage, seconds] : passages_of(with)) {
         const auto edge = edges.find(passage.second);
@@ -53,6 +67,8 @@ void fill(const Sums& sums, const RoadMap& roads, ScenarioMap& map) {
         times.condition_s /= passages;
         map.times.push_back(times);
     }
+    for (const auto& [edge, locks] : sums.locks)
+        map.locks.push_back(locks);
     const auto runs = static_cast<double>(sums.runs);
     for (std::size_t signal = 0; signal < roads.signals.size(); ++signal) {
         const auto held = sums.holds.find(roads.signals[signal].id);

@@ -156,6 +156,7 @@ stroke-width:4px;stroke-linejoin:round}
 .plot .way.better,.plot .way.worse{stroke:currentColor;stroke-width:2.6}.plot .way.better.much,.plot .way.worse.much{stroke-width:5}
 .plot .way.worse{stroke-dasharray:6 2}
 .plot .held{fill:none;stroke:var(--ink);stroke-width:1.5}.plot .losing{fill:var(--worse);stroke:var(--paper);stroke-width:.8}
+.plot .lock{fill:none;stroke:var(--worse);stroke-width:1.6}.plot .lock.before{opacity:.45}
 .plot .station{fill:var(--paper);stroke:var(--ink);stroke-width:1.8}
 .plot .line.s2{stroke-dasharray:7 3}.plot .line.s3{stroke-dasharray:2 3}.plot .line.s4{stroke-dasharray:9 3 2 3}
 .plot .line.s5{stroke-dasharray:4 2}.plot .line.s6{stroke-dasharray:1 4}

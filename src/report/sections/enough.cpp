@@ -14,9 +14,13 @@ namespace {
 std::string replications_needed(const ConditionFacts& condition) {
     const bool open = effect_of(condition, Measure::emergency_restricted_time) == Effect::none_shown;
     if (!condition.precision || !open) return missing(Script::typeset);
-    if (condition.precision->needed > most_replications_asked)
-        return fmt::format("more than {}", most_replications_asked);
-    return grouped(condition.precision->needed);
+    const auto words = [](std::uint64_t needed) {
+        return needed > most_replications_asked ? fmt::format("more than {}", most_replications_asked)
+                                                : grouped(needed);
+    };
+    const auto& unlocked = condition.precision->needed_unlocked;
+    return words(condition.precision->needed) +
+           (unlocked ? fmt::format(" ({} without locks)", words(*unlocked)) : "");
 }
 
 Figure precision_figure(const ScenarioFacts& scenario) {

@@ -27,8 +27,9 @@ void write_words(const StudyFacts& study, const ScenarioFacts& scenario, const C
     const Badge badge = badge_of(scenario, condition, script);
     writer.markup(fmt::format("<h3>{}{}</h3>\n<p class=\"headline\">{}</p>\n", escaped(scenario.name), title,
                               escaped(scenario_headline(scenario, condition, script))));
-    const std::string among = among_conditions(study, scenario);
-    if (!among.empty()) writer.markup(fmt::format("<p class=\"note\">{}</p>\n", escaped(among)));
+    for (const std::string& note : {locks_sentence(scenario, condition), among_conditions(study, scenario),
+                                    worst_trips(scenario, condition, script)})
+        if (!note.empty()) writer.markup(fmt::format("<p class=\"note\">{}</p>\n", escaped(note)));
     writer.markup(fmt::format("<p class=\"badge {}\">{}</p>\n",
                               badge.runs == Badge::Runs::enough ? "enough" : "few", escaped(badge.words)));
     writer.markup("<div class=\"tiles\">\n" + tile_markup(emergency_tile(scenario, condition, script)) +

@@ -80,7 +80,7 @@ std::optional<double> restricted_time_of_old(const std::string& vehicles_csv, co
 /// Whether records of older versions may lack a metric.
 bool is_newer(std::string_view metric) {
     return metric == restricted_key || metric == "cross_street_delay_s" || metric.starts_with("signal_") ||
-           metric.starts_with("held_greens");
+           metric.starts_with("held_greens") || metric.starts_with("lock") || metric == "longest_lock_s";
 }
 
 void read_metrics(const core::Json& object, const std::string& where, std::vector<core::Problem>& problems,

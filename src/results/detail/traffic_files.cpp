@@ -12,6 +12,7 @@ namespace {
 using metrics::ApproachRow;
 using metrics::EdgeTimeRow;
 using metrics::JourneyRow;
+using metrics::LockRow;
 using metrics::RecoveryRow;
 using metrics::SignalHoldRow;
 
@@ -28,6 +29,9 @@ std::string words_of(const EdgeTimeRow& row) {
 }
 std::string words_of(const SignalHoldRow& row) {
     return core::csv_text(row.signal);
+}
+std::string words_of(const LockRow& row) {
+    return fmt::format("{},{}", core::csv_text(row.edge), core::csv_text(row.junction));
 }
 
 using Cells = std::vector<std::string_view>;
@@ -53,6 +57,11 @@ std::size_t read_words(const Cells& cells, EdgeTimeRow& row) {
 std::size_t read_words(const Cells& cells, SignalHoldRow& row) {
     row.signal = cells.at(0);
     return 1;
+}
+std::size_t read_words(const Cells& cells, LockRow& row) {
+    row.edge = cells.at(0);
+    row.junction = cells.at(1);
+    return 2;
 }
 std::size_t read_words(const Cells&, RecoveryRow&) {
     return 0;
@@ -106,6 +115,7 @@ core::Json traffic_to_json(const metrics::TrafficTables& tables) {
     object["journeys"] = to_csv(tables.journeys, "vehicle,signal,state");
     object["edge_times"] = to_csv(tables.edge_times, "vehicle,edge");
     object["holds"] = to_csv(tables.holds, "signal");
+    object["locks"] = to_csv(tables.locks, "edge,junction");
     return object;
 }
 
@@ -121,6 +131,7 @@ metrics::TrafficTables all_traffic_from_json(const core::Json& run, const std::s
     tables.journeys = from_csv<JourneyRow>(run, "journeys", where);
     tables.edge_times = from_csv<EdgeTimeRow>(run, "edge_times", where);
     tables.holds = from_csv<SignalHoldRow>(run, "holds", where);
+    tables.locks = from_csv<LockRow>(run, "locks", where);
     return tables;
 }
 

@@ -67,6 +67,12 @@ std::string quoted(const std::string& text) {
 
 }  // namespace detail
 
+std::string newest(const std::string& name) {
+    const std::string second = name + "_v2";
+    return std::filesystem::is_regular_file(detail::library_folder() / second / detail::file_name) ? second
+                                                                                                   : name;
+}
+
 std::vector<std::string> list() {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(detail::library_folder()))

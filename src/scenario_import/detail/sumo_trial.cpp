@@ -15,8 +15,9 @@ namespace clearway::scenario_import::detail {
 
 namespace {
 
-/// SUMO's default.
+/// SUMO's defaults.
 constexpr double usual_time_to_teleport_s = 300.0;
+constexpr double never_s = -1.0;
 
 std::string joined(const std::vector<std::filesystem::path>& files) {
     std::vector<std::string> names;
@@ -36,6 +37,8 @@ std::optional<double> mean_time_loss_s(const Import& import, const scenario::Pre
          {std::string("--step-length"), fmt::format("{:g}", step_s), std::string("--end"),
           fmt::format("{}", demand.time.window_s + grace_s), std::string("--time-to-teleport"),
           fmt::format("{:g}", demand.time.time_to_teleport_s.value_or(usual_time_to_teleport_s)),
+          std::string("--ignore-junction-blocker"),
+          fmt::format("{:g}", demand.time.ignore_junction_blocker_s.value_or(never_s)),
           std::string("--statistic-output"), statistics.string(), std::string("--duration-log.statistics"),
           std::string("--no-warnings")})
         arguments.push_back(word);

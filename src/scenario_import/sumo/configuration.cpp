@@ -157,6 +157,8 @@ class ConfigurationReader {
             configuration_.step_length_s = *time_s(value);
         else if (name == "time-to-teleport" && time_s(value))
             configuration_.time_to_teleport_s = *time_s(value) > 0.0 ? *time_s(value) : -1.0;
+        else if (name == "ignore-junction-blocker" && time_s(value))
+            configuration_.ignore_junction_blocker_s = *time_s(value) >= 0.0 ? *time_s(value) : -1.0;
         else if (name == "device.rerouting.probability" && number(value).value_or(-1.0) >= 0.0)
             configuration_.rerouting.share = *number(value);
         else if (name == "device.rerouting.period" && time_s(value).value_or(-1.0) >= 0.0)

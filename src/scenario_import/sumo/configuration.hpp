@@ -20,6 +20,9 @@ struct Configuration {
     double step_length_s = 1.0;  ///< SUMO's default where it says nothing.
     /// After which SUMO teleports a vehicle that stands; -1: never. Nothing: SUMO's default.
     std::optional<double> time_to_teleport_s;
+    /// After which a vehicle that stands inside a junction no longer blocks it; -1: never. Nothing: SUMO's
+    /// default.
+    std::optional<double> ignore_junction_blocker_s;
     bool ignores_route_errors = false;
     Rerouting rerouting;
     std::vector<std::string> other_options;  ///< Set there, but not taken over: `time-to-teleport = 60`.

@@ -19,7 +19,7 @@ using Option = std::pair<std::string, std::string>;
 
 /// Options that the session sets itself, so extra arguments must not change them. The last one drops vehicles
 /// without a trace, even from the trip table.
-constexpr std::array<std::string_view, 15> reserved = {"--net-file",
+constexpr std::array<std::string_view, 16> reserved = {"--net-file",
                                                        "--route-files",
                                                        "--additional-files",
                                                        "--begin",
@@ -29,6 +29,7 @@ constexpr std::array<std::string_view, 15> reserved = {"--net-file",
                                                        "--route-steps",
                                                        "--tripinfo-output",
                                                        "--time-to-teleport",
+                                                       "--ignore-junction-blocker",
                                                        "--remote-port",
                                                        "--configuration-file",
                                                        "--end",
@@ -84,6 +85,10 @@ std::vector<Option> scenario_options(const SessionConfig& config) {
          fmt::format("{}", config.time_to_teleport.value < 0 ? -1.0 : config.time_to_teleport.value)},
         {"--tripinfo-output", (config.folder / trip_file).string()},
     };
+    // Where it is off it is left out: SUMO's default.
+    if (config.ignore_junction_blocker.value >= 0.0)
+        options.emplace_back("--ignore-junction-blocker",
+                             fmt::format("{}", config.ignore_junction_blocker.value));
     if (!config.route_files.empty()) options.emplace_back("--route-files", joined(config.route_files));
     if (!config.additional_files.empty())
         options.emplace_back("--additional-files", joined(config.additional_files));
@@ -106,6 +111,8 @@ void check(const SessionConfig& config) {
             {"begin", fmt::format("{} s is out of range", config.begin.value), "0 s or later", ""});
     if (!std::isfinite(config.time_to_teleport.value))
         problems.push_back({"time to teleport", "is not a number", "seconds, negative for never", ""});
+    if (!std::isfinite(config.ignore_junction_blocker.value))
+        problems.push_back({"ignore junction blocker", "is not a number", "seconds, negative for never", ""});
     for (const std::string& argument : config.extra_arguments) {
         if (std::ranges::find(reserved, option_name(argument)) != reserved.end() ||
             (argument.size() == 2 && argument[0] == '-'))

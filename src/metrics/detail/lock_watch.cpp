@@ -1,0 +1,242 @@
+#include "metrics/detail/lock_watch.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "core/match_rows.hpp"
+#include "metrics/detail/standing.hpp"
+#include "traffic/signal.hpp"
+
+namespace clearway::metrics::detail {
+namespace {
+
+constexpr double look_period_s = 1.0;
+/// Half of the time after which one of SUMO's own vehicles may be given up, and longer than most red times.
+constexpr double lock_after_s = 60.0;
+/// Looks without a locked vehicle for less than this do not end a lock: its queue moved up.
+constexpr double same_lock_s = 60.0;
+/// A vehicle stands because of the one ahead if the gap is at most this: twice a usual gap in a queue.
+constexpr float queue_gap_m = 10.0F;
+
+constexpr std::uint32_t nothing = core::no_row;
+constexpr std::uint32_t excused = core::no_row - 1;
+constexpr std::uint32_t unknown = core::no_row - 2;
+constexpr std::uint32_t on_path = core::no_row - 3;
+
+}  // namespace
+
+struct LockWatch::Look {
+    const truth::Snapshot& snapshot;
+    const traffic::Roster& roster;
+};
+
+LockWatch::LockWatch(const RoadLayout& layout, StandingReasons reasons)
+    : layout_(layout), reasons_(std::move(reasons)) {}
+
+void LockWatch::step(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
+    const double now_s = snapshot.time.value;
+    if (layout_.chain.ways.empty()) return;
+    if (last_s_ >= 0.0 && now_s + core::clock_tolerance_s < last_s_ + look_period_s) return;
+    const Look look{snapshot, roster};
+    core::match_rows(snapshot.key, keys_, row_before_);
+    keys_ = snapshot.key;
+    sort_by_lane(snapshot);
+    end_.assign(snapshot.size(), unknown);
+    now_.assign(snapshot.size(), {});
+    for (std::uint32_t row = 0; row < snapshot.size(); ++row) {
+        Standing& now = now_[row];
+        now.lane = snapshot.lane[row];
+        now.position_m = snapshot.lane_position_m[row];
+        if (!stands(look, row) || end_of_queue(look, row) == excused) continue;
+        now.since_s = now_s;
+        if (row_before_[row] == core::no_row) continue;
+        const Standing& before = before_[row_before_[row]];
+        const bool moved = before.lane != now.lane || std::abs(before.position_m - now.position_m) >
+                                                          standing_mps * static_cast<float>(look_period_s);
+        if (before.since_s == not_standing || moved) continue;
+        now.since_s = before.since_s;
+        now.locked = before.locked;
+        if (now_s - now.since_s > lock_after_s) count(look, row, now);
+    }
+    before_.swap(now_);
+    last_s_ = now_s;
+}
+
+bool LockWatch::stands(const Look& look, std::uint32_t row) const {
+    return look.snapshot.speed_mps[row] < standing_mps &&
+           look.snapshot.lane[row].value < layout_.chain.ways.size();
+}
+
+void LockWatch::sort_by_lane(const truth::Snapshot& snapshot) {
+    order_.clear();
+    for (std::uint32_t row = 0; row < snapshot.size(); ++row)
+        if (snapshot.lane[row].value < layout_.chain.ways.size()) order_.push_back(row);
+    std::ranges::sort(order_, [&](std::uint32_t left, std::uint32_t right) {
+        if (snapshot.lane[left] != snapshot.lane[right])
+            return snapshot.lane[left].value < snapshot.lane[right].value;
+        if (snapshot.lane_position_m[left] != snapshot.lane_position_m[right])
+            return snapshot.lane_position_m[left] > snapshot.lane_position_m[right];
+        return left < right;
+    });
+    first_on_lane_.assign(layout_.chain.ways.size(), nothing);
+    last_on_lane_.assign(layout_.chain.ways.size(), nothing);
+    place_of_row_.assign(snapshot.size(), nothing);
+    for (std::uint32_t place = 0; place < order_.size(); ++place) {
+        const std::uint32_t lane = snapshot.lane[order_[place]].value;
+        if (first_on_lane_[lane] == nothing) first_on_lane_[lane] = place;
+        last_on_lane_[lane] = place;
+        place_of_row_[order_[place]] = place;
+    }
+}
+
+float LockWatch::length_m(const Look& look, std::uint32_t row) const {
+    const traffic::VehicleInfo* const info = look.roster.find(look.snapshot.key[row]);
+    return info == nullptr ? traffic::VehicleInfo{}.length_m : info->length_m;
+}
+
+const LaneWay* LockWatch::way_of(const Look& look, std::uint32_t row, core::LaneIndex lane) const {
+    const std::vector<LaneWay>& ways = layout_.chain.ways[lane.value];
+    const traffic::VehicleInfo* const info = look.roster.find(look.snapshot.key[row]);
+    const bool inside = layout_.chain.approach[lane.value] != layout_.chain.edge[lane.value];
+    if (inside || info == nullptr) return ways.empty() ? nullptr : &ways.front();
+    const std::vector<core::EdgeIndex>& route = look.roster.route(info->route);
+    const std::size_t next = look.snapshot.route_edge[row] + std::size_t{1};
+    if (next >= route.size()) return nullptr;
+    const auto found = std::ranges::find(ways, route[next], &LaneWay::next);
+    return found == ways.end() ? nullptr : &*found;
+}
+
+std::uint32_t LockWatch::ahead_on(const Look& look, const LaneWay& way, float gap_m,
+                                  core::EdgeIndex beyond) const {
+    core::LaneIndex lane = way.onto;
+    while (gap_m <= queue_gap_m) {
+        const std::uint32_t last = last_on_lane_[lane.value];
+        if (last != nothing) {
+            const std::uint32_t row = order_[last];
+            gap_m += look.snapshot.lane_position_m[row] - length_m(look, row);
+            return gap_m <= queue_gap_m ? row : nothing;
+        }
+        // Beyond the junction the way depends on the route; a junction is rarely followed by so short an
+        // edge.
+        if (layout_.chain.edge[lane.value] == beyond || layout_.chain.ways[lane.value].empty())
+            return nothing;
+        gap_m += layout_.chain.length_m[lane.value];
+        lane = layout_.chain.ways[lane.value].front().onto;
+    }
+    return nothing;
+}
+
+std::uint32_t LockWatch::ahead_of(const Look& look, std::uint32_t row) const {
+    const core::LaneIndex lane = look.snapshot.lane[row];
+    const float position_m = look.snapshot.lane_position_m[row];
+    const std::uint32_t place = place_of_row_[row];
+    if (place != first_on_lane_[lane.value]) {
+        const std::uint32_t leader = order_[place - 1];
+        const float gap_m = look.snapshot.lane_position_m[leader] - length_m(look, leader) - position_m;
+        if (gap_m <= queue_gap_m) return leader;
+    }
+    const LaneWay* way = way_of(look, row, lane);
+    if (way == nullptr) {  // It has to change lanes: what holds the lanes beside it holds it, too.
+        const core::EdgeIndex edge = layout_.chain.edge[lane.value];
+        for (std::uint32_t beside = lane.value; beside-- > 0 && layout_.chain.edge[beside] == edge;)
+            if (way_of(look, row, core::LaneIndex{beside}) != nullptr && first_on_lane_[beside] != nothing)
+                return order_[first_on_lane_[beside]];
+        for (std::uint32_t beside = lane.value + 1;
+             beside < layout_.chain.edge.size() && layout_.chain.edge[beside] == edge; ++beside)
+            if (way_of(look, row, core::LaneIndex{beside}) != nullptr && first_on_lane_[beside] != nothing)
+                return order_[first_on_lane_[beside]];
+        return nothing;
+    }
+    if (way->signal.exists() && way->signal.value < look.snapshot.signals.state.size()) {
+        const std::string& state = look.snapshot.signals.state[way->signal.value];
+        if (way->link < state.size() && !traffic::is_green(state[way->link])) return excused;
+    }
+    return ahead_on(look, *way, layout_.chain.length_m[lane.value] - position_m, way->next);
+}
+
+bool LockWatch::is_held(const Look& look, std::uint32_t row) const {
+    if (reasons_.at_stop && reasons_.at_stop(look.snapshot.key[row])) return true;
+    if (!reasons_.pedestrian_on) return false;
+    const core::EdgeIndex approach = layout_.chain.approach[look.snapshot.lane[row].value];
+    return std::ranges::any_of(layout_.chain.crossings[approach.value], reasons_.pedestrian_on);
+}
+
+std::uint32_t LockWatch::end_of_queue(const Look& look, std::uint32_t row) {
+    path_.clear();
+    std::uint32_t found = unknown;
+    for (std::uint32_t at = row; found == unknown;) {
+        if (end_[at] ==
+            on_path) {  // A ring; rows are ordered by key, so its name does not depend on the start.
+            found = *std::min_element(std::ranges::find(path_, at), path_.end());
+        } else if (end_[at] != unknown) {
+            found = end_[at];
+        } else if (!stands(look, at)) {
+            found = excused;
+        } else {
+            end_[at] = on_path;
+            path_.push_back(at);
+            const std::uint32_t ahead = ahead_of(look, at);
+            if (ahead == nothing)
+                found = is_held(look, at) ? excused : at;
+            else if (ahead == excused)
+                found = excused;
+            else
+                at = ahead;
+        }
+    }
+    for (const std::uint32_t passed : path_)
+        end_[passed] = found;
+    return found;
+}
+
+LockRow& LockWatch::lock_at(core::EdgeIndex edge, double since_s, double now_s) {
+    const std::string& junction = layout_.chain.junctions[edge.value];
+    for (LockRow& lock : locks_) {
+        if (lock.junction != junction || now_s > lock.from_s + lock.lasted_s + same_lock_s) continue;
+        lock.from_s = std::min(lock.from_s, since_s);
+        return lock;
+    }
+    return locks_.emplace_back(LockRow{layout_.chain.edge_ids[edge.value], junction, since_s, 0.0, 0, 0});
+}
+
+void LockWatch::count(const Look& look, std::uint32_t row, Standing& now) {
+    const core::VehicleKey vehicle = look.snapshot.key[row];
+    // A bus at its stop has a reason of its own in a queue that has none.
+    if (reasons_.at_stop && reasons_.at_stop(vehicle)) {
+        now.since_s = not_standing;
+        now.locked = false;
+        return;
+    }
+    const double now_s = look.snapshot.time.value;
+    const std::uint32_t end = end_[row];
+    assert(end < look.snapshot.size());
+    LockRow& lock = lock_at(layout_.chain.approach[look.snapshot.lane[end].value], now.since_s, now_s);
+    lock.lasted_s = now_s - lock.from_s;
+    locked_vehicle_s_ += now_s - (now.locked ? last_s_ : now.since_s);
+    if (now.locked) return;
+    now.locked = true;
+    const bool emergency = look.snapshot.vehicle_class[row] == traffic::VehicleClass::emergency;
+    ++lock.vehicles;
+    if (emergency) ++lock.emergency_vehicles;
+    locked_.insert(vehicle);
+    if (emergency) locked_emergency_.insert(vehicle);
+}
+
+std::vector<LockRow> LockWatch::rows() const {
+    std::vector<LockRow> rows = locks_;
+    std::ranges::stable_sort(rows, {}, &LockRow::from_s);
+    return rows;
+}
+
+void LockWatch::describe(RunMetrics& metrics) const {
+    metrics.locks = locks_.size();
+    metrics.locked_vehicles = locked_.size();
+    metrics.locked_emergency_vehicles = locked_emergency_.size();
+    metrics.locked_vehicle_s = locked_vehicle_s_;
+    for (const LockRow& lock : locks_)
+        metrics.longest_lock_s = std::max(metrics.longest_lock_s, lock.lasted_s);
+}
+
+}  // namespace clearway::metrics::detail

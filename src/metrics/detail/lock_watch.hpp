@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "metrics/recorder.hpp"
+#include "metrics/road_layout.hpp"
+#include "metrics/run_metrics.hpp"
+#include "metrics/traffic_tables.hpp"
+#include "traffic/vehicle.hpp"
+#include "truth/snapshot.hpp"
+
+namespace clearway::metrics::detail {
+
+/// Counts locks. A vehicle is locked when it has stood for over 60 s and all that time nothing ahead
+/// explained it: no red or yellow for its way, no stop, no pedestrian on a crossing, no moving vehicle, and
+/// no queue that ends at one of these. The queue ahead is followed from vehicle to vehicle along their
+/// routes, through junctions; a lock is where it ends: at a vehicle with nothing ahead, or in a ring of
+/// queues. Looks once a second, in time linear in the vehicles on the road (but for sorting).
+class LockWatch {
+  public:
+    /// The layout outlives the watch.
+    LockWatch(const RoadLayout& layout, StandingReasons reasons);
+
+    /// One step. The roster lists every vehicle of the snapshot; a vehicle that it lacks drives on by the
+    /// first way of its lane.
+    void step(const truth::Snapshot& snapshot, const traffic::Roster& roster);
+    void describe(RunMetrics& metrics) const;
+    std::vector<LockRow> rows() const;
+
+  private:
+    static constexpr double not_standing = -1.0;
+
+    /// A vehicle at the look before.
+    struct Standing {
+        double since_s = not_standing;  ///< Without a reason.
+        bool locked = false;
+        core::LaneIndex lane;
+        float position_m = 0.0F;
+    };
+    struct Look;
+
+    bool stands(const Look& look, std::uint32_t row) const;
+    void sort_by_lane(const truth::Snapshot& snapshot);
+    /// The nearest vehicle ahead, `nothing`, or `excused` where something explains that the vehicle stands.
+    std::uint32_t ahead_of(const Look& look, std::uint32_t row) const;
+    std::uint32_t ahead_on(const Look& look, const LaneWay& way, float gap_m, core::EdgeIndex beyond) const;
+    const LaneWay* way_of(const Look& look, std::uint32_t row, core::LaneIndex lane) const;
+    float length_m(const Look& look, std::uint32_t row) const;
+    bool is_held(const Look& look, std::uint32_t row) const;
+    /// The row where the queue ahead ends, or `excused`.
+    std::uint32_t end_of_queue(const Look& look, std::uint32_t row);
+    void count(const Look& look, std::uint32_t row, Standing& now);
+    LockRow& lock_at(core::EdgeIndex edge, double since_s, double now_s);
+
+    const RoadLayout& layout_;
+    StandingReasons reasons_;
+    double last_s_ = -1.0;
+    std::vector<core::VehicleKey> keys_;  ///< At the look before, with the next two.
+    std::vector<Standing> before_;
+    std::vector<Standing> now_;
+    std::vector<std::uint32_t> row_before_;
+    std::vector<std::uint32_t> order_;          ///< Rows by lane, the first on a lane in front.
+    std::vector<std::uint32_t> place_of_row_;   ///< In `order_`.
+    std::vector<std::uint32_t> last_on_lane_;   ///< Place in `order_` of the last vehicle of each lane.
+    std::vector<std::uint32_t> first_on_lane_;  ///< Likewise of the first.
+    std::vector<std::uint32_t> end_;            ///< By row; what `end_of_queue` found.
+    std::vector<std::uint32_t> path_;
+    std::vector<LockRow> locks_;
+    std::set<core::VehicleKey> locked_;
+    std::set<core::VehicleKey> locked_emergency_;
+    double locked_vehicle_s_ = 0.0;
+};
+
+}  // namespace clearway::metrics::detail

@@ -1,0 +1,46 @@
+#include "report/locks.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace clearway::report {
+namespace {
+
+std::string needed(const MaybeEstimate& difference, double half_width) {
+    if (!difference || difference->n < 2) return "unknown";
+    return grouped(std::max(analysis::fewest_replications,
+                            analysis::required_replications(difference->deviation, half_width)));
+}
+
+}  // namespace
+
+std::string lock_words(const analysis::ConditionSummary& condition) {
+    const std::size_t locked = condition.locked_runs();
+    if (locked == 0) return {};
+    const auto total = [&](const char* metric) {
+        return static_cast<std::uint64_t>(condition.total(metric));
+    };
+    double longest_s = 0.0;
+    for (const std::optional<double>& value : condition.metric("longest_lock_s").values)
+        longest_s = std::max(longest_s, value.value_or(0.0));
+    std::string words = fmt::format(
+        "{} in {} of {}, the longest {:.0f} s; {} stood in them", counted(total("locks"), "lock"), locked,
+        counted(condition.complete_runs, "run"), longest_s, counted(total("locked_vehicles"), "vehicle"));
+    const std::uint64_t emergency = total("locked_emergency_vehicles");
+    return words + (emergency == 0 ? "" : fmt::format(", {} of them EV", grouped(emergency)));
+}
+
+std::string locked_pairs_words(const analysis::Comparison& comparison, double half_width, Script script) {
+    if (comparison.locked_pairs == 0 || !comparison.difference) return {};
+    const NumberStyle style{.decimals = 1, .script = script, .sign = Sign::always};
+    return fmt::format(
+        "mean {}, median of pairs {}, mean of the {} without a lock {}; replications for "
+        "{}{:g}: {}, without locks {}",
+        number(comparison.difference->mean, style), number_or_dash(comparison.median, style),
+        counted(comparison.complete_pairs - comparison.locked_pairs, "pair"),
+        estimate(comparison.unlocked, style), script == Script::plain ? "+-" : "\u00b1", half_width,
+        needed(comparison.difference, half_width), needed(comparison.unlocked, half_width));
+}
+
+}  // namespace clearway::report

@@ -1,0 +1,213 @@
+// Which vehicles count as locked, in scenes small enough to count by hand.
+#include <gmock/gmock.h>
+
+#include "metrics/recorder.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::metrics {
+namespace {
+
+using core::EdgeIndex;
+using core::LaneIndex;
+using core::SignalIndex;
+using testing::ElementsAre;
+using traffic::VehicleClass;
+
+// Two roads cross at J, 100 m each but east with 20 m, with the lanes 1 and 4 inside:
+//
+//     west 0 ---- 1 ---- 2 east        south 3 ---- 4 ---- 5 north
+//
+// Signal 0 stands at the ends of west (link 0) and east (link 1); south has none. A crossing for pedestrians
+// lies at J.
+constexpr std::uint32_t west = 0, inside_we = 1, east = 2, south = 3, inside_sn = 4, north = 5, crossing = 6;
+
+RoadLayout junction() {
+    RoadLayout layout;
+    layout.approach_of_lane.assign(7, RoadLayout::no_approach);
+    layout.internal_lane = {0, 1, 0, 0, 1, 0, 1};
+    layout.limit_of_lane_mps.assign(7, 10.0F);
+    layout.signals = {"J"};
+    LaneChain& chain = layout.chain;
+    const auto way = [](std::uint32_t next, std::uint32_t onto, SignalIndex signal) {
+        return std::vector<LaneWay>{{EdgeIndex{next}, LaneIndex{onto}, signal, 0}};
+    };
+    chain.ways = {way(east, inside_we, SignalIndex{0}),
+                  way(east, east, SignalIndex::none()),
+                  {LaneWay{EdgeIndex{north}, LaneIndex{north}, SignalIndex{0}, 1}},
+                  way(north, inside_sn, SignalIndex::none()),
+                  way(north, north, SignalIndex::none()),
+                  {},
+                  {}};
+    for (std::uint32_t lane = 0; lane < 7; ++lane)
+        chain.edge.push_back(EdgeIndex{lane});
+    chain.length_m = {100.0F, 10.0F, 20.0F, 100.0F, 10.0F, 100.0F, 5.0F};
+    chain.approach = chain.edge;
+    chain.approach[inside_we] = EdgeIndex{west};
+    chain.approach[inside_sn] = EdgeIndex{south};
+    chain.edge_ids = {"west", ":J_0", "east", "south", ":J_1", "north", ":J_c0"};
+    chain.junctions = {"J", "", "E", "J", "", "N", ""};
+    chain.crossings.assign(7, {});
+    chain.crossings[south] = {LaneIndex{crossing}};
+    return layout;
+}
+
+class LockWatch : public testing::Test {
+  protected:
+    LockWatch() { watch({}); }
+
+    void watch(StandingReasons reasons) { recorder_.watch(junction(), std::move(reasons)); }
+    /// A vehicle for the steps to come; it stands unless it has a speed.
+    void put(const std::string& id, std::uint32_t lane, float position_m, float speed_mps = 0.0F,
+             VehicleClass vehicle_class = VehicleClass::human) {
+        rows_[core::vehicle_key(id)] = {vehicle_class, lane, position_m, speed_mps};
+    }
+    void step(const std::string& signal) {
+        truth::Snapshot snapshot;
+        snapshot.time = core::Seconds(time_s_++);
+        snapshot.resize(rows_.size());
+        std::size_t row = 0;
+        for (const auto& [key, vehicle] : rows_) {
+            snapshot.key[row] = key;
+            snapshot.vehicle_class[row] = vehicle.vehicle_class;
+            snapshot.lane[row] = LaneIndex{vehicle.lane};
+            snapshot.lane_position_m[row] = vehicle.position_m;
+            snapshot.speed_mps[row++] = vehicle.speed_mps;
+        }
+        snapshot.signals.state = {signal};
+        recorder_.step(snapshot, {}, {}, {});
+    }
+    void stand(int seconds, const std::string& signal = "G") {
+        for (int second = 0; second < seconds; ++second)
+            step(signal);
+    }
+    RunSummary finish() {
+        RunEnd end;
+        end.tripinfo_files = {folder_.write("tripinfo.xml", "<tripinfos></tripinfos>")};
+        return recorder_.finish(end);
+    }
+
+  private:
+    struct Vehicle {
+        VehicleClass vehicle_class;
+        std::uint32_t lane;
+        float position_m;
+        float speed_mps;
+    };
+    std::map<core::VehicleKey, Vehicle> rows_;
+    double time_s_ = 100.0;
+    Recorder recorder_;
+    support::TemporaryFolder folder_;
+};
+
+TEST_F(LockWatch, two_queues_that_block_each_other_inside_a_junction_are_one_lock) {
+    // a1 stands inside the junction with nothing ahead, a2 and a3 behind it; b1 cannot cross its way.
+    put("a1", inside_we, 5.0F);
+    put("a2", west, 99.0F);
+    put("a3", west, 91.5F, 0.0F, VehicleClass::emergency);
+    put("b1", south, 99.0F);
+    stand(81);
+    const RunSummary summary = finish();
+    // From 100 to 180 s; a1 and b1 stand at the ends of the queues, both at J.
+    EXPECT_THAT(summary.traffic.locks, ElementsAre(LockRow{"west", "J", 100.0, 80.0, 4, 1}));
+    EXPECT_EQ(summary.metrics.locks, 1U);
+    EXPECT_EQ(summary.metrics.locked_vehicles, 4U);
+    EXPECT_EQ(summary.metrics.locked_emergency_vehicles, 1U);
+    EXPECT_DOUBLE_EQ(summary.metrics.locked_vehicle_s, 4 * 80.0);
+    EXPECT_DOUBLE_EQ(summary.metrics.longest_lock_s, 80.0);
+}
+
+TEST_F(LockWatch, sixty_seconds_are_no_lock_yet) {
+    put("a1", inside_we, 5.0F);
+    stand(61);
+    EXPECT_EQ(finish().metrics.locks, 0U);
+}
+
+TEST_F(LockWatch, a_vehicle_that_moves_up_starts_anew) {
+    put("a1", inside_we, 5.0F);
+    stand(50);
+    put("a1", inside_we, 6.0F);
+    stand(50);
+    EXPECT_EQ(finish().metrics.locks, 0U);
+}
+
+TEST_F(LockWatch, red_and_the_queue_before_it_are_no_lock) {
+    put("a1", west, 99.0F);
+    put("a2", west, 91.5F);
+    stand(200, "r");
+    stand(60, "G");  // Green, and it does not drive: the 60 s begin here.
+    EXPECT_EQ(finish().metrics.locks, 0U);
+    stand(2, "G");
+    EXPECT_EQ(finish().metrics.locked_vehicles, 2U);
+}
+
+TEST_F(LockWatch, a_queue_through_a_junction_that_ends_at_a_red_is_no_lock) {
+    put("a1", east, 19.0F);
+    put("a2", east, 11.5F);
+    put("a3", east, 4.0F);
+    put("a4", inside_we, 9.0F);
+    put("a5", west, 99.0F);
+    stand(100, "Gr");
+    EXPECT_EQ(finish().metrics.locks, 0U);
+}
+
+TEST_F(LockWatch, a_queue_behind_a_moving_vehicle_is_no_lock) {
+    put("a1", east, 4.0F, 1.0F);
+    put("a2", inside_we, 8.0F);
+    put("a3", west, 99.0F);
+    stand(100);
+    EXPECT_EQ(finish().metrics.locks, 0U);
+}
+
+TEST_F(LockWatch, a_vehicle_far_ahead_explains_nothing) {
+    put("a1", east, 16.0F, 1.0F);
+    put("a2", inside_we, 8.0F);
+    stand(100);
+    EXPECT_EQ(finish().metrics.locked_vehicles, 1U);
+}
+
+TEST_F(LockWatch, a_vehicle_at_a_stop_and_those_behind_it_are_no_lock) {
+    watch({.at_stop = [](core::VehicleKey vehicle) { return vehicle == core::vehicle_key("bus"); },
+           .pedestrian_on = {}});
+    put("bus", west, 99.0F);
+    put("a2", west, 91.5F);
+    stand(200);
+    EXPECT_EQ(finish().metrics.locks, 0U);
+}
+
+TEST_F(LockWatch, a_bus_at_its_stop_in_a_locked_queue_is_not_locked) {
+    watch({.at_stop = [](core::VehicleKey vehicle) { return vehicle == core::vehicle_key("bus"); },
+           .pedestrian_on = {}});
+    put("a1", inside_we, 5.0F);
+    put("bus", west, 99.0F);
+    put("a3", west, 91.5F);
+    stand(81);
+    EXPECT_EQ(finish().metrics.locked_vehicles, 2U);
+}
+
+TEST_F(LockWatch, pedestrians_hold_the_vehicles_before_their_crossing) {
+    bool walks = true;
+    watch({.at_stop = {}, .pedestrian_on = [&](LaneIndex lane) { return walks && lane.value == crossing; }});
+    put("b1", south, 99.0F);  // At the crossing of its junction.
+    put("b2", south, 91.5F);
+    stand(200);
+    EXPECT_EQ(finish().metrics.locks, 0U);
+    walks = false;
+    stand(62);
+    EXPECT_EQ(finish().metrics.locked_vehicles, 2U);
+}
+
+TEST_F(LockWatch, a_lock_that_dissolves_and_comes_back_later_counts_twice) {
+    put("a1", inside_we, 5.0F);
+    stand(70);
+    put("a1", inside_we, 5.0F, 3.0F);
+    stand(120);
+    put("a1", inside_we, 5.0F);
+    stand(70);
+    const RunSummary summary = finish();
+    EXPECT_THAT(summary.traffic.locks, ElementsAre(LockRow{"west", "J", 100.0, 69.0, 1, 0},
+                                                   LockRow{"west", "J", 290.0, 69.0, 1, 0}));
+    EXPECT_EQ(summary.metrics.locked_vehicles, 1U);
+}
+
+}  // namespace
+}  // namespace clearway::metrics
