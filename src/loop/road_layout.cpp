@@ -97,6 +97,63 @@ void add_approach(const roads::Network& network, core::LaneIndex from, metrics::
     }
 }
 
+/// The lanes inside a junction that a way across it takes.
+std::vector<core::LaneIndex> lanes_inside(const roads::Network& network, const roads::Connection& way) {
+    std::vector<core::LaneIndex> lanes;
+    for (core::LaneIndex lane = way.via; lane.exists();) {
+        lanes.push_back(lane);
+        const auto onwards = network.connections_from(lane);
+        lane = onwards.empty() ? core::LaneIndex::none() : onwards.front().via;
+    }
+    return lanes;
+}
+
+void add_foe(const roads::Network& network, const roads::Connection& way, const roads::Connection& foe,
+             metrics::LaneChain& chain) {
+    const std::vector<core::LaneIndex> across = lanes_inside(network, foe);
+    for (const core::LaneIndex lane : lanes_inside(network, way))
+        chain.foes[lane.value].insert(chain.foes[lane.value].end(), across.begin(), across.end());
+}
+
+void add_prior(const roads::Network& network, const roads::Connection& way, core::LaneIndex from,
+               metrics::LaneChain& chain) {
+    for (const core::LaneIndex lane : lanes_inside(network, way))
+        chain.prior[lane.value].push_back(from);
+}
+
+/// At a signal every conflicting link may go before: which one does depends on what it shows.
+void add_signal_foes(const roads::Network& network, const roads::Connection& way, metrics::LaneChain& chain) {
+    const roads::Signal& signal = network.signal(way.signal);
+    for (std::size_t link = 0; link < signal.links.size(); ++link) {
+        if (!signal.foes[way.signal_link][link]) continue;
+        for (const roads::SignalLink& foe : signal.links[link]) {
+            if (signal.crossings[link] || !foe.via.exists()) continue;
+            for (const roads::Connection& other : network.connections_from(foe.from)) {
+                if (other.via != foe.via) continue;
+                add_foe(network, way, other, chain);
+                add_prior(network, way, other.from, chain);
+            }
+        }
+    }
+}
+
+void add_foes(const roads::Network& network, metrics::LaneChain& chain) {
+    chain.foes.resize(network.lanes().size());
+    chain.prior.resize(network.lanes().size());
+    for (std::uint32_t lane = 0; lane < network.lanes().size(); ++lane) {
+        if (network.edge(chain.edge[lane]).internal) continue;
+        for (const roads::Connection& way : network.connections_from(core::LaneIndex{lane})) {
+            if (way.signal.exists()) add_signal_foes(network, way, chain);
+            for (const std::uint32_t row : network.prior_to(way)) {
+                const roads::Connection& prior = network.connection(row);
+                add_foe(network, way, prior, chain);
+                add_foe(network, prior, way, chain);
+                add_prior(network, way, prior.from, chain);
+            }
+        }
+    }
+}
+
 metrics::LaneChain lane_chain(const roads::Network& network) {
     metrics::LaneChain chain;
     for (std::uint32_t lane = 0; lane < network.lanes().size(); ++lane) {
@@ -117,6 +174,7 @@ metrics::LaneChain lane_chain(const roads::Network& network) {
         chain.junctions.push_back(edge.internal ? "" : edge.to_junction);
     }
     add_crossings(network, chain);
+    add_foes(network, chain);
     return chain;
 }
 

@@ -73,6 +73,10 @@ struct LaneChain {
     std::vector<std::string> edge_ids;
     std::vector<std::string> junctions;
     std::vector<std::vector<core::LaneIndex>> crossings;
+    /// By core::LaneIndex, of a lane inside a junction: lanes inside it whose ways cross or join the way over
+    /// this lane, and the lanes from which ways start that go before it.
+    std::vector<std::vector<core::LaneIndex>> foes;
+    std::vector<std::vector<core::LaneIndex>> prior;
 };
 
 /// What a recorder has to know of the map to say where time was lost: plain numbers, so that it needs no map.

@@ -27,7 +27,7 @@ constexpr std::array rows = {
     Titled{"signal_longest_queue_vehicles", "Longest queue, vehicles"},
     Titled{"worst_approach_delay_s", "Time lost on the worst approach, s per vehicle"},
     Titled{"cross_street_delay_s",
-        "Time lost on cross streets in the 15 min after an EV, vehicle-s per passage"},
+           "Time lost on cross streets in the 15 min after an EV, vehicle-s per passage"},
 };
 
 /// Shown only if signals were asked for green.

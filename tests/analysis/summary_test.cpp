@@ -66,6 +66,22 @@ class SmallStudy : public testing::Test {
     results::Results results_;
 };
 
+TEST_F(SmallStudy, GivesTheDifferenceWithoutThePairsThatLocked) {
+    add_all();
+    EXPECT_FALSE(scenario().find("treated")->metric(primary_metric).comparison->unlocked);
+    for (RunRecord& run : results_.runs) {
+        const bool locked = (run.key.condition == "baseline" && run.key.replication == 1) ||
+                            (run.key.condition == "treated" && run.key.replication == 3);
+        run.metrics.locks = locked ? 2 : 0;
+    }
+    const ScenarioSummary summary = scenario();
+    const Comparison& comparison = *summary.find("treated")->metric(primary_metric).comparison;
+    EXPECT_EQ(comparison.locked_pairs, 2U);
+    EXPECT_DOUBLE_EQ(comparison.difference->mean, -27.5);
+    EXPECT_DOUBLE_EQ(comparison.unlocked->mean, -22.5);  // Of 40 and 50 s, half.
+    EXPECT_EQ(summary.find("baseline")->locked_runs(), 1U);
+}
+
 TEST_F(SmallStudy, DoesNotLetSurvivorsSpeakForLostEmergencyVehicles) {
     add_all();
     lose_the_second("treated", 3);

@@ -63,6 +63,19 @@ TEST(RoadUse, where_vehicles_do_not_get_in_is_too_full) {
     EXPECT_NEAR(use_of(run).factor, 0.8 * 0.8, 1e-9);
 }
 
+TEST(LockFinding, says_in_how_many_trial_runs_a_network_locks) {
+    LockTrials trials{.trials = 6, .locked_with = 0, .locked_without = 2, .ignored_after_s = 10.0};
+    EXPECT_EQ(
+        lock_finding(trials).text,
+        "this network locks by itself in 2 of 6 trial runs; with time.ignore_junction_blocker_s = 10 in none "
+        "of 6 trial runs");
+    EXPECT_EQ(lock_finding(trials).grade, Grade::note);
+    trials.locked_with = 1;
+    EXPECT_EQ(lock_finding(trials).grade, Grade::falls_short);
+    trials = {.trials = 6, .locked_with = 0, .locked_without = 0, .ignored_after_s = 10.0};
+    EXPECT_EQ(lock_finding(trials).grade, Grade::ok);
+}
+
 TEST(AbortCure, goes_by_the_assertion) {
     results::RunError error;
     error.cause = results::ErrorCause::signal;

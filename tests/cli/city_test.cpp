@@ -149,6 +149,15 @@ TEST_F(CityTest, check_says_whether_there_are_emergency_vehicles) {
     EXPECT_THAT(none.out, AllOf(HasSubstr("0 EVs with a route"), HasSubstr("try: set demand.emergency")));
 }
 
+TEST_F(CityTest, check_tries_whether_a_scenario_locks) {
+    write_line_scenario();
+    const Ended tried = clearway({"scenario", "check", "line", "--lock-trials", "2"});
+    EXPECT_EQ(tried.code, 0) << tried.out << tried.err;
+    EXPECT_THAT(tried.out,
+                testing::ContainsRegex("ok +locks +this network locks by itself in none of 2 trial runs"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "runs/check-line-locks"));
+}
+
 TEST_F(CityTest, check_says_when_vehicles_drive_one_edge_alone) {
     write_line_scenario();
     EXPECT_THAT(clearway({"scenario", "check", "line"}).out, testing::ContainsRegex("ok +routes +0 of"));

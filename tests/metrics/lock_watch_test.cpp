@@ -48,6 +48,11 @@ RoadLayout junction() {
     chain.junctions = {"J", "", "E", "J", "", "N", ""};
     chain.crossings.assign(7, {});
     chain.crossings[south] = {LaneIndex{crossing}};
+    chain.foes.assign(7, {});
+    chain.prior.assign(7, {});
+    chain.foes[inside_we] = {LaneIndex{inside_sn}};
+    chain.foes[inside_sn] = {LaneIndex{inside_we}};
+    chain.prior[inside_sn] = {LaneIndex{west}};
     return layout;
 }
 
@@ -107,13 +112,44 @@ TEST_F(LockWatch, two_queues_that_block_each_other_inside_a_junction_are_one_loc
     put("b1", south, 99.0F);
     stand(81);
     const RunSummary summary = finish();
-    // From 100 to 180 s; a1 and b1 stand at the ends of the queues, both at J.
+    // From 100 to 180 s; everybody waits for a1.
     EXPECT_THAT(summary.traffic.locks, ElementsAre(LockRow{"west", "J", 100.0, 80.0, 4, 1}));
     EXPECT_EQ(summary.metrics.locks, 1U);
     EXPECT_EQ(summary.metrics.locked_vehicles, 4U);
     EXPECT_EQ(summary.metrics.locked_emergency_vehicles, 1U);
     EXPECT_DOUBLE_EQ(summary.metrics.locked_vehicle_s, 4 * 80.0);
     EXPECT_DOUBLE_EQ(summary.metrics.longest_lock_s, 80.0);
+}
+
+TEST_F(LockWatch, a_ring_is_one_lock) {
+    // Each stands across the way of the other.
+    put("a1", inside_we, 5.0F);
+    put("b1", inside_sn, 5.0F);
+    stand(81);
+    EXPECT_EQ(finish().metrics.locked_vehicles, 2U);
+    EXPECT_EQ(finish().metrics.locks, 1U);
+}
+
+TEST_F(LockWatch, one_that_waits_for_a_gap_in_a_stream_is_not_locked) {
+    put("b1", south, 99.0F);
+    put("stream", west, 80.0F, 8.0F);
+    stand(200);
+    put("stream", inside_we, 5.0F, 8.0F);
+    stand(200);
+    EXPECT_EQ(finish().metrics.locks, 0U);
+    put("stream", east, 5.0F, 8.0F);
+    stand(62);
+    EXPECT_EQ(finish().metrics.locked_vehicles, 1U);
+}
+
+TEST_F(LockWatch, one_whose_way_a_queue_to_a_red_blocks_is_not_locked) {
+    put("a1", east, 19.0F);
+    put("a2", east, 11.5F);
+    put("a3", east, 4.0F);
+    put("a4", inside_we, 9.0F);
+    put("b1", south, 99.0F);
+    stand(100, "Gr");
+    EXPECT_EQ(finish().metrics.locks, 0U);
 }
 
 TEST_F(LockWatch, sixty_seconds_are_no_lock_yet) {

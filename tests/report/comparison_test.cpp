@@ -40,6 +40,37 @@ std::vector<Shortfall> shortfalls_of(double mean, const char* metric, double tol
     return shortfalls(summary_with(mean), {{metric, tolerance}});
 }
 
+/// Two of eighteen pairs locked, and the baseline did in three runs.
+analysis::Summary locked_summary() {
+    analysis::Summary summary = summary_with(-20.0);
+    std::vector<analysis::ConditionSummary>& conditions = summary.scenarios[0].conditions;
+    for (analysis::ConditionSummary& condition : conditions)
+        for (analysis::MetricSummary& metric : condition.metrics) {
+            if (metric.metric.name == "locks") metric.values = {1.0, 0.0, 1.0, 2.0};
+            if (metric.metric.name == "longest_lock_s") metric.values = {310.0, 0.0, 90.0, 70.0};
+            if (!metric.comparison) continue;
+            metric.comparison->locked_pairs = 2;
+            metric.comparison->median = -18.5;
+            metric.comparison->unlocked =
+                analysis::Estimate{16, -19.0, 0.5, analysis::Interval{-19.5, -18.5}};
+        }
+    conditions[0].complete_runs = 20;
+    return summary;
+}
+
+TEST(Locks, AreToldByConditionAndBesideTheMeanThatTheyDecide) {
+    const std::string text = comparison_text(locked_summary(), {"emergency_travel_time_s"});
+    EXPECT_THAT(text, HasSubstr("city: baseline: 4 locks in 3 of 20 runs, the longest 310 s; 0 vehicles"));
+    EXPECT_THAT(text,
+                HasSubstr("mean -20.0, median of pairs -18.5, mean of the 16 pairs without a lock -19.0 "
+                          "[-19.5, -18.5]; replications for +-1: 18, without locks 10"));
+    EXPECT_THAT(comparison_text(summary_with(-20.0), {"emergency_travel_time_s"}),
+                testing::Not(HasSubstr("lock")));
+    const std::string json = comparison_json(locked_summary(), {"emergency_travel_time_s"}, {});
+    EXPECT_THAT(json, HasSubstr("\"locked_runs\": 3"));
+    EXPECT_THAT(json, HasSubstr("\"difference_without_locks\": -19.0"));
+}
+
 TEST(Shortfalls, AreWhatTheIntervalDoesNotExclude) {
     EXPECT_THAT(shortfalls_of(0.5, "emergency_travel_time_s", 1.5), IsEmpty());
     EXPECT_EQ(shortfalls_of(0.6, "emergency_travel_time_s", 1.5).size(), 1U);

@@ -55,6 +55,16 @@ TEST(Page, has_the_data_of_every_plot_beside_it) {
     EXPECT_EQ(count_of(page, "<summary>Data</summary>"), 25u);
 }
 
+TEST(Page, marks_locks_on_the_map_with_crosses) {
+    StudyFacts study = tests::study({"merge"});
+    EXPECT_THAT(page_of(study), Not(HasSubstr("class=\"lock")));
+    study.scenarios[0].map->locks = {{0, 2, 1}, {2, 0, 3}};
+    const std::string page = page_of(study);
+    EXPECT_EQ(count_of(page, "<path class=\"lock\""), 2u);  // One on the map, one in its legend.
+    EXPECT_EQ(count_of(page, "<path class=\"lock before\""), 1u);
+    EXPECT_THAT(page, HasSubstr("vehicles locked each other"));
+}
+
 TEST(Page, tells_all_that_is_known_of_a_paired_difference) {
     const std::string page = page_of(tests::study({"merge"}));
     EXPECT_THAT(page, HasSubstr("Statistics of the paired differences"));

@@ -41,6 +41,24 @@ TEST_F(MapFacts, AreMeansOverThePassagesThatBothRunsHave) {
     EXPECT_DOUBLE_EQ(scenario.map->holds[0].held_s, 20.0 + 7.5);
 }
 
+TEST_F(MapFacts, CountLocksWhereTheyHappened) {
+    const results::Store store = results::Store::open(folder_.path() / "study");
+    for (const char* const condition : {"baseline", "helps"}) {
+        auto run = *store.read({"crossing", condition, 1});
+        run.traffic = store.read_traffic(run.key);
+        run.traffic.locks = {{"west_in", "J", 100.0, 80.0, 4, 1}, {"elsewhere", "K", 100.0, 80.0, 4, 0}};
+        if (run.key.condition == "helps") run.traffic.locks.resize(1);
+        std::filesystem::remove_all(folder_.path() / "study" / "runs" / "crossing" / condition / "00001");
+        store.write(run, {});
+    }
+    const ScenarioFacts scenario = crossing();
+    ASSERT_TRUE(scenario.map);
+    ASSERT_EQ(scenario.map->locks.size(), 1U) << "what the map does not show is left out";
+    EXPECT_EQ(scenario.roads->edges[scenario.map->locks[0].edge].id, "west_in");
+    EXPECT_EQ(scenario.map->locks[0].condition, 1U);
+    EXPECT_EQ(scenario.map->locks[0].baseline, 1U);
+}
+
 TEST_F(MapFacts, ReachStartsAtTheStations) {
     const ScenarioFacts scenario = crossing();
     ASSERT_TRUE(scenario.map && scenario.map->reach);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "report/sample.hpp"
+#include "report/verdict.hpp"
 
 namespace clearway::report {
 namespace {
@@ -43,6 +44,27 @@ TEST_F(Overview, SaysInOneSentenceWhatIsGainedWhatItCostsAndThatNobodyCollided) 
     EXPECT_EQ(headline(),
               "corridor saves ambulances 26 s a trip (26 %); other drivers lose 4.6 s each; no collision in "
               "20 runs.");
+}
+
+TEST_F(Overview, NamesTheLongestTripsAndTheLocks) {
+    EXPECT_EQ(worst_trips(scenario_, corridor(), Script::plain), "");
+    EXPECT_EQ(locks_sentence(scenario_, corridor()), "");
+    corridor().worst_trip = WorstTrip{"emergency3", 12, 640.2, true};
+    scenario_.conditions[0].worst_trip = WorstTrip{"emergency0", 4, 1537.0, false};
+    tests::metric(scenario_.conditions[0], "locks").values = {0.0, 2.0};
+    tests::metric(scenario_.conditions[0], "longest_lock_s").values = {0.0, 300.0};
+    tests::set_total(scenario_.conditions[0], "locked_vehicles", 30);
+    tests::set_total(scenario_.conditions[0], "locked_emergency_vehicles", 1);
+    EXPECT_EQ(
+        worst_trips(scenario_, corridor(), Script::plain),
+        "Longest trip, corridor: emergency3 in replication 12, 640 s; baseline: emergency0 in replication 4, "
+        "1537 s, did not arrive.");
+    EXPECT_EQ(
+        locks_sentence(scenario_, corridor()),
+        "Vehicles locked each other. baseline: 2 locks in 1 of 20 runs, the longest 300 s; 30 vehicles stood "
+        "in them, 1 of them EV.");
+    EXPECT_THAT(verdict(scenario_, corridor(), Script::plain).figures,
+                StartsWith("no lock (baseline: 2 locks in 1 of 20 runs"));
 }
 
 TEST_F(Overview, ClaimsNothingThatTheIntervalDoesNotShow) {

@@ -57,12 +57,14 @@ TEST_F(StoreOfAStudy, KeepsWhereTimeWasLostAndReadsJourneysEdgeTimesAndHoldsOnly
     run.traffic.journeys = {{"ev 1", "", "", 60.25, 0.0}, {"ev 1", "J\n2", "red", 61.0, 120.5}};
     run.traffic.edge_times = {{"ev 1", "a,\"b", 60.25, 12.5}};
     run.traffic.holds = {{"J\n2", 3, 41.5}};
+    run.traffic.locks = {{"a,\"b", "J\n2", 60.0, 81.25, 4, 1}};
     store_.write(run, {});
     EXPECT_EQ(store_.read_traffic(treated), run.traffic);
     EXPECT_EQ(store_.read_traffic({"alpha", "baseline", 0}), metrics::TrafficTables{});
     run.traffic.journeys.clear();
     run.traffic.edge_times.clear();
     run.traffic.holds.clear();
+    run.traffic.locks.clear();
     EXPECT_EQ(store_.read(treated), run);
 }
 

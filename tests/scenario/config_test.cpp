@@ -35,15 +35,75 @@ class Config : public ScratchTest {
 };
 
 TEST_F(Config, shipped_scenarios_are_listed_and_load) {
-    EXPECT_THAT(list(), ElementsAre("arterial", "bologna", "bologna_stretch", "city", "grid_signals",
+    EXPECT_THAT(list(), ElementsAre("arterial", "bologna", "bologna_stretch", "bologna_stretch_v2",
+                                    "bologna_v2", "city", "city_v2", "grid_signals", "grid_signals_v2",
                                     "intersection", "merge", "motorway_jam", "motorway_jam_3km",
                                     "motorway_jam_three_lanes", "motorway_jam_three_lanes_3km", "random_town",
-                                    "rural", "short_grid", "short_ring", "short_town", "spider"));
+                                    "rural", "short_grid", "short_grid_v2", "short_ring", "short_ring_v2",
+                                    "short_town", "short_town_v2", "spider"));
     for (const std::string& name : list()) {
         const ScenarioConfig config = load(name);
         EXPECT_EQ(config.name, name);
-        EXPECT_EQ(config.version, "v1");
+        EXPECT_EQ(config.version, name.ends_with("_v2") ? "v2" : "v1");
     }
+}
+
+TEST_F(Config, v2_is_v1_but_for_vehicles_that_block_a_junction) {
+    for (const std::string& name : list()) {
+        const ScenarioConfig first = load(name);
+        if (first.version != "v1") continue;
+        EXPECT_FALSE(first.time.ignore_junction_blocker_s) << name;
+        if (newest(name) == name) continue;
+        ScenarioConfig second = load(newest(name));
+        EXPECT_EQ(second.time.ignore_junction_blocker_s, usual_ignore_junction_blocker_s);
+        EXPECT_NE(configuration_hash(first), configuration_hash(second));
+        second.name = first.name;
+        second.version = first.version;
+        second.time.ignore_junction_blocker_s.reset();
+        EXPECT_EQ(to_toml(first), to_toml(second));
+    }
+    EXPECT_EQ(newest("city"), "city_v2");
+    EXPECT_EQ(newest("merge"), "merge");
+}
+
+TEST_F(Config, a_file_with_a_base_changes_only_the_keys_that_it_names) {
+    std::filesystem::create_directories(folder() / "road");
+    std::filesystem::create_directories(folder() / "road_v2");
+    write("road/line.nod.xml", line_nodes);
+    write("road/line.edg.xml", line_edges);
+    write("road/scenario.toml", std::string(line_head) + "[demand]\nhuman = 7\nautomated = 3\n");
+    const auto file =
+        write("road_v2/scenario.toml", "base = \"road\"\nversion = \"v2\"\n[demand]\nhuman = 8\n");
+    const ScenarioConfig config = load(file.string());
+    EXPECT_EQ(config.version, "v2");
+    EXPECT_EQ(config.demand.human, 8);
+    EXPECT_EQ(config.demand.automated, 3);
+    EXPECT_TRUE(std::filesystem::exists(resolve(config, config.network.nodes)));
+    init(folder() / "mine", file.string());
+    EXPECT_EQ(load((folder() / "mine").string()).demand.human, 8);
+    const auto problems = problems_of([&] { load(write("scenario.toml", "base = \"gone\"\n").string()); });
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_THAT(problems[0].what, HasSubstr("gone/scenario.toml"));
+}
+
+TEST_F(Config, junction_blockers_are_a_key_and_an_override_in_the_hash) {
+    Options options;
+    options.set("ignore_junction_blocker_s", "5");
+    const ScenarioConfig config = load("merge", options);
+    EXPECT_EQ(config.time.ignore_junction_blocker_s, 5.0);
+    EXPECT_THAT(to_toml(config), HasSubstr("ignore_junction_blocker_s = 5\n"));
+    EXPECT_NE(configuration_hash(config), configuration_hash(load("merge")));
+    options.set("ignore_junction_blocker_s", "-2");
+    EXPECT_EQ(problems_of([&] { load("merge", options); }).size(), 1U);
+}
+
+TEST_F(Config, a_scenario_of_ones_own_starts_without_locks) {
+    init(folder() / "mine", "intersection");
+    EXPECT_EQ(load((folder() / "mine").string()).time.ignore_junction_blocker_s,
+              usual_ignore_junction_blocker_s);
+    init(folder() / "kept", "city_v2");
+    EXPECT_EQ(load((folder() / "kept").string()).time.ignore_junction_blocker_s,
+              usual_ignore_junction_blocker_s);
 }
 
 TEST_F(Config, counts_and_limits_are_those_of_table_1) {

@@ -268,17 +268,20 @@ TEST_F(SumoDemand, all_options_that_shape_traffic_are_named) {
     const scenario::ScenarioConfig config = scenario::load((out() / "town").string());
     EXPECT_EQ(config.time.time_to_teleport_s, 60.0);
     EXPECT_EQ(config.time.step_length_s, 0.25);
+    EXPECT_EQ(config.time.ignore_junction_blocker_s, scenario::usual_ignore_junction_blocker_s);
     EXPECT_THAT(findings.changes,
                 Contains(AllOf(HasSubstr("steps of 0.25 s instead of 0.5 s; mean time loss"),
                                HasSubstr(" s at 0.5 s, "), HasSubstr(" s at 0.25 s; --step-length 0.5"))));
 }
 
 TEST_F(SumoDemand, fine_steps_and_no_teleports_are_taken_over) {
-    const Findings findings =
-        run(configured(cars(9), "<step-length value='0.1'/><time-to-teleport value='-1'/>"));
+    const Findings findings = run(configured(cars(9),
+                                             "<step-length value='0.1'/><time-to-teleport value='-1'/>"
+                                             "<ignore-junction-blocker value='3'/>"));
     const scenario::ScenarioConfig config = scenario::load((out() / "town").string());
     EXPECT_EQ(config.time.step_length_s, 0.1);
     EXPECT_EQ(config.time.time_to_teleport_s, -1.0);
+    EXPECT_EQ(config.time.ignore_junction_blocker_s, 3.0);
     EXPECT_THAT(findings.changes, Not(Contains(HasSubstr("steps of"))));
 }
 

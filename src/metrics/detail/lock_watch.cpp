@@ -17,6 +17,10 @@ constexpr double look_period_s = 1.0;
 constexpr double lock_after_s = 60.0;
 /// Looks without a locked vehicle for less than this do not end a lock: its queue moved up.
 constexpr double same_lock_s = 60.0;
+/// A vehicle with the right of way is met if it drives this near to its line, or stands as near as the
+/// second.
+constexpr float approaching_m = 30.0F;
+constexpr float at_line_m = 5.0F;
 /// A vehicle stands because of the one ahead if the gap is at most this: twice a usual gap in a queue.
 constexpr float queue_gap_m = 10.0F;
 
@@ -153,7 +157,34 @@ std::uint32_t LockWatch::ahead_of(const Look& look, std::uint32_t row) const {
         const std::string& state = look.snapshot.signals.state[way->signal.value];
         if (way->link < state.size() && !traffic::is_green(state[way->link])) return excused;
     }
-    return ahead_on(look, *way, layout_.chain.length_m[lane.value] - position_m, way->next);
+    const std::uint32_t ahead =
+        ahead_on(look, *way, layout_.chain.length_m[lane.value] - position_m, way->next);
+    if (ahead != nothing) return ahead;
+    const bool inside = layout_.chain.approach[lane.value] != layout_.chain.edge[lane.value];
+    return across(look, inside ? lane : way->onto, row);
+}
+
+std::uint32_t LockWatch::across(const Look& look, core::LaneIndex inside, std::uint32_t row) const {
+    if (inside.value >= layout_.chain.foes.size()) return nothing;
+    std::uint32_t blocker = nothing;
+    for (const core::LaneIndex lane : layout_.chain.foes[inside.value]) {
+        const std::uint32_t first = first_on_lane_[lane.value];
+        for (std::uint32_t place = first; first != nothing && place <= last_on_lane_[lane.value]; ++place) {
+            if (!stands(look, order_[place])) return excused;
+            if (order_[place] != row) blocker = std::min(blocker, order_[place]);
+        }
+    }
+    if (blocker != nothing) return blocker;
+    for (const core::LaneIndex lane : layout_.chain.prior[inside.value]) {
+        const std::uint32_t first = first_on_lane_[lane.value];
+        if (first == nothing || order_[first] == row) continue;
+        const float left_m =
+            layout_.chain.length_m[lane.value] - look.snapshot.lane_position_m[order_[first]];
+        const bool waits = stands(look, order_[first]);
+        if (!waits && left_m <= approaching_m) return excused;
+        if (waits && left_m <= at_line_m) blocker = std::min(blocker, order_[first]);
+    }
+    return blocker;
 }
 
 bool LockWatch::is_held(const Look& look, std::uint32_t row) const {

@@ -13,11 +13,12 @@
 
 namespace clearway::metrics::detail {
 
-/// Counts locks. A vehicle is locked when it has stood for over 60 s and all that time nothing ahead
-/// explained it: no red or yellow for its way, no stop, no pedestrian on a crossing, no moving vehicle, and
-/// no queue that ends at one of these. The queue ahead is followed from vehicle to vehicle along their
-/// routes, through junctions; a lock is where it ends: at a vehicle with nothing ahead, or in a ring of
-/// queues. Looks once a second, in time linear in the vehicles on the road (but for sorting).
+/// Counts locks. A vehicle is locked when it has stood for over 60 s and all that time nothing explained it:
+/// no red or yellow for its way, no stop, no pedestrian on a crossing, no moving vehicle ahead or across, and
+/// no queue that ends at one of these. What a vehicle waits for is followed from vehicle to vehicle: the one
+/// ahead on its route, through junctions, else one that stands inside the junction across its way, else one
+/// with the right of way at its line. A lock is where this ends: at a vehicle that waits for nothing, or in a
+/// ring. Looks once a second, in time linear in the vehicles on the road (but for sorting).
 class LockWatch {
   public:
     /// The layout outlives the watch.
@@ -46,6 +47,8 @@ class LockWatch {
     /// The nearest vehicle ahead, `nothing`, or `excused` where something explains that the vehicle stands.
     std::uint32_t ahead_of(const Look& look, std::uint32_t row) const;
     std::uint32_t ahead_on(const Look& look, const LaneWay& way, float gap_m, core::EdgeIndex beyond) const;
+    /// What keeps the first of a queue from `inside`, a lane in a junction.
+    std::uint32_t across(const Look& look, core::LaneIndex inside, std::uint32_t row) const;
     const LaneWay* way_of(const Look& look, std::uint32_t row, core::LaneIndex lane) const;
     float length_m(const Look& look, std::uint32_t row) const;
     bool is_held(const Look& look, std::uint32_t row) const;
