@@ -121,7 +121,7 @@ struct ConditionSummary {
     /// Throws std::out_of_range for an unknown name.
     const MetricSummary& metric(std::string_view name) const;
     /// Sum of a metric over the runs.
-    double total(std::string_view metric) const;
+    double total(std::string_view name) const;
     /// Complete runs with a lock.
     std::size_t locked_runs() const;
 };

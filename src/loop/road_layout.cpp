@@ -108,10 +108,11 @@ std::vector<core::LaneIndex> lanes_inside(const roads::Network& network, const r
     return lanes;
 }
 
-void add_foe(const roads::Network& network, const roads::Connection& way, const roads::Connection& foe,
+/// The lanes of `other` cross or join the way of `one`.
+void add_foe(const roads::Network& network, const roads::Connection& one, const roads::Connection& other,
              metrics::LaneChain& chain) {
-    const std::vector<core::LaneIndex> across = lanes_inside(network, foe);
-    for (const core::LaneIndex lane : lanes_inside(network, way))
+    const std::vector<core::LaneIndex> across = lanes_inside(network, other);
+    for (const core::LaneIndex lane : lanes_inside(network, one))
         chain.foes[lane.value].insert(chain.foes[lane.value].end(), across.begin(), across.end());
 }
 

@@ -101,14 +101,14 @@ void set_key(toml::table& root, const std::string& dotted, const std::string& va
     core::set_value(*table, dotted.substr(begin), value);
 }
 
-/// Puts the keys of `changes` over those of `table`; tables are merged, anything else is replaced.
-void change(toml::table& table, const toml::table& changes) {
-    for (const auto& [key, node] : changes) {
-        toml::table* const below = table[key].as_table();
+/// Puts the keys of `over` over those of `base`; tables are merged, anything else is replaced.
+void merge_into(toml::table& base, const toml::table& over) {
+    for (const auto& [key, node] : over) {
+        toml::table* const below = base[key].as_table();
         if (below != nullptr && node.is_table())
-            change(*below, *node.as_table());
+            merge_into(*below, *node.as_table());
         else
-            table.insert_or_assign(key, node);
+            base.insert_or_assign(key, node);
     }
 }
 
@@ -126,7 +126,7 @@ toml::table read_scenario(const std::filesystem::path& file, std::filesystem::pa
                                 "a scenario in a folder beside this one", ""});
     table.erase("base");
     toml::table whole = read_scenario(base_file, folder);
-    change(whole, table);
+    merge_into(whole, table);
     return whole;
 }
 

@@ -19,7 +19,7 @@ constexpr double lock_after_s = 60.0;
 constexpr double same_lock_s = 60.0;
 /// A vehicle with the right of way is met if it drives this near to its line, or stands as near as the
 /// second.
-constexpr float approaching_m = 30.0F;
+constexpr float approaching_m = 100.0F;
 constexpr float at_line_m = 5.0F;
 /// A vehicle stands because of the one ahead if the gap is at most this: twice a usual gap in a queue.
 constexpr float queue_gap_m = 10.0F;
