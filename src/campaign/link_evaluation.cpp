@@ -292,6 +292,7 @@ report::LinkFacts described(const links::LinkPlan& plan) {
     facts.against = plan.opponent();
     for (const links::BenchmarkScenario& entry : benchmark.scenarios)
         facts.scenarios.push_back(entry.label);
+    facts.runs = facts.scenarios.size() * plan.own_seeds().count;
     const study::Versions versions = installed_versions();
     facts.provenance = {{"Clearway", versions.clearway}, {"SUMO", versions.sumo}};
     for (const links::BenchmarkScenario& entry : benchmark.scenarios) {
@@ -363,6 +364,7 @@ core::ExitCode evaluate_links(const LinkRequest& request) {
     core::write_atomically(plan.folder / "links.html", page.str());
     fmt::print(stderr, "{}\n", (plan.folder / "links.html").string());
     fmt::print("{}", request.printing == Printing::json ? json : report::links_console(facts));
+    if (!request.publication.file.empty()) publish_links(request.publication, facts);
     return core::ExitCode::ok;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "campaign/printout.hpp"
+#include "campaign/publication.hpp"
 #include "core/error.hpp"
 #include "experiment/loop_config.hpp"
 #include "links/link_plan.hpp"
@@ -31,6 +32,7 @@ struct LinkRequest {
     std::string against;
     std::string folder;
     unsigned workers = 0;
+    Publication publication;  ///< Its file may be empty.
     Printing printing = Printing::text;
     experiment::LinkSettings links;
     scenario::Options options;

@@ -25,6 +25,7 @@ struct Arguments {
     std::vector<std::string> metrics;  ///< Empty: `usual_metrics`.
     std::vector<std::string> tolerances;
     std::optional<double> response_threshold_s;
+    campaign::Publication publication;
     Printing printing = Printing::text;
 };
 
@@ -101,13 +102,16 @@ analysis::Summary summary_of(const Arguments& arguments) {
         return std::ranges::any_of(scenario.conditions,
                                    [](const auto& condition) { return !condition.baseline.empty(); });
     });
-    if (!compared)
+    if (!compared && arguments.publication.file.empty())
         throw core::InputError({arguments.first, "has no condition besides its baselines", "",
                                 "Name a second run folder to compare it with"});
     return summary;
 }
 
 core::ExitCode compare(Arguments arguments) {
+    if (!arguments.publication.file.empty() && !arguments.second.empty())
+        throw core::InputError({"--publish", "writes the rows of one run folder, and there are two", "",
+                                "Leave out " + arguments.second});
     const std::vector<report::Tolerance> tolerances = check(arguments);
     const analysis::Summary summary = summary_of(arguments);
     const std::vector<report::Shortfall> found = report::shortfalls(summary, tolerances);
@@ -119,6 +123,9 @@ core::ExitCode compare(Arguments arguments) {
             fmt::print("diff.: {} minus {}, paired by scenario, condition and replication.\n",
                        arguments.second, arguments.first);
     }
+    if (!arguments.publication.file.empty())
+        campaign::publish_study(arguments.publication, results::Store::open(arguments.first), summary,
+                                arguments.metrics);
     for (const report::Shortfall& one : found)
         fmt::print(stderr, "clearway: {}{}{}: {}: {}\n", one.scenario, one.condition.empty() ? "" : "/",
                    one.condition, one.metric, one.why);
@@ -143,6 +150,7 @@ Action configure_compare(CLI::App& app) {
         ->allow_extra_args(false)
         ->option_text("[METRIC=]NUMBER ... [none]");
     add_response_option(app, arguments->response_threshold_s);
+    add_publish_options(app, arguments->publication);
     add_json_option(app, arguments->printing, "the comparison");
     return [arguments](const Invocation&) { return compare(*arguments); };
 }

@@ -85,6 +85,7 @@ Action configure_evaluate(CLI::App& app) {
                    "Folder of runs and results; runs that it already holds are not repeated")
         ->option_text("DIR [runs/BENCHMARK, or runs/links]");
     add_jobs_option(app, arguments->request.workers);
+    add_publish_options(app, arguments->request.publication);
     add_json_option(app, arguments->request.printing, "all figures");
     add_seeds(app, *arguments);
     const std::size_t own_options = app.get_options().size();

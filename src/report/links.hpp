@@ -16,7 +16,8 @@ struct LinkFacts {
     std::string command;
     std::string split;  ///< `test` or `validation`.
     std::uint64_t study_seed = 0;
-    std::string seeds;  ///< `study seed 1, replications 0 to 9; F1 thresholds chosen on 1000 to 1004`.
+    std::string seeds;     ///< `study seed 1, replications 0 to 9; F1 thresholds chosen on 1000 to 1004`.
+    std::size_t runs = 0;  ///< Test runs over all scenarios.
     std::vector<std::string> scenarios;
     std::vector<std::string> failures;
     std::vector<links::Exits> exits;

@@ -56,6 +56,13 @@ TEST_F(LinksTest, judges_predictors_and_does_no_run_twice) {
             EXPECT_GT(result.at("end_to_end_recall"), 0.5);
         }
     }
+    std::vector<std::string> published = words;
+    published.insert(published.end(),
+                     {"--publish", "rows.csv", "--tree", "abc1234", "--behaviour", "0123456789ab"});
+    ASSERT_EQ(clearway(published).code, 0);
+    EXPECT_THAT(read("rows.csv"),
+                AllOf(HasSubstr("links evaluate line"), HasSubstr(",\"line, B10\",last_seen,ap,,"),
+                      HasSubstr(",\"line, perfect, exits unknown\",dead_reckoning,end_to_end_f1,,1.000,")));
     EXPECT_EQ(judged.at("against"), "dead_reckoning");
     EXPECT_EQ(judged.at("gains").size(), 4U);
     EXPECT_EQ(read("out/evaluation.json"), ended.out);

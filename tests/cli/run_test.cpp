@@ -164,6 +164,86 @@ TEST_F(RunTest, compare_pairs_conditions_and_folders_and_is_a_gate) {
     EXPECT_THAT(refused.err, HasSubstr("another seed"));
 }
 
+TEST_F(RunTest, compare_publishes_rows_and_loses_none) {
+    ASSERT_EQ(clearway(two_conditions((folder() / "one").string(), 5)).code, 0);
+    const std::vector<std::string> words = {"compare",     "one",
+                                            "--publish",   "rows.csv",
+                                            "--metric",    "emergency_restricted_travel_time_s",
+                                            "--behaviour", "0123456789ab"};
+    const auto publish = [&](const std::vector<std::string>& more, const std::string& file = "rows.csv") {
+        std::vector<std::string> all = words;
+        all[3] = file;
+        all.insert(all.end(), more.begin(), more.end());
+        return clearway(all);
+    };
+    const Ended ended = publish({"--tree", "abc1234"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("rows.csv: 4 rows"));
+    const std::string rows = read("rows.csv");
+    EXPECT_THAT(
+        rows,
+        AllOf(testing::StartsWith("study,tree,date,seed,pairs,command,scenario,condition,measure,unit,"),
+              HasSubstr(",1,5,clearway run line --seeds 5 --no-solo --condition graph_simulation,line,"
+                        "graph_simulation,emergency_restricted_travel_time_s:percent,%,"),
+              HasSubstr(",0 of "), HasSubstr(",product,0123456789ab\n")));
+    EXPECT_THAT(rows, Not(HasSubstr(folder().string())));
+
+    EXPECT_EQ(publish({"--tree", "abc1234", "--metric", "collisions"}).code, 0);
+    EXPECT_EQ(std::ranges::count(read("rows.csv"), '\n'), 1 + 4 + 3)
+        << "no percent of a baseline without any";
+    const std::string kept = read("rows.csv");
+
+    write("other.csv", "a,b\n1,2\n");
+    const Ended other = publish({"--tree", "abc1234"}, "other.csv");
+    EXPECT_EQ(other.code, 3);
+    EXPECT_THAT(other.err, HasSubstr("other.csv: has another header"));
+    EXPECT_EQ(read("other.csv"), "a,b\n1,2\n");
+    EXPECT_EQ(publish({"--tree", "abc1234"}, "gone/rows.csv").code, 4);
+    const Ended two = clearway({"compare", "one", "one", "--publish", "rows.csv"});
+    EXPECT_EQ(two.code, 3);
+    EXPECT_THAT(two.err, HasSubstr("--publish: writes the rows of one run folder"));
+    EXPECT_THAT(clearway({"compare", "one", "--publish", "rows.csv", "--behaviour", "12"}).err,
+                HasSubstr("is not 12 to 12 digits"));
+    EXPECT_THAT(publish({"--tree", "main"}).err, HasSubstr("`main` is not 7 to 40 digits"));
+    EXPECT_EQ(clearway({"compare", "one", "--tree", "abc1234"}).code, 2) << "it needs --publish";
+
+    ASSERT_EQ(clearway(two_conditions("single", 1)).code, 0);
+    const Ended single = clearway({"compare", "single", "--publish", "rows.csv"});
+    EXPECT_EQ(single.code, 3);
+    EXPECT_THAT(single.err, HasSubstr("single: has one replication"));
+    EXPECT_EQ(read("rows.csv"), kept);
+}
+
+TEST_F(RunTest, published_rows_carry_the_fingerprint_of_the_golden_runs) {
+    ASSERT_EQ(clearway(two_conditions("one", 2)).code, 0);
+    std::filesystem::create_directories(folder() / "tree/tests/loop");
+    write("tree/tests/loop/golden.txt",
+          "a f0000000000000000000000000000001 0000000000000000000000000000000f\n"
+          "b 0f000000000f000000000000000000ff 00000000000000000000000000000000\n");
+    const Environment elsewhere{.environment = {{"CLEARWAY_HOME", (folder() / "tree").string()}}};
+    const std::vector<std::string> words = {"compare",  "one",      "--publish",
+                                            "rows.csv", "--metric", "collisions"};
+    const Ended nameless = clearway(words, elsewhere);
+    EXPECT_EQ(nameless.code, 3) << "git does not know this tree";
+    EXPECT_THAT(nameless.err, HasSubstr("--tree: git does not name the commit"));
+    std::vector<std::string> named = words;
+    named.insert(named.end(), {"--tree", "abc1234"});
+    ASSERT_EQ(clearway(named, elsewhere).code, 0);
+    EXPECT_THAT(read("rows.csv"), HasSubstr(",product,ff000000000f\n")) << "exclusive or of all hashes";
+}
+
+TEST_F(RunTest, compare_publishes_a_baseline_alone) {
+    ASSERT_EQ(
+        clearway({"run", "line", "--seeds", "2", "--no-solo", "--condition", "baseline", "--out", "out"})
+            .code,
+        0);
+    EXPECT_EQ(clearway({"compare", "out"}).code, 3);
+    const Ended ended = clearway({"compare", "out", "--publish", "rows.csv", "--tree", "abc1234",
+                                  "--behaviour", "0123456789ab", "--metric", "others_time_loss_s"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(read("rows.csv"), HasSubstr(",line,baseline,others_time_loss_s,s,"));
+}
+
 TEST_F(RunTest, results_prints_every_table_it_lists) {
     ASSERT_EQ(clearway(two_conditions("out", 2)).code, 0);
     const Ended list = clearway({"export", "results", "out", "--list"});

@@ -64,6 +64,29 @@ void add_limit_options(CLI::App& app, experiment::RunLimits& limits) {
         ->option_text(fmt::format("MIB, 0 to 1e8 [{}]", limits.memory_mib));
 }
 
+void add_publish_options(CLI::App& app, campaign::Publication& publication) {
+    const auto digits = [](std::size_t least, std::size_t most) {
+        return [least, most](const std::string& text) {
+            const bool is_hexadecimal = text.find_first_not_of("0123456789abcdef") == std::string::npos;
+            return is_hexadecimal && text.size() >= least && text.size() <= most
+                       ? std::string()
+                       : fmt::format("`{}` is not {} to {} digits 0 to f", text, least, most);
+        };
+    };
+    CLI::Option* const file =
+        app.add_option("--publish", publication.file,
+                       "Write the results as rows of this CSV file, replacing earlier ones")
+            ->option_text("results/FILE.csv [none]");
+    app.add_option("--tree", publication.tree, "Commit of the tree that made the runs, for the rows")
+        ->needs(file)
+        ->check(digits(7, 40))
+        ->option_text("COMMIT [that of this tree]");
+    app.add_option("--behaviour", publication.behaviour, "What scripts/render-docs --behaviour prints there")
+        ->needs(file)
+        ->check(digits(12, 12))
+        ->option_text("DIGITS [that of this tree]");
+}
+
 std::vector<CLI::Option*> add_link_options(CLI::App& app, experiment::LinkSettings& links,
                                            const char* group) {
     return {app.add_option("--link-radius", links.link_radius_m, "Vehicles nearer than this are linked, m")

@@ -8,6 +8,7 @@
 #include <CLI/App.hpp>
 
 #include "campaign/printout.hpp"
+#include "campaign/publication.hpp"
 #include "experiment/loop_config.hpp"
 #include "experiment/run_job.hpp"
 #include "report/console.hpp"
@@ -36,6 +37,9 @@ CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds);
 
 /// Declares `--run-time-limit` and `--memory-limit`: what a run may use before it is ended as failed.
 void add_limit_options(CLI::App& app, experiment::RunLimits& limits);
+
+/// Declares `--publish`, `--tree` and `--behaviour`: rows of `results/`.
+void add_publish_options(CLI::App& app, campaign::Publication& publication);
 
 /// `--link-radius` and `--automated-links`.
 std::vector<CLI::Option*> add_link_options(CLI::App& app, experiment::LinkSettings& links, const char* group);
