@@ -186,6 +186,20 @@ TEST_F(LockWatch, a_queue_through_a_junction_that_ends_at_a_red_is_no_lock) {
     EXPECT_EQ(finish().metrics.locks, 0U);
 }
 
+TEST_F(LockWatch, one_that_keeps_a_junction_clear_stands_in_the_queue_beyond) {
+    put("a1", east, 19.0F);
+    put("a2", east, 11.5F);  // Leaves 6.5 m: no room for another.
+    put("a3", west, 99.0F);
+    stand(200, "Gr");
+    EXPECT_EQ(finish().metrics.locks, 0U);
+}
+
+TEST_F(LockWatch, a_red_beyond_free_road_explains_nothing) {
+    put("a1", west, 99.0F);
+    stand(200, "Gr");
+    EXPECT_EQ(finish().metrics.locks, 1U);
+}
+
 TEST_F(LockWatch, a_queue_behind_a_moving_vehicle_is_no_lock) {
     put("a1", east, 4.0F, 1.0F);
     put("a2", inside_we, 8.0F);
@@ -195,8 +209,8 @@ TEST_F(LockWatch, a_queue_behind_a_moving_vehicle_is_no_lock) {
 }
 
 TEST_F(LockWatch, a_vehicle_far_ahead_explains_nothing) {
-    put("a1", east, 16.0F, 1.0F);
-    put("a2", inside_we, 8.0F);
+    put("b1", north, 60.0F, 1.0F);
+    put("b2", inside_sn, 8.0F);
     stand(100);
     EXPECT_EQ(finish().metrics.locked_vehicles, 1U);
 }

@@ -100,34 +100,45 @@ float LockWatch::length_m(const Look& look, std::uint32_t row) const {
     return info == nullptr ? traffic::VehicleInfo{}.length_m : info->length_m;
 }
 
-const LaneWay* LockWatch::way_of(const Look& look, std::uint32_t row, core::LaneIndex lane) const {
+const LaneWay* LockWatch::way_of(const Look& look, std::uint32_t row, core::LaneIndex lane,
+                                 std::size_t later) const {
     const std::vector<LaneWay>& ways = layout_.chain.ways[lane.value];
     const traffic::VehicleInfo* const info = look.roster.find(look.snapshot.key[row]);
-    const bool inside = layout_.chain.approach[lane.value] != layout_.chain.edge[lane.value];
-    if (inside || info == nullptr) return ways.empty() ? nullptr : &ways.front();
+    if (is_inside(lane) || info == nullptr) return ways.empty() ? nullptr : &ways.front();
     const std::vector<core::EdgeIndex>& route = look.roster.route(info->route);
-    const std::size_t next = look.snapshot.route_edge[row] + std::size_t{1};
+    const std::size_t next = look.snapshot.route_edge[row] + 1 + later;
     if (next >= route.size()) return nullptr;
     const auto found = std::ranges::find(ways, route[next], &LaneWay::next);
     return found == ways.end() ? nullptr : &*found;
 }
 
-std::uint32_t LockWatch::ahead_on(const Look& look, const LaneWay& way, float gap_m,
-                                  core::EdgeIndex beyond) const {
-    core::LaneIndex lane = way.onto;
-    while (gap_m <= queue_gap_m) {
+bool LockWatch::is_inside(core::LaneIndex lane) const {
+    return layout_.chain.approach[lane.value] != layout_.chain.edge[lane.value];
+}
+
+bool LockWatch::is_red(const Look& look, const LaneWay& way) const {
+    if (!way.signal.exists() || way.signal.value >= look.snapshot.signals.state.size()) return false;
+    const std::string& state = look.snapshot.signals.state[way.signal.value];
+    return way.link < state.size() && !traffic::is_green(state[way.link]);
+}
+
+std::uint32_t LockWatch::ahead_on(const Look& look, std::uint32_t row, const LaneWay* way) const {
+    // A vehicle keeps a junction clear: it stands before it until there is room for all of it behind.
+    float room_m = length_m(look, row) + queue_gap_m;
+    for (std::size_t later = 0; way != nullptr && room_m > 0.0F;) {
+        if (is_red(look, *way)) return excused;
+        const core::LaneIndex lane = way->onto;
         const std::uint32_t last = last_on_lane_[lane.value];
         if (last != nothing) {
-            const std::uint32_t row = order_[last];
-            gap_m += look.snapshot.lane_position_m[row] - length_m(look, row);
-            return gap_m <= queue_gap_m ? row : nothing;
+            const std::uint32_t ahead = order_[last];
+            const float free_m = look.snapshot.lane_position_m[ahead] - length_m(look, ahead);
+            return is_inside(lane) || free_m <= room_m ? ahead : nothing;
         }
-        // Beyond the junction the way depends on the route; a junction is rarely followed by so short an
-        // edge.
-        if (layout_.chain.edge[lane.value] == beyond || layout_.chain.ways[lane.value].empty())
-            return nothing;
-        gap_m += layout_.chain.length_m[lane.value];
-        lane = layout_.chain.ways[lane.value].front().onto;
+        if (!is_inside(lane)) {
+            room_m -= layout_.chain.length_m[lane.value];
+            ++later;
+        }
+        way = way_of(look, row, lane, later);
     }
     return nothing;
 }
@@ -141,27 +152,22 @@ std::uint32_t LockWatch::ahead_of(const Look& look, std::uint32_t row) const {
         const float gap_m = look.snapshot.lane_position_m[leader] - length_m(look, leader) - position_m;
         if (gap_m <= queue_gap_m) return leader;
     }
-    const LaneWay* way = way_of(look, row, lane);
+    const LaneWay* const way = way_of(look, row, lane, 0);
     if (way == nullptr) {  // It has to change lanes: what holds the lanes beside it holds it, too.
         const core::EdgeIndex edge = layout_.chain.edge[lane.value];
         for (std::uint32_t beside = lane.value; beside-- > 0 && layout_.chain.edge[beside] == edge;)
-            if (way_of(look, row, core::LaneIndex{beside}) != nullptr && first_on_lane_[beside] != nothing)
+            if (way_of(look, row, core::LaneIndex{beside}, 0) != nullptr && first_on_lane_[beside] != nothing)
                 return order_[first_on_lane_[beside]];
         for (std::uint32_t beside = lane.value + 1;
              beside < layout_.chain.edge.size() && layout_.chain.edge[beside] == edge; ++beside)
-            if (way_of(look, row, core::LaneIndex{beside}) != nullptr && first_on_lane_[beside] != nothing)
+            if (way_of(look, row, core::LaneIndex{beside}, 0) != nullptr && first_on_lane_[beside] != nothing)
                 return order_[first_on_lane_[beside]];
         return nothing;
     }
-    if (way->signal.exists() && way->signal.value < look.snapshot.signals.state.size()) {
-        const std::string& state = look.snapshot.signals.state[way->signal.value];
-        if (way->link < state.size() && !traffic::is_green(state[way->link])) return excused;
-    }
-    const std::uint32_t ahead =
-        ahead_on(look, *way, layout_.chain.length_m[lane.value] - position_m, way->next);
-    if (ahead != nothing) return ahead;
-    const bool inside = layout_.chain.approach[lane.value] != layout_.chain.edge[lane.value];
-    return across(look, inside ? lane : way->onto, row);
+    if (is_red(look, *way)) return excused;
+    const bool at_end = layout_.chain.length_m[lane.value] - position_m <= queue_gap_m;
+    const std::uint32_t ahead = at_end ? ahead_on(look, row, way) : nothing;
+    return ahead != nothing ? ahead : across(look, is_inside(lane) ? lane : way->onto, row);
 }
 
 std::uint32_t LockWatch::across(const Look& look, core::LaneIndex inside, std::uint32_t row) const {

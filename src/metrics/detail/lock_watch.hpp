@@ -46,10 +46,14 @@ class LockWatch {
     void sort_by_lane(const truth::Snapshot& snapshot);
     /// The nearest vehicle ahead, `nothing`, or `excused` where something explains that the vehicle stands.
     std::uint32_t ahead_of(const Look& look, std::uint32_t row) const;
-    std::uint32_t ahead_on(const Look& look, const LaneWay& way, float gap_m, core::EdgeIndex beyond) const;
+    std::uint32_t ahead_on(const Look& look, std::uint32_t row, const LaneWay* way) const;
     /// What keeps the first of a queue from `inside`, a lane in a junction.
     std::uint32_t across(const Look& look, core::LaneIndex inside, std::uint32_t row) const;
-    const LaneWay* way_of(const Look& look, std::uint32_t row, core::LaneIndex lane) const;
+    /// From `lane`, which lies `later` edges ahead on the vehicle's route; null where its route does not lead
+    /// on.
+    const LaneWay* way_of(const Look& look, std::uint32_t row, core::LaneIndex lane, std::size_t later) const;
+    bool is_inside(core::LaneIndex lane) const;
+    bool is_red(const Look& look, const LaneWay& way) const;
     float length_m(const Look& look, std::uint32_t row) const;
     bool is_held(const Look& look, std::uint32_t row) const;
     /// The row where the queue ahead ends, or `excused`.
