@@ -117,6 +117,10 @@ class Difference:
     complete_pairs: int
     incomplete_pairs: int
     vehicles_left_out: int
+    #: Pairs in which vehicles locked each other in either run, and the mean of the others with its 95 % interval.
+    locked_pairs: int
+    difference_without_locks: float | None
+    interval_95_without_locks: tuple[float, float] | None
     #: Why the mean must not be believed as it stands (vehicles that did not arrive); empty where nothing is wrong.
     objections: str
 
@@ -216,7 +220,7 @@ class Results:
         differences = []
         for row in rows:
             numbers = row["metrics"][metric]
-            pairs = {key: _pair(numbers.pop(key)) for key in ("interval_95", "bca_95", "median_95")}
+            pairs = {key: _pair(numbers.pop(key)) for key in ("interval_95", "bca_95", "median_95", "interval_95_without_locks")}
             differences.append(Difference(scenario=row["scenario"], condition=row["condition"], compared_with=row["compared_with"],
                                           metric=metric, objections=row["objections"], **pairs, **numbers))
         return differences
