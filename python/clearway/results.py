@@ -117,7 +117,8 @@ class Difference:
     complete_pairs: int
     incomplete_pairs: int
     vehicles_left_out: int
-    #: Pairs in which vehicles locked each other in either run, and the mean of the others with its 95 % interval.
+    #: Pairs in which vehicles locked each other in either run; where there are any, the mean of the other pairs with its 95 %
+    #: interval, else None.
     locked_pairs: int
     difference_without_locks: float | None
     interval_95_without_locks: tuple[float, float] | None

@@ -97,7 +97,7 @@ TEST_F(ThroughTraffic, an_intersection_alone_is_driven_through_from_every_arm) {
     const Findings findings = run(request({cross_network()}));
     EXPECT_LT(findings.connected_share, 0.2);
     EXPECT_THAT(findings.changes, Contains(HasSubstr("12.5 % of the car edges reach each other")));
-    EXPECT_THAT(findings.demand, HasSubstr("from where roads enter"));
+    EXPECT_THAT(findings.demand, HasSubstr("from roads that enter the map"));
     const Routes found = routes();
     ASSERT_GE(found.traffic.size(), 20U);
     ASSERT_EQ(found.emergency.size(), 6U);
