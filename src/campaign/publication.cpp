@@ -1,5 +1,6 @@
 #include "campaign/publication.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -86,6 +87,28 @@ void write(const Publication& publication, const std::vector<report::ResultRow>&
     fmt::print(stderr, "{}: {} rows\n", publication.file, rows.size());
 }
 
+/// Rows of a part of the runs would stand beside those of others as if they were the whole.
+void check_complete(const std::string& folder, const analysis::Summary& summary) {
+    for (const analysis::ScenarioSummary& scenario : summary.scenarios) {
+        for (const analysis::ConditionSummary& condition : scenario.conditions) {
+            if (condition.missing_runs + condition.failed_runs > 0)
+                throw core::InputError(
+                    {fmt::format("{}: {}/{}", folder, scenario.scenario, condition.condition.name),
+                     fmt::format("{} runs are missing and {} failed", condition.missing_runs,
+                                 condition.failed_runs),
+                     "a complete study", "Repeat the study with the same --out"});
+        }
+    }
+}
+
+std::vector<std::string> each_once(const std::vector<std::string>& metrics) {
+    std::vector<std::string> once;
+    for (const std::string& metric : metrics) {
+        if (std::ranges::find(once, metric) == once.end()) once.push_back(metric);
+    }
+    return once;
+}
+
 }  // namespace
 
 void publish_study(const Publication& publication, const results::Store& store,
@@ -95,6 +118,7 @@ void publish_study(const Publication& publication, const results::Store& store,
     if (manifest.replications < 2)
         throw core::InputError({folder, "has one replication, from which nothing can be concluded",
                                 "at least 2", "Repeat the study with more --seeds"});
+    check_complete(folder, summary);
     const bool named = !publication.tree.empty() && !publication.behaviour.empty();
     if (manifest.clearway_build != core::build_stamp() && !named)
         throw core::InputError({folder,
@@ -106,7 +130,7 @@ void publish_study(const Publication& publication, const results::Store& store,
         fs::exists(store.runs_csv()) ? store.runs_csv() : store.folder() / "manifest.json";
     const report::RowSource source =
         source_of(publication, fs::exists(command) ? core::read_file(command) : "", day_of(written));
-    write(publication, report::study_rows(summary, metrics, source));
+    write(publication, report::study_rows(summary, each_once(metrics), source));
 }
 
 void publish_links(const Publication& publication, const report::LinkFacts& facts) {

@@ -117,15 +117,23 @@ void merge_into(toml::table& base, const toml::table& over) {
 toml::table read_scenario(const std::filesystem::path& file, std::filesystem::path& folder) {
     toml::table table = core::parse_toml(core::read_file(file), file.string());
     folder = file.parent_path().empty() ? "." : file.parent_path();
-    const std::optional<std::string> base = table["base"].value<std::string>();
-    if (!base) return table;
+    if (!table.contains("base")) return table;
+    const std::string base = table["base"].value<std::string>().value_or("");
     const std::filesystem::path base_file =
-        (std::filesystem::absolute(folder) / ".." / *base / "scenario.toml").lexically_normal();
+        (std::filesystem::absolute(folder) / ".." / base / "scenario.toml").lexically_normal();
+    const std::string where = file.string() + ": base";
+    if (base.empty() || base == ".." || std::filesystem::path(base).filename() != base)
+        throw core::InputError(
+            {where, "is no name of a folder", "a scenario in a folder beside this one", ""});
     if (!std::filesystem::is_regular_file(base_file))
-        throw core::InputError({file.string() + ": base", fmt::format("there is no {}", base_file.string()),
+        throw core::InputError({where, fmt::format("there is no {}", base_file.string()),
                                 "a scenario in a folder beside this one", ""});
+    toml::table whole = core::parse_toml(core::read_file(base_file), base_file.string());
+    if (whole.contains("base"))
+        throw core::InputError({where, fmt::format("scenario {} has a base of its own", base),
+                                "a scenario without the key `base`", "Name that one"});
+    folder = base_file.parent_path();
     table.erase("base");
-    toml::table whole = read_scenario(base_file, folder);
     merge_into(whole, table);
     return whole;
 }

@@ -156,10 +156,15 @@ std::string unlocked(const std::string& text) {
     if (table["time"]["ignore_junction_blocker_s"]) return text;
     const std::string line =
         fmt::format("ignore_junction_blocker_s = {:.1f}\n", usual_ignore_junction_blocker_s);
-    constexpr std::string_view header = "[time]\n";
-    const std::size_t at = text.find(header);
-    if (at == std::string::npos) return text + "\n[time]\n" + line;
-    return text.substr(0, at + header.size()) + line + text.substr(at + header.size());
+    if (!table.contains("time")) return text + "\n[time]\n" + line;
+    constexpr std::string_view header = "\n[time]\n";
+    const std::size_t at = ("\n" + text).find(header);
+    if (at == std::string::npos)
+        throw core::InputError({"time", "the line `[time]` of the scenario holds something else, too",
+                                "`[time]`",
+                                "Write it so, or set time.ignore_junction_blocker_s in the scenario"});
+    const std::size_t end = at + header.size() - 1;
+    return text.substr(0, end) + line + text.substr(end);
 }
 
 }  // namespace
@@ -198,12 +203,13 @@ void init(const std::filesystem::path& folder, const std::string& from) {
                                              "a new or an empty folder", "choose another name"});
     const std::filesystem::path source = detail::scenario_file(from);
     const ScenarioConfig config = load(from);
-    core::make_folder(folder);
-    copy_files(config, folder);
     const std::filesystem::path named = folder.has_filename() ? folder : folder.parent_path();
     const std::string text = core::read_file(source);
-    core::write_atomically(folder / "scenario.toml", unlocked(renamed(is_whole(text) ? text : to_toml(config),
-                                                                      named.filename().string())));
+    const std::string copy =
+        unlocked(renamed(is_whole(text) ? text : to_toml(config), named.filename().string()));
+    core::make_folder(folder);
+    copy_files(config, folder);
+    core::write_atomically(folder / "scenario.toml", copy);
 }
 
 }  // namespace clearway::scenario

@@ -193,6 +193,9 @@ TEST_F(RunTest, compare_publishes_rows_and_loses_none) {
         << "no percent of a baseline without any";
     const std::string kept = read("rows.csv");
 
+    EXPECT_EQ(publish({"--tree", "abc1234", "--metric", "collisions", "--metric", "collisions"}).code, 0);
+    EXPECT_EQ(read("rows.csv"), kept);
+
     write("other.csv", "a,b\n1,2\n");
     const Ended other = publish({"--tree", "abc1234"}, "other.csv");
     EXPECT_EQ(other.code, 3);
@@ -206,6 +209,12 @@ TEST_F(RunTest, compare_publishes_rows_and_loses_none) {
                 HasSubstr("is not 12 to 12 digits"));
     EXPECT_THAT(publish({"--tree", "main"}).err, HasSubstr("`main` is not 7 to 40 digits"));
     EXPECT_EQ(clearway({"compare", "one", "--tree", "abc1234"}).code, 2) << "it needs --publish";
+
+    ASSERT_TRUE(std::filesystem::remove(folder() / "one/runs/line/graph_simulation/00001/run.json"));
+    const Ended partial = publish({"--tree", "abc1234"});
+    EXPECT_EQ(partial.code, 3);
+    EXPECT_THAT(partial.err, HasSubstr("line/graph_simulation: 1 runs are missing"));
+    EXPECT_EQ(read("rows.csv"), kept);
 
     ASSERT_EQ(clearway(two_conditions("single", 1)).code, 0);
     const Ended single = clearway({"compare", "single", "--publish", "rows.csv"});

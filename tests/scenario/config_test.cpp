@@ -86,6 +86,35 @@ TEST_F(Config, a_file_with_a_base_changes_only_the_keys_that_it_names) {
     EXPECT_THAT(problems[0].what, HasSubstr("gone/scenario.toml"));
 }
 
+TEST_F(Config, a_base_is_a_whole_scenario_in_a_folder_beside) {
+    std::filesystem::create_directories(folder() / "one");
+    const auto what_is_wrong = [&](const std::string& base) {
+        const auto file = write("one/scenario.toml", "base = " + base + "\n");
+        const auto problems = problems_of([&] { load(file.string()); });
+        return problems.size() == 1 ? problems[0].what : "";
+    };
+    EXPECT_THAT(what_is_wrong("\"one\""), HasSubstr("scenario one has a base of its own"));
+    for (const char* const base : {"3", "\"\"", "\"../one\"", "\"..\"", "\"/one\""})
+        EXPECT_THAT(what_is_wrong(base), HasSubstr("is no name of a folder")) << base;
+}
+
+TEST_F(Config, a_copy_gets_its_remedy_against_locks_where_the_table_is_a_line) {
+    std::filesystem::create_directories(folder() / "road");
+    write("road/line.nod.xml", line_nodes);
+    write("road/line.edg.xml", line_edges);
+    const auto file =
+        write("road/scenario.toml", std::string(line_head) + "[time]  # clock\nwarm_up_s = 5.0\n");
+    const auto problems = problems_of([&] { init(folder() / "mine", file.string()); });
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_THAT(problems[0].cure, HasSubstr("time.ignore_junction_blocker_s"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "mine"));
+    write("road/scenario.toml", std::string(line_head) + "[time]\nwarm_up_s = 5.0\n");
+    init(folder() / "mine", file.string());
+    const ScenarioConfig copy = load((folder() / "mine").string());
+    EXPECT_EQ(copy.time.warm_up_s, 5.0);
+    EXPECT_EQ(copy.time.ignore_junction_blocker_s, usual_ignore_junction_blocker_s);
+}
+
 TEST_F(Config, junction_blockers_are_a_key_and_an_override_in_the_hash) {
     Options options;
     options.set("ignore_junction_blocker_s", "5");
