@@ -21,6 +21,6 @@ struct SafetyRow {
 
 /// Safety, comfort and flow of a condition, which outlives the rows; more of them if signals were asked for
 /// green, and if there are pedestrians. Empty without a complete run.
-std::vector<SafetyRow> safety_rows(const analysis::ConditionSummary& condition);
+std::vector<SafetyRow> safety_rows(const analysis::ConditionSummary& summary);
 
 }  // namespace clearway::report
