@@ -30,21 +30,26 @@ samples::PairDataset chosen(const samples::PairDataset& all, PairChoice pairs) {
     return kept;
 }
 
+struct Batches {
+    GraphBatch train;
+    GraphBatch test;
+};
+
 /// The published loop. Leaves losses, outcome and state in `result`.
-void run_epochs(TorchNet& net, const GraphBatch& train, const GraphBatch& test, std::uint32_t epochs,
-                const TrainingHooks& hooks, AsPublishedResult& result) {
+void run_epochs(TorchNet& net, const Batches& batches, std::uint32_t epochs, const TrainingHooks& hooks,
+                AsPublishedResult& result) {
     StateDict before;
     const auto run = [&](std::uint32_t) {
         before = net.state();
         EpochLoss loss;
-        loss.held_out = net.loss(test);
-        loss.train = net.train_step(train);
+        loss.held_out = net.loss(batches.test);
+        loss.train = net.train_step(batches.train);
         return loss;
     };
     run_rounds(
         {epochs}, hooks, run, [&](bool) { result.state = before; }, result);
     if (result.losses.empty() || result.outcome == Outcome::diverged) return;
-    if (std::isfinite(net.loss(train)) && std::isfinite(net.loss(test))) {
+    if (std::isfinite(net.loss(batches.train)) && std::isfinite(net.loss(batches.test))) {
         result.state = net.state();
     } else {
         result.outcome = Outcome::diverged;  // In the very last step.
@@ -110,13 +115,13 @@ AsPublishedResult train_as_published(const samples::PairDataset& dataset, PairCh
     result.train_pairs = result.split.train;
     result.features = as_published_schema(result.dataset.feature_count);
     result.dimensions = {result.dataset.feature_count, config.hidden, config.output};
-    const GraphBatch train = as_published_batch(result.dataset, 0, result.split.train);
-    const GraphBatch test = as_published_batch(result.dataset, result.split.train, result.split.test);
+    const Batches batches{as_published_batch(result.dataset, 0, result.split.train),
+                          as_published_batch(result.dataset, result.split.train, result.split.test)};
     TorchNet net({result.dimensions, config.seed, config.learning_rate});
-    run_epochs(net, train, test, config.epochs, hooks, result);
-    if (!result.state.empty()) score(net, train, test, result);
-    result.constant_test_loss = constant_loss(train, test);
-    add_warnings(train, test, result);
+    run_epochs(net, batches, config.epochs, hooks, result);
+    if (!result.state.empty()) score(net, batches.train, batches.test, result);
+    result.constant_test_loss = constant_loss(batches.train, batches.test);
+    add_warnings(batches.train, batches.test, result);
     return result;
 }
 
