@@ -89,16 +89,11 @@ void write(const Publication& publication, const std::vector<report::ResultRow>&
 
 /// Rows of a part of the runs would stand beside those of others as if they were the whole.
 void check_complete(const std::string& folder, const analysis::Summary& summary) {
-    for (const analysis::ScenarioSummary& scenario : summary.scenarios) {
-        for (const analysis::ConditionSummary& condition : scenario.conditions) {
-            if (condition.missing_runs + condition.failed_runs > 0)
-                throw core::InputError(
-                    {fmt::format("{}: {}/{}", folder, scenario.scenario, condition.condition.name),
-                     fmt::format("{} runs are missing and {} failed", condition.missing_runs,
-                                 condition.failed_runs),
-                     "a complete study", "Repeat the study with the same --out"});
-        }
-    }
+    std::vector<core::Problem> problems;
+    for (const analysis::Unpaired& lost : summary.unpaired)
+        problems.push_back({fmt::format("{}: {}/{}", folder, lost.scenario, lost.condition), lost.why,
+                            "a complete study", "Repeat the study with the same --out"});
+    if (!problems.empty()) throw core::InputError(std::move(problems));
 }
 
 std::vector<std::string> each_once(const std::vector<std::string>& metrics) {

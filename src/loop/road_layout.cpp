@@ -85,18 +85,6 @@ void add_crossings(const roads::Network& network, metrics::LaneChain& chain) {
     }
 }
 
-/// Gives the lanes inside a junction the edge from which a way across it starts.
-void add_approach(const roads::Network& network, core::LaneIndex from, metrics::LaneChain& chain) {
-    for (const roads::Connection& start : network.connections_from(from)) {
-        core::LaneIndex inside = start.via;
-        while (inside.exists()) {
-            chain.approach[inside.value] = chain.edge[from.value];
-            const auto onwards = network.connections_from(inside);
-            inside = onwards.empty() ? core::LaneIndex::none() : onwards.front().via;
-        }
-    }
-}
-
 /// The lanes inside a junction that a way across it takes.
 std::vector<core::LaneIndex> lanes_inside(const roads::Network& network, const roads::Connection& way) {
     std::vector<core::LaneIndex> lanes;
@@ -106,6 +94,13 @@ std::vector<core::LaneIndex> lanes_inside(const roads::Network& network, const r
         lane = onwards.empty() ? core::LaneIndex::none() : onwards.front().via;
     }
     return lanes;
+}
+
+/// Gives the lanes inside a junction the edge from which a way across it starts.
+void add_approach(const roads::Network& network, core::LaneIndex from, metrics::LaneChain& chain) {
+    for (const roads::Connection& start : network.connections_from(from))
+        for (const core::LaneIndex inside : lanes_inside(network, start))
+            chain.approach[inside.value] = chain.edge[from.value];
 }
 
 /// The lanes of `other` cross or join the way of `one`.

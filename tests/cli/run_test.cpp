@@ -213,7 +213,7 @@ TEST_F(RunTest, compare_publishes_rows_and_loses_none) {
     ASSERT_TRUE(std::filesystem::remove(folder() / "one/runs/line/graph_simulation/00001/run.json"));
     const Ended partial = publish({"--tree", "abc1234"});
     EXPECT_EQ(partial.code, 3);
-    EXPECT_THAT(partial.err, HasSubstr("line/graph_simulation: 1 runs are missing"));
+    EXPECT_THAT(partial.err, HasSubstr("line/graph_simulation: 1 of 5 runs failed or are missing"));
     EXPECT_EQ(read("rows.csv"), kept);
 
     ASSERT_EQ(clearway(two_conditions("single", 1)).code, 0);

@@ -154,14 +154,16 @@ std::uint32_t LockWatch::ahead_of(const Look& look, std::uint32_t row) const {
     }
     const LaneWay* const way = way_of(look, row, lane, 0);
     if (way == nullptr) {  // It has to change lanes: what holds the lanes beside it holds it, too.
-        const core::EdgeIndex edge = layout_.chain.edge[lane.value];
-        for (std::uint32_t beside = lane.value; beside-- > 0 && layout_.chain.edge[beside] == edge;)
-            if (way_of(look, row, core::LaneIndex{beside}, 0) != nullptr && first_on_lane_[beside] != nothing)
-                return order_[first_on_lane_[beside]];
-        for (std::uint32_t beside = lane.value + 1;
-             beside < layout_.chain.edge.size() && layout_.chain.edge[beside] == edge; ++beside)
-            if (way_of(look, row, core::LaneIndex{beside}, 0) != nullptr && first_on_lane_[beside] != nothing)
-                return order_[first_on_lane_[beside]];
+        const auto& edge = layout_.chain.edge;
+        const auto holds = [&](std::uint32_t beside) {
+            return first_on_lane_[beside] != nothing &&
+                   way_of(look, row, core::LaneIndex{beside}, 0) != nullptr;
+        };
+        for (std::uint32_t beside = lane.value; beside-- > 0 && edge[beside] == edge[lane.value];)
+            if (holds(beside)) return order_[first_on_lane_[beside]];
+        for (std::uint32_t beside = lane.value + 1; beside < edge.size() && edge[beside] == edge[lane.value];
+             ++beside)
+            if (holds(beside)) return order_[first_on_lane_[beside]];
         return nothing;
     }
     if (is_red(look, *way)) return excused;
