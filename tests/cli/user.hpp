@@ -55,6 +55,11 @@ class UserTest : public testing::Test {
     /// An executable script that prints `text`.
     void write_program(const std::string& name, const std::string& text) const;
 
+    /// A run of `seeds` replications of the line under two conditions.
+    static std::vector<std::string> two_conditions(const std::string& out, int seeds, int jobs = 1) {
+        return {"run",   "line", "--seeds",   std::to_string(seeds), "--jobs",          std::to_string(jobs),
+                "--out", out,    "--no-solo", "--condition",         "graph_simulation"};
+    }
     /// Writes the scenario `line` into a folder of this name: 600 m of two lanes, nine vehicles, one of them
     /// emergency; a run takes a fraction of a second.
     void write_line_scenario(const std::string& replaced = "", const std::string& replacement = "") const;

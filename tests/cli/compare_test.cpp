@@ -1,0 +1,149 @@
+// `clearway compare`: conditions and folders pair by pair, and rows for pages.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "user.hpp"
+
+namespace clearway::cli {
+namespace {
+
+class CompareTest : public UserTest {
+  protected:
+    void SetUp() override {
+        UserTest::SetUp();
+        write_line_scenario();
+    }
+};
+
+TEST_F(CompareTest, pairs_conditions_and_folders_and_is_a_gate) {
+    ASSERT_EQ(clearway(two_conditions("one", 5)).code, 0);
+    ASSERT_EQ(clearway(two_conditions("two", 5)).code, 0);
+    const Ended within = clearway({"compare", "one"});
+    EXPECT_EQ(within.code, 0) << within.err;
+    EXPECT_THAT(within.out,
+                AllOf(HasSubstr("line: EV travel time"), HasSubstr("graph_simulation"), HasSubstr("p Holm")));
+    const Ended same =
+        clearway({"compare", "one", "two", "--tolerance", "0", "--tolerance", "collisions=2", "--json"});
+    EXPECT_EQ(same.code, 0) << same.err;
+    const auto tables = nlohmann::json::parse(same.out);
+    ASSERT_EQ(tables.at("comparisons").size(), 2U);
+    EXPECT_TRUE(tables.at("differing_settings").empty());
+    EXPECT_EQ(tables["comparisons"][0]["metrics"]["emergency_restricted_travel_time_s"]["difference"], 0.0);
+    const Ended short_of =
+        clearway({"compare", "one", "--metric", "simulated_s", "--tolerance", "collisions=0"});
+    EXPECT_EQ(short_of.code, 6);
+    EXPECT_THAT(short_of.err, HasSubstr("line/graph_simulation: collisions: its interval reaches to"));
+    const Ended chosen = clearway({"compare", "one", "--metric", "collisions", "--tolerance", "0", "--json"});
+    EXPECT_EQ(chosen.code, 6) << "the chosen metric is the one that is gated";
+    EXPECT_EQ(nlohmann::json::parse(chosen.out)["short_of_tolerance"][0]["metric"], "collisions");
+    const Ended unclear =
+        clearway({"compare", "one", "--metric", "collisions", "--metric", "teleports", "--tolerance", "0"});
+    EXPECT_EQ(unclear.code, 3);
+    EXPECT_THAT(unclear.err, HasSubstr("--tolerance collisions=0"));
+    std::filesystem::remove_all(folder() / "two/runs/line/graph_simulation/00003");
+    const Ended lacks = clearway({"compare", "one", "two", "--tolerance", "100000"});
+    EXPECT_EQ(lacks.code, 6) << "a run that is not there cannot pass";
+    EXPECT_THAT(lacks.err,
+                HasSubstr("graph_simulation: runs: 1 of 5 runs failed or are missing in the second"));
+    std::vector<std::string> other = two_conditions("three", 5);
+    other.insert(other.end(), {"--seed", "7"});
+    ASSERT_EQ(clearway(other).code, 0);
+    const Ended refused = clearway({"compare", "one", "three"});
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("another seed"));
+}
+
+TEST_F(CompareTest, publishes_rows_and_loses_none) {
+    ASSERT_EQ(clearway(two_conditions((folder() / "one").string(), 5)).code, 0);
+    const std::vector<std::string> words = {"compare",     "one",
+                                            "--publish",   "rows.csv",
+                                            "--metric",    "emergency_restricted_travel_time_s",
+                                            "--behaviour", "0123456789ab"};
+    const auto publish = [&](const std::vector<std::string>& more, const std::string& file = "rows.csv") {
+        std::vector<std::string> all = words;
+        all[3] = file;
+        all.insert(all.end(), more.begin(), more.end());
+        return clearway(all);
+    };
+    const Ended ended = publish({"--tree", "abc1234"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("rows.csv: 4 rows"));
+    const std::string rows = read("rows.csv");
+    EXPECT_THAT(
+        rows,
+        AllOf(testing::StartsWith("study,tree,date,seed,pairs,command,scenario,condition,measure,unit,"),
+              HasSubstr(",1,5,clearway run line --seeds 5 --no-solo --condition graph_simulation,line,"
+                        "graph_simulation,emergency_restricted_travel_time_s:percent,%,"),
+              HasSubstr(",0 of "), HasSubstr(",product,0123456789ab\n")));
+    EXPECT_THAT(rows, Not(HasSubstr(folder().string())));
+
+    EXPECT_EQ(publish({"--tree", "abc1234", "--metric", "collisions"}).code, 0);
+    EXPECT_EQ(std::ranges::count(read("rows.csv"), '\n'), 1 + 4 + 3)
+        << "no percent of a baseline without any";
+    const std::string kept = read("rows.csv");
+
+    EXPECT_EQ(publish({"--tree", "abc1234", "--metric", "collisions", "--metric", "collisions"}).code, 0);
+    EXPECT_EQ(read("rows.csv"), kept);
+
+    write("other.csv", "a,b\n1,2\n");
+    const Ended other = publish({"--tree", "abc1234"}, "other.csv");
+    EXPECT_EQ(other.code, 3);
+    EXPECT_THAT(other.err, HasSubstr("other.csv: has another header"));
+    EXPECT_EQ(read("other.csv"), "a,b\n1,2\n");
+    EXPECT_EQ(publish({"--tree", "abc1234"}, "gone/rows.csv").code, 4);
+    const Ended two = clearway({"compare", "one", "one", "--publish", "rows.csv"});
+    EXPECT_EQ(two.code, 3);
+    EXPECT_THAT(two.err, HasSubstr("--publish: writes the rows of one run folder"));
+    EXPECT_THAT(clearway({"compare", "one", "--publish", "rows.csv", "--behaviour", "12"}).err,
+                HasSubstr("is not 12 to 12 digits"));
+    EXPECT_THAT(publish({"--tree", "main"}).err, HasSubstr("`main` is not 7 to 40 digits"));
+    EXPECT_EQ(clearway({"compare", "one", "--tree", "abc1234"}).code, 2) << "it needs --publish";
+
+    ASSERT_TRUE(std::filesystem::remove(folder() / "one/runs/line/graph_simulation/00001/run.json"));
+    const Ended partial = publish({"--tree", "abc1234"});
+    EXPECT_EQ(partial.code, 3);
+    EXPECT_THAT(partial.err, HasSubstr("line/graph_simulation: 1 of 5 runs failed or are missing"));
+    EXPECT_EQ(read("rows.csv"), kept);
+
+    ASSERT_EQ(clearway(two_conditions("single", 1)).code, 0);
+    const Ended single = clearway({"compare", "single", "--publish", "rows.csv"});
+    EXPECT_EQ(single.code, 3);
+    EXPECT_THAT(single.err, HasSubstr("single: has one replication"));
+    EXPECT_EQ(read("rows.csv"), kept);
+}
+
+TEST_F(CompareTest, published_rows_carry_the_fingerprint_of_the_golden_runs) {
+    ASSERT_EQ(clearway(two_conditions("one", 2)).code, 0);
+    std::filesystem::create_directories(folder() / "tree/tests/loop");
+    write("tree/tests/loop/golden.txt",
+          "a f0000000000000000000000000000001 0000000000000000000000000000000f\n"
+          "b 0f000000000f000000000000000000ff 00000000000000000000000000000000\n");
+    const Environment elsewhere{.environment = {{"CLEARWAY_HOME", (folder() / "tree").string()}}};
+    const std::vector<std::string> words = {"compare",  "one",      "--publish",
+                                            "rows.csv", "--metric", "collisions"};
+    const Ended nameless = clearway(words, elsewhere);
+    EXPECT_EQ(nameless.code, 3) << "git does not know this tree";
+    EXPECT_THAT(nameless.err, HasSubstr("--tree: git does not name the commit"));
+    std::vector<std::string> named = words;
+    named.insert(named.end(), {"--tree", "abc1234"});
+    ASSERT_EQ(clearway(named, elsewhere).code, 0);
+    EXPECT_THAT(read("rows.csv"), HasSubstr(",product,ff000000000f\n")) << "exclusive or of all hashes";
+}
+
+TEST_F(CompareTest, publishes_a_baseline_alone) {
+    ASSERT_EQ(
+        clearway({"run", "line", "--seeds", "2", "--no-solo", "--condition", "baseline", "--out", "out"})
+            .code,
+        0);
+    EXPECT_EQ(clearway({"compare", "out"}).code, 3);
+    const Ended ended = clearway({"compare", "out", "--publish", "rows.csv", "--tree", "abc1234",
+                                  "--behaviour", "0123456789ab", "--metric", "others_time_loss_s"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(read("rows.csv"), HasSubstr(",line,baseline,others_time_loss_s,s,"));
+}
+
+}  // namespace
+}  // namespace clearway::cli
