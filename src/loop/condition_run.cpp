@@ -15,14 +15,20 @@ long peak_kib() {
 
 }  // namespace
 
-metrics::LeaseTotals run_condition(ClosedLoop& loop, metrics::Recorder& recorder,
-                                   const experiment::ConditionSpec& condition, Stage stage) {
+void start_condition(ClosedLoop& loop, metrics::Recorder& recorder,
+                     const experiment::ConditionSpec& condition, Stage stage) {
     recorder.watch(std::move(stage.layout), loop.standing_reasons());
     recorder.configure(
         metrics::RecorderConfig::of_latency(core::Seconds(pipeline::observed_failure(condition).latency_s)));
     loop.begin(condition, stage.context);
     loop.tell(stage.listener);
-    loop.run(stage.horizon);
+}
+
+metrics::LeaseTotals run_condition(ClosedLoop& loop, metrics::Recorder& recorder,
+                                   const experiment::ConditionSpec& condition, Stage stage) {
+    const core::Seconds horizon = stage.horizon;
+    start_condition(loop, recorder, condition, std::move(stage));
+    loop.run(horizon);
     return loop.finish();
 }
 

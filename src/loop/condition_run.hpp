@@ -18,8 +18,13 @@ struct Stage {
     trace::StepListener* listener = nullptr;  ///< May be null.
 };
 
-/// Runs a condition from the current step of the loop to the end. Throws core::InputError for unknown names
-/// or settings, core::SimulatorError as the session does.
+/// Lets a condition begin at the next step of the loop. Throws core::InputError for unknown names or
+/// settings.
+void start_condition(ClosedLoop& loop, metrics::Recorder& recorder,
+                     const experiment::ConditionSpec& condition, Stage stage);
+
+/// Runs a condition from the current step of the loop to the end. Throws as above, and core::SimulatorError
+/// as the session does.
 metrics::LeaseTotals run_condition(ClosedLoop& loop, metrics::Recorder& recorder,
                                    const experiment::ConditionSpec& condition, Stage stage);
 

@@ -144,8 +144,7 @@ void UnitRun::record(const experiment::ConditionSpec& condition, trace::StepList
     session_->close();
 }
 
-metrics::LeaseTotals UnitRun::run_together(const experiment::ConditionSpec& condition,
-                                           trace::StepListener* listener) {
+void UnitRun::start_together(const experiment::ConditionSpec& condition, trace::StepListener* listener) {
     add_emergency_vehicles(condition.bluelight);
     const ControllerContext context{
         .network = network_.network,
@@ -157,11 +156,20 @@ metrics::LeaseTotals UnitRun::run_together(const experiment::ConditionSpec& cond
         .has_pedestrians = config_.has_pedestrians(),
         .preemption = network_.preemption,
         .guest = guest_};
-    return run_condition(loop_, recorder_, condition,
-                         {.context = context,
-                          .layout = layout(),
-                          .horizon = core::Seconds(prepared_.time.horizon_s),
-                          .listener = listener});
+    start_condition(loop_, recorder_, condition,
+                    {.context = context, .layout = layout(), .horizon = horizon(), .listener = listener});
+}
+
+metrics::LeaseTotals UnitRun::run_together(const experiment::ConditionSpec& condition,
+                                           trace::StepListener* listener) {
+    start_together(condition, listener);
+    loop_.run(horizon());
+    return loop_.finish();
+}
+
+ClosedLoop& UnitRun::start(const experiment::ConditionSpec& condition) {
+    start_together(condition, nullptr);
+    return loop_;
 }
 
 void UnitRun::add_emergency_vehicles(traffic::BlueLight bluelight) {

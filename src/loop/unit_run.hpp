@@ -42,6 +42,9 @@ class UnitRun {
     /// The same with a listener but without results, for recording data.
     void record(const experiment::ConditionSpec& condition, trace::StepListener& listener);
 
+    /// Starts a condition whose steps the caller makes, for measuring them.
+    ClosedLoop& start(const experiment::ConditionSpec& condition);
+
     /// Lets `guest` act after the policies of the condition that runs next.
     void invite(policy::GuestMaker guest) { guest_ = std::move(guest); }
 
@@ -61,6 +64,7 @@ class UnitRun {
     /// Each emergency vehicle alone, one after the other, with every signal open.
     void run_alone(trace::StepListener* audience);
     void open_all_signals();
+    void start_together(const experiment::ConditionSpec& condition, trace::StepListener* listener);
     metrics::LeaseTotals run_together(const experiment::ConditionSpec& condition,
                                       trace::StepListener* listener);
     /// The same, with a recording if the job asks for one.
