@@ -81,9 +81,12 @@ bool ClosedLoop::control(const truth::Snapshot& snapshot) {
     }
     auto observed = controller_->observe(snapshot, session_.roster());
     tell();
-    auto decided = controller_->decide(std::move(observed));
-    const bool has_decision = decided.has_decision();
     const pipeline::DecisionChain& chain = controller_->chain();
+    // Links are scored at reports.
+    const bool others_read_links = listener_ != nullptr || chain.observation().is_report;
+    auto decided = controller_->decide(
+        std::move(observed), others_read_links ? prediction::Want::links : prediction::Want::places);
+    const bool has_decision = decided.has_decision();
     if (has_decision && chain.observation().is_report) {
         true_links_.look(snapshot);
         recorder_.links(snapshot, true_links_, chain.belief());

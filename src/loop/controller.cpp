@@ -52,10 +52,10 @@ Step<Done::observed> Controller::observe(const truth::Snapshot& snapshot, const 
     return {snapshot, roster, false};
 }
 
-Step<Done::decided> Controller::decide(Step<Done::observed> step) {
+Step<Done::decided> Controller::decide(Step<Done::observed> step, prediction::Want want) {
     assert(step.snapshot_->time == chain_.observation().time);
     const bool is_due = chain_.has_policy() && chain_.decision_is_due();
-    if (is_due) chain_.decide();
+    if (is_due) chain_.decide(want);
     return {*step.snapshot_, *step.roster_, is_due};
 }
 

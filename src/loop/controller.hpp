@@ -68,8 +68,8 @@ class Controller {
 
     /// Sensors see the traffic of the step.
     Step<Done::observed> observe(const truth::Snapshot& snapshot, const traffic::Roster& roster);
-    /// Policies are asked where a decision is due.
-    Step<Done::decided> decide(Step<Done::observed> step);
+    /// Policies are asked where a decision is due; `want`: what others than policies read of the belief.
+    Step<Done::decided> decide(Step<Done::observed> step, prediction::Want want);
     /// Requests travel, leases become commands, drivers react: `commands` are those of the step.
     Step<Done::acted> act(Step<Done::decided> step, const truth::SelfKnowledge& self,
                           std::vector<traffic::Command>& commands);

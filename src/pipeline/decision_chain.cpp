@@ -8,6 +8,7 @@
 #include "experiment/settings.hpp"
 #include "failures/failure_config.hpp"
 #include "prediction/oracle.hpp"
+#include "python/part_name.hpp"
 
 namespace clearway::pipeline {
 namespace {
@@ -21,6 +22,17 @@ failures::FailureConfig with_perfect_reports(const failures::FailureConfig& conf
     static_cast<failures::SignalRequestChannel&>(exact) = to_signals;
     exact.emergency_dark = config.emergency_dark;
     return exact;
+}
+
+/// Twins stand for vehicles that are not known: where every vehicle is, or nobody reads the links that they
+/// may add, none is driven.
+core::Settings settings_for_chain(const experiment::ConditionSpec& condition,
+                                  const failures::FailureConfig& failure, bool has_links) {
+    core::Settings settings = experiment::predictor_settings(condition);
+    const bool all_known = failure.report_interval_s == 0.0;
+    const bool adds_links_alone = condition.predictor == experiment::ConditionSpec{}.predictor;
+    if (adds_links_alone && (all_known || !has_links)) settings["reach_by_twin"] = "0";
+    return settings;
 }
 
 }  // namespace
@@ -38,21 +50,32 @@ failures::FailureConfig observed_failure(const experiment::ConditionSpec& condit
     return failure;
 }
 
+bool has_foreign_code(const experiment::ConditionSpec& condition, const ChainContext& context) {
+    const auto is_foreign = [](const std::string& part) { return python::part_name_from(part).has_value(); };
+    return context.guest || is_foreign(condition.predictor) ||
+           std::ranges::any_of(condition.policies, is_foreign);
+}
+
 DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const ChainContext& context)
     : equipped_(experiment::equipped_signals(condition, context.network)),
+      policies_want_(experiment::reads_links(condition) || has_foreign_code(condition, context)
+                         ? prediction::Want::links
+                         : prediction::Want::places),
       period_s_(context.policy_period_s) {
     assert(period_s_ > 0.0);
     const failures::FailureConfig failure = observed_failure(condition);
     if (failure.signals_known == failures::SignalsKnown::no) shown_.emplace();
     sensor_ =
         sensing::make_sensor(failure, context.random, {.network = context.network, .rules = context.rules});
+    const bool has_links =
+        policies_want_ == prediction::Want::links || context.readers == ChainContext::Readers::others;
     predictor_ = prediction::make_predictor(condition.predictor,
                                             {.network = context.network,
                                              .rules = context.rules,
                                              .model_file = experiment::checked_model(condition),
                                              .config = {},
                                              .random = context.random},
-                                            experiment::predictor_settings(condition));
+                                            settings_for_chain(condition, failure, has_links));
     const policy::PolicyContext place{.network = context.network, .period = core::Seconds(period_s_)};
     for (const std::string& name : condition.policies)
         policies_.push_back(policy::make_policy(name, place, condition.settings));
@@ -77,13 +100,13 @@ bool DecisionChain::decision_is_due() const {
     return observation_.time.value + core::clock_tolerance_s >= static_cast<double>(decisions_) * period_s_;
 }
 
-void DecisionChain::decide() {
+void DecisionChain::decide(prediction::Want want) {
     assert(snapshot_ != nullptr && snapshot_->time == observation_.time);
     assert(leases_.empty() && "one decision a step");
     decisions_ = static_cast<std::uint64_t>(
                      std::floor((observation_.time.value + core::clock_tolerance_s) / period_s_)) +
                  1;
-    predictor_->predict(observation_, belief_);
+    predictor_->predict(observation_, belief_, std::max(want, policies_want_));
     if (shown_) belief_.signals = *shown_;
     exchange_messages();
     for (const auto& policy : policies_) {

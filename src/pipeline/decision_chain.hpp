@@ -28,11 +28,16 @@ struct ChainContext {
     double policy_period_s = 0.5;                                      ///< Time between two decisions.
     graph::LinkRules rules = {};
     policy::GuestMaker guest = {};  ///< A policy that acts after those of the condition; may be empty.
+    /// Who reads the belief of a chain: its policies alone, or somebody who may want links, too.
+    enum class Readers : std::uint8_t { policies, others } readers = Readers::others;
 };
 
 /// What the predictor of a condition observes: its failure; for one that knows the truth, sensors without
 /// faults but for the errors that its settings ask for. Throws core::InputError for unknown names.
 failures::FailureConfig observed_failure(const experiment::ConditionSpec& condition);
+
+/// Whether a policy or the predictor is a user's code.
+bool has_foreign_code(const experiment::ConditionSpec& condition, const ChainContext& context);
 
 /// Sensing, prediction and policy of a condition, in the order of a run, without a simulator. A run and its
 /// replay agree because both use this class. Requests that go to signals as messages travel within it,
@@ -49,8 +54,8 @@ class DecisionChain {
     bool decision_is_due() const;
     /// Predicts from the present observation and asks the policy. Policies for signals run at the signals,
     /// and a crew sees what its signal shows: the belief tells every policy what signals show, even when the
-    /// predictor does not know it.
-    void decide();
+    /// predictor does not know it. The belief has links where they are wanted or a policy reads them.
+    void decide(prediction::Want want = prediction::Want::links);
 
     /// Call after each decision was carried out: signals answer the requests that are open there.
     void answer(std::span<const traffic::SignalStatus> signals);
@@ -77,6 +82,7 @@ class DecisionChain {
 
     std::vector<bool> equipped_;  ///< By signal; empty: all are.
 
+    prediction::Want policies_want_;
     std::unique_ptr<sensing::SensorModel> sensor_;
     std::unique_ptr<prediction::Predictor> predictor_;
     std::vector<std::unique_ptr<policy::Policy>> policies_;

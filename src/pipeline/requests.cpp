@@ -5,7 +5,6 @@
 #include <cmath>
 #include <variant>
 
-#include "python/part_name.hpp"
 #include "sensing/observers.hpp"
 
 namespace clearway::pipeline {
@@ -25,11 +24,9 @@ bool needs_second_opinion(const experiment::ConditionSpec& condition, const fail
                           const ChainContext& context) {
     const bool knows_everything =
         condition.predictor == experiment::ConditionSpec{}.predictor && failure.report_interval_s == 0.0;
-    const bool has_foreign_code =
-        context.guest || std::ranges::any_of(condition.policies, [](const std::string& policy) {
-            return python::part_name_from(policy).has_value();
-        });
-    return !condition.policies.empty() && !knows_everything && !has_foreign_code;
+    experiment::ConditionSpec policies_alone = condition;
+    policies_alone.predictor.clear();
+    return !condition.policies.empty() && !knows_everything && !has_foreign_code(policies_alone, context);
 }
 
 double distance_m(const truth::Snapshot& snapshot, core::VehicleIndex row, float x_m, float y_m) {
@@ -102,8 +99,10 @@ Requests::Requests(const experiment::ConditionSpec& condition, const ChainContex
       equipment_(failure, context.random) {
     for (const roads::Signal& signal : context.network.signals())
         signal_places_.push_back(sensing::place_of(context.network, signal));
-    if (needs_second_opinion(condition, failure, context))
-        informed_ = std::make_unique<DecisionChain>(informed(condition), context);
+    if (!needs_second_opinion(condition, failure, context)) return;
+    ChainContext own = context;
+    own.readers = ChainContext::Readers::policies;
+    informed_ = std::make_unique<DecisionChain>(informed(condition), own);
 }
 
 bool Requests::is_request(const traffic::Lease& lease, std::span<const std::string_view> decided_there) {
@@ -298,7 +297,7 @@ void Requests::judge(const Moment& moment) {
     if (informed_) {
         needed_.clear();
         informed_->observe(moment.snapshot, moment.roster);
-        informed_->decide();
+        informed_->decide(prediction::Want::places);
         for (const traffic::Lease& lease : informed_->leases()) {
             if (!is_request(lease, moment.decision.decided_there)) continue;
             // Who sends nothing is judged once an interval.

@@ -61,7 +61,7 @@ SceneBuilder::SceneBuilder(const roads::Network& network, const graph::LinkRules
 SceneBuilder::SceneBuilder(const roads::Network& network, const graph::LinkRules& rules, CandidateReach reach)
     : network_(network), rules_(rules), reach_(reach), twins_(std::in_place, network) {}
 
-void SceneBuilder::build(const traffic::Observation& observation, Scene& scene) {
+void SceneBuilder::build(const traffic::Observation& observation, Scene& scene, Want want) {
     dead_reckon(observation, network_, scene.tracks);
     scene.twins = twins_ ? &*twins_ : nullptr;
     if (twins_) twins_->follow(observation, scene.tracks);
@@ -70,7 +70,7 @@ void SceneBuilder::build(const traffic::Observation& observation, Scene& scene) 
     scene.detected_range_m.clear();
     scene.candidates.clear();
     collect_detected(observation, scene);
-    sort_pairs(scene);
+    if (want == Want::links) sort_pairs(scene);
 }
 
 void SceneBuilder::collect_detected(const traffic::Observation& observation, Scene& scene) {

@@ -55,6 +55,9 @@ constexpr double candidate_reach_m(const graph::LinkRules& rules) {
     return std::max(least_candidate_reach_m, rules.radius_m + candidate_margin_m);
 }
 
+/// What somebody reads of a belief. Without links, places cost the same state and give the same numbers.
+enum class Want : std::uint8_t { places, links };
+
 /// Builds scenes. O(vehicles + pairs); no allocation once buffers have grown; one builder, one thread.
 class SceneBuilder {
   public:
@@ -63,7 +66,8 @@ class SceneBuilder {
     SceneBuilder(const roads::Network& network, const graph::LinkRules& rules);
     /// The builder outlives its scenes: it drives their twins.
     SceneBuilder(const roads::Network& network, const graph::LinkRules& rules, CandidateReach reach);
-    void build(const traffic::Observation& observation, Scene& scene);
+    /// Where only places are wanted, scenes have neither candidates nor known pairs.
+    void build(const traffic::Observation& observation, Scene& scene, Want want = Want::links);
 
   private:
     void collect_detected(const traffic::Observation& observation, Scene& scene);

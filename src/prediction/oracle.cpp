@@ -35,9 +35,10 @@ class Oracle final : public Predictor {
                  {1.0, config.false_links, spell_s(config.false_links)}) {}
 
     std::string_view name() const override { return oracle_name; }
-    void predict(const traffic::Observation& observation, traffic::BelievedGraph& belief) override {
-        plain_->predict(observation, belief);
-        if (config_.links_kept == 1.0 && config_.false_links == 0.0) return;
+    void predict(const traffic::Observation& observation, traffic::BelievedGraph& belief,
+                 Want want) override {
+        plain_->predict(observation, belief, want);
+        if (want == Want::places || (config_.links_kept == 1.0 && config_.false_links == 0.0)) return;
         spoil(belief);
     }
     CandidateScores scores() const override { return plain_->scores(); }

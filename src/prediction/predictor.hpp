@@ -43,8 +43,10 @@ class Predictor {
     virtual std::string_view name() const = 0;
     /// Fills `belief` (buffers reused): vehicles ordered by key, links by the candidate rule common to all
     /// predictors, each with its probability, own states, signals and roster copied from the observation.
-    virtual void predict(const traffic::Observation& observation, traffic::BelievedGraph& belief) = 0;
-    /// Valid until the next call of `predict`.
+    /// Where only places are wanted, there may be no links; all else, and every later answer, is the same.
+    virtual void predict(const traffic::Observation& observation, traffic::BelievedGraph& belief,
+                         Want want = Want::links) = 0;
+    /// Of the last call of `predict`, which wanted links. Valid until the next one.
     virtual CandidateScores scores() const = 0;
 };
 

@@ -76,6 +76,22 @@ TEST(RedPrivilege, SeesItsSignalThoughReportsDoNotTell) {
     EXPECT_TRUE(decided(condition, green).empty());
 }
 
+TEST(DecisionChain, GivesLinksToPoliciesThatReadThemWhateverOthersWant) {
+    const auto believed_links = [](const char* policy, const core::Settings& settings) {
+        experiment::ConditionSpec condition;
+        condition.policies = {policy};
+        condition.settings = settings;
+        support::Scene scene("10 m per cell\n..e.a..a....\n....h.......");
+        DecisionChain chain(condition, {.network = scene.network()});
+        chain.observe(scene.snapshot(), scene.roster());
+        chain.decide(prediction::Want::places);
+        return chain.belief().link_count();
+    };
+    EXPECT_GT(believed_links("dissertation", {}), 0U);
+    EXPECT_GT(believed_links("clear_lane", {{"clear_lane.ask", "linked"}}), 0U);
+    EXPECT_EQ(believed_links("clear_lane", {}), 0U) << "it reads places alone";
+}
+
 class EquippedSignals : public ::testing::TestWithParam<const char*> {
   protected:
     /// Targets of leases to signals, and the number of messages to signals.

@@ -154,6 +154,30 @@ TEST_P(EveryPredictor, GivesTheSameAnswerToTheSameReports) {
     expect_equal(answers[0], answers[1]);
 }
 
+TEST_P(EveryPredictor, BelievesTheSameWhereOnlyPlacesAreWanted) {
+    support::Scene scene(busy);
+    const traffic::Observation before = support::perfect_observation(scene);
+    const traffic::Observation dark = after_outage(scene, 6.0, {"a1", "a3", "h2", "h5", "e1"});
+    const traffic::Observation later = after_outage(scene, 7.0, {"a1", "a3", "h2", "h5", "e1"});
+    const auto always = make(scene);
+    const auto sparing = make(scene);
+    traffic::BelievedGraph full;
+    traffic::BelievedGraph sparse;
+    always->predict(before, full);
+    sparing->predict(before, sparse, Want::places);
+    always->predict(dark, full);
+    ASSERT_GT(full.link_count(), 0u);
+    sparing->predict(dark, sparse, Want::places);
+    EXPECT_EQ(sparse.link_count(), 0u);
+    traffic::BelievedGraph without_links = full;
+    without_links.links.clear();
+    without_links.first_link.assign(full.vehicles.size() + 1, 0);
+    expect_equal(sparse, without_links);
+    always->predict(later, full);
+    sparing->predict(later, sparse, Want::links);
+    expect_equal(sparse, full);
+}
+
 TEST_P(EveryPredictor, ScoresEveryCandidateWithAProbability) {
     support::Scene scene(busy);
     const traffic::Observation observation = after_outage(scene, 6.0, {"a1", "a3", "h2", "h5", "e1"});

@@ -24,13 +24,14 @@ PairwisePredictor::PairwisePredictor(const PredictorContext& context, Needs need
                    ? SceneBuilder(context.network, context.rules, context.config.reach())
                    : SceneBuilder(context.network, context.rules)) {}
 
-void PairwisePredictor::predict(const traffic::Observation& observation, traffic::BelievedGraph& belief) {
-    builder_.build(observation, scene_);
+void PairwisePredictor::predict(const traffic::Observation& observation, traffic::BelievedGraph& belief,
+                                Want want) {
+    builder_.build(observation, scene_, want);
     observation_ = &observation;
     beliefs_.assign(scene_.tracks.size(), RowBelief{});
     believe(scene_, beliefs_);
     probabilities_.assign(scene_.candidates.size(), 0.0F);
-    score(scene_, beliefs_, probabilities_);
+    if (want == Want::links) score(scene_, beliefs_, probabilities_);
     check_probabilities();
 
     belief.time = observation.time;
@@ -41,7 +42,8 @@ void PairwisePredictor::predict(const traffic::Observation& observation, traffic
         belief.own_states.push_back(own_belief(own));
     }
     place_vehicles(belief);
-    collect_links();
+    links_.clear();
+    if (want == Want::links) collect_links();
     write_links(belief);
 }
 
@@ -105,7 +107,6 @@ bool PairwisePredictor::both_present(RowPair pair) const {
 }
 
 void PairwisePredictor::collect_links() {
-    links_.clear();
     const auto radius_m = static_cast<float>(rules_.radius_m);
     for (const RowPair pair : scene_.known.rows) {
         const float distance_m = believed_distance_m(pair);

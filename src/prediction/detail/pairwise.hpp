@@ -31,7 +31,7 @@ class PairwisePredictor : public Predictor {
     enum class Needs : std::uint8_t { reports, twins };
     explicit PairwisePredictor(const PredictorContext& context, Needs needs = Needs::reports);
 
-    void predict(const traffic::Observation& observation, traffic::BelievedGraph& belief) final;
+    void predict(const traffic::Observation& observation, traffic::BelievedGraph& belief, Want want) final;
     CandidateScores scores() const final;
 
   protected:
