@@ -26,9 +26,10 @@ class Golden : public testing::Test {
         return spec;
     }
 
-    static void expect(const std::string& scenario, const std::vector<experiment::ConditionSpec>& runs) {
+    static void expect(const std::string& scenario, const std::vector<experiment::ConditionSpec>& runs,
+                       const std::map<std::string, std::string>& environment = {}) {
         const test::StudyFolder folder(scenario, {}, runs);
-        const core::Exit exit = folder.run(folder.unit(0));
+        const core::Exit exit = folder.run(folder.unit(0), environment);
         ASSERT_TRUE(exit.ok()) << exit.describe() << core::tail(folder.log(), 20);
         std::map<std::string, std::string> known = read();
         const auto before = known;
@@ -93,6 +94,11 @@ TEST_F(Golden, CorridorWithPerfectSensorsAndOnARepairedGraph) {
 
 TEST_F(Golden, VacateLane) {
     expect("arterial", {condition("vacate_lane", "vacate_lane")});
+}
+
+/// The worker has an allocator of its own; a C library that is loaded before it takes its place.
+TEST_F(Golden, IsTheSameWithTheAllocatorOfTheCLibrary) {
+    expect("arterial", {condition("vacate_lane", "vacate_lane")}, {{"LD_PRELOAD", "libc.so.6"}});
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -66,10 +67,11 @@ class StudyFolder {
     }
 
     /// Runs a unit in a worker process; the worker's words are in `log`.
-    core::Exit run(const experiment::RunJob& unit) const {
+    core::Exit run(const experiment::RunJob& unit,
+                   const std::map<std::string, std::string>& environment = {}) const {
         return core::run({.program = CLEARWAY_BINARY_DIR "/bin/clearway-run",
                           .arguments = {write(unit).string()},
-                          .environment = {},
+                          .environment = environment,
                           .output = log()});
     }
     std::filesystem::path log() const { return folder_.path() / "worker.log"; }

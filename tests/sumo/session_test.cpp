@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "sumo/detail/gateway.hpp"
 #include "sumo/scene.hpp"
 
 namespace clearway {
@@ -53,6 +54,39 @@ TEST(Session, VehicleThatOvertakesOnTheOncomingLaneCountsAsOnItsOwn) {
         place_m = now.lane_position_m[*row];
     }
     EXPECT_TRUE(was_beside) << "it did not overtake, so the test shows nothing";
+}
+
+/// What `sumo_test` reads itself is the oracle: every value of every vehicle, asked for anew.
+TEST(Session, VehiclesThatRestAreReadAsIfAskedForEverything) {
+    const Scene scene;
+    std::string queue;
+    for (int number = 0; number < 24; ++number)
+        queue += vehicle("v" + std::to_string(number), number % 3 == 0 ? "av" : "hv", 2.0 * number,
+                         number % 2 == 0 ? "west_in east_out" : "south_in north_out");
+    Session session(scene.config(scene.crossing(), queue));
+    const auto oracle = sumo::detail::gateway::in_this_process();
+    std::size_t standing = 0;
+    for (int step = 0; step < 400; ++step) {
+        session.step();
+        const truth::Snapshot& now = session.snapshot();
+        for (core::VehicleIndex row = 0; row < now.size(); ++row) {
+            sumo::detail::gateway::VehicleReading whole;
+            const std::string& id = session.roster().find(now.key[row])->id;
+            ASSERT_EQ(oracle->read(id, whole), sumo::detail::gateway::Presence::on_road);
+            ASSERT_EQ(now.x_m[row], static_cast<float>(whole.x_m)) << id;
+            ASSERT_EQ(now.y_m[row], static_cast<float>(whole.y_m)) << id;
+            ASSERT_EQ(now.speed_mps[row], static_cast<float>(whole.speed_mps)) << id;
+            ASSERT_EQ(now.acceleration_mps2[row], static_cast<float>(whole.acceleration_mps2)) << id;
+            ASSERT_EQ(now.lane_position_m[row], static_cast<float>(whole.lane_position_m)) << id;
+            ASSERT_EQ(std::cos(now.heading_rad[row]),
+                      std::cos(static_cast<float>(
+                          std::remainder(std::numbers::pi / 2.0 - whole.angle_deg * std::numbers::pi / 180.0,
+                                         2.0 * std::numbers::pi))))
+                << id;
+            standing += now.speed_mps[row] == 0.0F ? 1 : 0;
+        }
+    }
+    EXPECT_GT(standing, 500U) << "they hardly stand, so the test shows nothing";
 }
 
 TEST(Session, VehiclesDepartDriveAndArrive) {

@@ -101,17 +101,26 @@ class ApiGateway : public Sumo {
 
     Presence read(const std::string& vehicle, VehicleReading& reading) override {
         return call([&] {
+            const double speed_mps = api::Vehicle::getSpeed(vehicle);
+            if (speed_mps == ::libsumo::INVALID_DOUBLE_VALUE) return Presence::off_road;
+            std::string lane = api::Vehicle::getLaneID(vehicle);
+            if (reading.rests && speed_mps == 0.0 && lane == reading.lane && !moves_sideways())
+                return Presence::on_road;
             const auto position = api::Vehicle::getPosition(vehicle);
-            if (position.x == ::libsumo::INVALID_DOUBLE_VALUE) return Presence::off_road;
-            reading.x_m = position.x;
-            reading.y_m = position.y;
-            reading.angle_deg = api::Vehicle::getAngle(vehicle);
-            reading.lane = api::Vehicle::getLaneID(vehicle);
-            if (reading.lane.empty()) return Presence::parked;
-            reading.speed_mps = api::Vehicle::getSpeed(vehicle);
-            reading.acceleration_mps2 = api::Vehicle::getAcceleration(vehicle);
-            reading.lane_position_m = api::Vehicle::getLanePosition(vehicle);
-            return Presence::on_road;
+            VehicleReading now{.x_m = position.x,
+                               .y_m = position.y,
+                               .angle_deg = api::Vehicle::getAngle(vehicle),
+                               .speed_mps = speed_mps,
+                               .lane = std::move(lane)};
+            const Presence presence = now.lane.empty() ? Presence::parked : Presence::on_road;
+            if (presence == Presence::on_road) {
+                now.acceleration_mps2 = api::Vehicle::getAcceleration(vehicle);
+                now.lane_position_m = api::Vehicle::getLanePosition(vehicle);
+                reading.rests = false;
+                now.rests = speed_mps == 0.0 && now == reading;
+            }
+            reading = std::move(now);
+            return presence;
         });
     }
 
@@ -306,6 +315,15 @@ class ApiGateway : public Sumo {
     }
 
     void remove_stroke(const std::string& name) override { call(api::Polygon::remove, name, above_vehicles); }
+
+  private:
+    /// Vehicles of the sublane model may move across their lane while they stand.
+    bool moves_sideways() {
+        if (!has_sublanes_) has_sublanes_ = std::stod(option("lateral-resolution")) > 0.0;
+        return *has_sublanes_;
+    }
+
+    std::optional<bool> has_sublanes_;  ///< Asked for once.
 };
 
 }  // namespace clearway::sumo::detail::gateway::LIBSUMO_NAMESPACE

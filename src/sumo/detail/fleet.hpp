@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "sumo/detail/gateway.hpp"
 #include "traffic/command.hpp"
 #include "traffic/vehicle.hpp"
 
@@ -35,7 +36,8 @@ struct Vehicle {
     std::string route_id;
     Controls controls;
 
-    // The last reading.
+    // The last reading, and what it means.
+    gateway::VehicleReading reading;
     std::string lane_id;
     core::LaneIndex lane;
     float lane_position_m = 0.0F;

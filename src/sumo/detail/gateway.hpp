@@ -35,6 +35,9 @@ struct VehicleReading {
     double acceleration_mps2 = 0.0;
     double lane_position_m = 0.0;
     std::string lane;
+    bool rests = false;  ///< It stands, and did so with the same values at the reading before.
+
+    bool operator==(const VehicleReading&) const = default;
 };
 /// Where a vehicle of the simulation is. A parked one is beside its lane and comes back.
 enum class Presence : std::uint8_t { on_road, parked, off_road };
@@ -104,7 +107,8 @@ class Sumo {
     // --- Vehicles ---
     /// All vehicles of the simulation, including teleported ones.
     virtual std::vector<std::string> vehicle_ids() = 0;
-    /// Fills `reading` of a vehicle on the road.
+    /// Fills `reading`, which holds that of the step before, of a vehicle on the road. May ask a vehicle that
+    /// rests for nothing but its speed and lane, because all else stays as it is.
     virtual Presence read(const std::string& vehicle, VehicleReading& reading) = 0;
     virtual std::uint32_t route_index(const std::string& vehicle) = 0;
     virtual std::string route_id(const std::string& vehicle) = 0;

@@ -27,7 +27,8 @@ bool is_internal(const std::string& lane) {
 }
 
 /// SUMO tells no lane of a vehicle beside the road: it is the last one known.
-truth::BesideRoad beside_road(const Vehicle& vehicle, const gateway::VehicleReading& reading) {
+truth::BesideRoad beside_road(const Vehicle& vehicle) {
+    const gateway::VehicleReading& reading = vehicle.reading;
     return {.key = vehicle.key,
             .vehicle_class = vehicle.vehicle_class,
             .state = {.x_m = static_cast<float>(reading.x_m),
@@ -174,7 +175,7 @@ void Observer::take_parked() {
     std::erase_if(parked_, [this](const auto& parked) {
         Vehicle* vehicle = fleet_.find(parked.first);
         if (vehicle == nullptr) return true;
-        if (sumo_.read(vehicle->id, reading_) != gateway::Presence::on_road) return false;
+        if (sumo_.read(vehicle->id, vehicle->reading) != gateway::Presence::on_road) return false;
         fleet_.put_on_road(*vehicle);
         return true;
     });
@@ -190,9 +191,8 @@ void Observer::read_vehicles(truth::Snapshot& snapshot, truth::Events& events) {
         fleet_.number_rows();
         snapshot.resize(fleet_.rows().size());
         for (Vehicle* vehicle : fleet_.on_road()) {
-            const gateway::Presence presence = sumo_.read(vehicle->id, reading_);
-            if (presence == gateway::Presence::parked)
-                parked_[vehicle->key] = beside_road(*vehicle, reading_);
+            const gateway::Presence presence = sumo_.read(vehicle->id, vehicle->reading);
+            if (presence == gateway::Presence::parked) parked_[vehicle->key] = beside_road(*vehicle);
             if (presence != gateway::Presence::on_road) {
                 gone.push_back(vehicle);
                 continue;
@@ -225,24 +225,25 @@ void Observer::list_commanded_stops(truth::Snapshot& snapshot) {
 }
 
 void Observer::store(Vehicle& vehicle, truth::Snapshot& snapshot) {
-    if (reading_.lane != vehicle.lane_id) {
-        vehicle.lane = names_.lane(reading_.lane);
-        vehicle.lane_id = reading_.lane;
+    const gateway::VehicleReading& reading = vehicle.reading;
+    if (reading.lane != vehicle.lane_id) {
+        vehicle.lane = names_.lane(reading.lane);
+        vehicle.lane_id = reading.lane;
         vehicle.route_edge = sumo_.route_index(vehicle.id);
         look_for_oncoming_lane(vehicle);
     }
     vehicle.lane_position_m = static_cast<float>(
-        vehicle.opposite_of_m ? *vehicle.opposite_of_m - reading_.lane_position_m : reading_.lane_position_m);
-    vehicle.speed_mps = static_cast<float>(reading_.speed_mps);
+        vehicle.opposite_of_m ? *vehicle.opposite_of_m - reading.lane_position_m : reading.lane_position_m);
+    vehicle.speed_mps = static_cast<float>(reading.speed_mps);
     const std::uint32_t row = vehicle.row;
     assert(vehicle.on_road && row < snapshot.size());
     snapshot.key[row] = vehicle.key;
     snapshot.vehicle_class[row] = vehicle.vehicle_class;
-    snapshot.x_m[row] = static_cast<float>(reading_.x_m);
-    snapshot.y_m[row] = static_cast<float>(reading_.y_m);
-    snapshot.heading_rad[row] = heading_rad(reading_.angle_deg);
+    snapshot.x_m[row] = static_cast<float>(reading.x_m);
+    snapshot.y_m[row] = static_cast<float>(reading.y_m);
+    snapshot.heading_rad[row] = heading_rad(reading.angle_deg);
     snapshot.speed_mps[row] = vehicle.speed_mps;
-    snapshot.acceleration_mps2[row] = static_cast<float>(reading_.acceleration_mps2);
+    snapshot.acceleration_mps2[row] = static_cast<float>(reading.acceleration_mps2);
     snapshot.lane[row] = vehicle.lane;
     snapshot.lane_position_m[row] = vehicle.lane_position_m;
     snapshot.route_edge[row] = vehicle.route_edge;
@@ -265,7 +266,7 @@ void Observer::look_for_oncoming_lane(Vehicle& vehicle) {
 }
 
 void Observer::note_braking(Vehicle& vehicle, truth::Events& events) const {
-    const auto deceleration_mps2 = static_cast<float>(-reading_.acceleration_mps2);
+    const auto deceleration_mps2 = static_cast<float>(-vehicle.reading.acceleration_mps2);
     const float beyond_usual_mps2 = deceleration_mps2 - vehicle.deceleration_mps2;
     const float reserve_mps2 =
         std::max(braking_tolerance_mps2, vehicle.emergency_deceleration_mps2 - vehicle.deceleration_mps2);

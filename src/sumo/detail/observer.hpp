@@ -74,7 +74,6 @@ class Observer {
     std::unordered_map<std::string, traffic::VehicleKind> declared_;
     std::set<Contact> contacts_;
     std::map<core::VehicleKey, truth::BesideRoad> parked_;  ///< Off the road until they drive on.
-    gateway::VehicleReading reading_;
     double routes_checked_s_ = 0.0;
 };
 
