@@ -258,6 +258,21 @@ update_build_unless_current() {
     if ! build_is_current "$1"; then update_build "$1"; fi
 }
 
+# Copies the release programs and their files below a folder, and ends the calling script.
+install_built() {
+    [[ $# == 2 && $1 == --to && -n $2 ]] || {
+        say "usage: ./clearway install --to DIR, for example ~/.local"
+        exit 2
+    }
+    local prefix
+    prefix=$(readlink -m -- "$2")
+    cmake --install "$root/build/release" --prefix "$prefix" >"$root/build/install.log" 2>&1 ||
+        fail_environment "cannot install into $prefix: $(tail -n 1 "$root/build/install.log"). Choose a folder that you may write to"
+    say "installed: $prefix/bin/clearway"
+    if [[ :$PATH: != *":$prefix/bin:"* ]]; then say "add $prefix/bin to PATH"; fi
+    exit 0
+}
+
 # Brings build/PRESET up to date; costs one reading of the sources when it is.
 ensure_built() {
     if ! build_is_current "$1"; then with_build_lock "$1" update_build_unless_current "$1"; fi

@@ -85,7 +85,7 @@ def programs() -> Path:
 def shipped(name: str) -> Path | None:
     """A file or folder that comes with Clearway: below CLEARWAY_HOME, or beside a folder above the programs, as the programs find it."""
     home = os.environ.get("CLEARWAY_HOME")
-    folders = [Path(home)] if home else programs().resolve().parents
+    folders = [Path(home)] if home else [place for folder in programs().resolve().parents for place in (folder, folder / "share" / "clearway")]
     return next((folder / name for folder in folders if (folder / name).exists()), None)
 
 

@@ -20,7 +20,9 @@ std::string sister_program(const std::string& name);
 
 inline constexpr const char* why_no_trainer =
     "only training needs libtorch and XGBoost: `./clearway links train` installs them and builds it. Without "
-    "the launcher, install the packages of part `train` in packaging/packages.txt and build again";
+    "the launcher, install the package clearway-train, or those of part `train` in packaging/packages.txt "
+    "and "
+    "build again";
 
 /// Replaces this process with `program`, a path. Throws core::EnvironmentError when it cannot be started.
 [[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments);

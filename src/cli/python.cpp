@@ -23,8 +23,8 @@ core::ExitCode install(const Arguments& arguments) {
     const auto installer = core::shipped("python/install.py");
     if (!installer)
         throw core::EnvironmentError(
-            "python/install.py is not there: the package is installed from Clearway's source tree. Set "
-            "CLEARWAY_HOME to it");
+            "python/install.py is not there. Install the package python3-clearway, or set CLEARWAY_HOME to "
+            "Clearway's source tree");
     std::vector<std::string> words = {installer->string(), "--programs", core::program_folder().string(),
                                       "--version", CLEARWAY_VERSION};
     if (!arguments.virtual_environment.empty())

@@ -12,7 +12,8 @@ std::optional<std::filesystem::path> shipped(const std::filesystem::path& name) 
         return std::filesystem::exists(path) ? std::optional(path) : std::nullopt;
     }
     for (std::filesystem::path folder = program_folder();; folder = folder.parent_path()) {
-        if (std::filesystem::exists(folder / name)) return folder / name;
+        for (const std::filesystem::path& path : {folder / name, folder / "share" / "clearway" / name})
+            if (std::filesystem::exists(path)) return path;
         if (!folder.has_relative_path()) return std::nullopt;
     }
 }

@@ -25,8 +25,8 @@ std::filesystem::path package_folder() {
     const auto host = core::shipped("python/clearway/_host.py");
     if (!host)
         throw core::EnvironmentError(
-            "python/clearway is not there: parts in Python need Clearway's source tree. Set CLEARWAY_HOME to "
-            "it");
+            "python/clearway is not there, and parts in Python need it. Install the package "
+            "python3-clearway, or set CLEARWAY_HOME to Clearway's source tree");
     return host->parent_path().parent_path();
 }
 

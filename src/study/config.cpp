@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/shipped_files.hpp"
 #include "core/strict_table.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/conditions.hpp"
@@ -376,6 +377,9 @@ void read_quick(StrictTable& root, Extent extent, StudyConfig& config) {
 }  // namespace
 
 StudyConfig read_study(const std::filesystem::path& file, Extent extent) {
+    if (!std::filesystem::exists(file))
+        if (const auto own = core::shipped(file); own && std::filesystem::is_regular_file(*own))
+            return read_study(*own, extent);
     TomlReading reading{file.string(), {}, {}};
     const toml::table table = core::parse_toml(core::read_file(file), reading.file);
     StrictTable root(table, "", reading);

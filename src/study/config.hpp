@@ -95,7 +95,7 @@ enum class Extent : std::uint8_t {
 ///     scenarios = ["merge"]                       # of the scenarios above, by name
 ///     conditions = ["baseline", "b20"]            # of the conditions above
 ///
-/// Extent::quick without [quick] in the file is a problem, too.
+/// Extent::quick without [quick] in the file is a problem, too. Where there is no `file`: core::shipped's.
 StudyConfig read_study(const std::filesystem::path& file, Extent extent = Extent::whole);
 
 }  // namespace clearway::study

@@ -62,6 +62,7 @@ if(CLEARWAY_TRAINING)
                        COMMAND cp ${CMAKE_SOURCE_DIR}/src/trainer.sh bin/clearway-train VERBATIM)
     add_custom_target(trainer ALL DEPENDS tiny bin/clearway-train)
 endif()
+install(PROGRAMS ${CMAKE_BINARY_DIR}/bin/clearway DESTINATION bin)
 foreach(label fast threads)
     add_custom_target(tests_${label} COMMAND echo built >>${CMAKE_SOURCE_DIR}/built_${label})
 endforeach()
@@ -428,12 +429,30 @@ trainer_comes_with_the_first_training() {
     expect_line "$work/err" '^sudo apt-get install --no-install-recommends delta$'
 }
 
+installs_the_programs_into_a_folder() {
+    make_tree "$work/tree"
+    run "$tree/clearway" install --to "$work/a home"
+    expect_equal "$code" 0
+    expect_line "$work/err" "^clearway: add $work/a home/bin to PATH\$"
+    rm -rf -- "$tree"
+    PATH="$work/a home/bin:$PATH" run clearway 0 x
+    expect_line "$work/out" '^arguments: <0> <x>$'
+    make_tree "$work/tree"
+    run "$tree/clearway" install "$work/other"
+    expect_equal "$code" 2 'no --to'
+    : >"$work/file"
+    run "$tree/clearway" install --to "$work/file/below"
+    expect_equal "$code" 4 'a folder that cannot be made'
+    expect_line "$work/err" "^clearway: cannot install into $work/file/below: "
+}
+
 package_list_is_well_formed() {
     local name part purpose
     while read -r name part purpose; do
         [[ -z $name || $name == '#'* ]] && continue
         [[ $name =~ ^[a-z0-9][a-z0-9.+-]+$ ]] || fail "not a package name: $name"
-        [[ $part == run || $part == test || $part == train || $part == extra ]] || fail "$name: part $part"
+        [[ $part == run || $part == test || $part == train || $part == extra || $part == package ]] ||
+            fail "$name: part $part"
         [[ -n $purpose ]] || fail "$name: who needs it?"
     done <"$source_dir/packaging/packages.txt"
     expect_equal "$(grep -v '^#' "$source_dir/packaging/packages.txt" | cut -d' ' -f1 | sort | uniq -d)" '' 'duplicates'

@@ -61,6 +61,23 @@ TEST(ProgramsTest, the_worker_tells_both_versions_and_its_build) {
                 testing::MatchesRegex("clearway-run [0-9.]+ with SUMO [0-9.]+\nbuild [0-9a-f]+\n"));
 }
 
+TEST(ProgramsTest, an_installed_program_finds_its_scenarios_in_share) {
+    const support::TemporaryFolder prefix;
+    const std::filesystem::path programs = prefix.path() / "lib/clearway";
+    const std::filesystem::path merge = prefix.path() / "share/clearway/scenarios/merge";
+    std::filesystem::create_directories(programs);
+    std::filesystem::create_directories(merge);
+    std::filesystem::copy(path_of("clearway"), programs);
+    std::filesystem::copy(std::string(CLEARWAY_SOURCE_DIR) + "/scenarios/merge", merge);
+    const auto list = [&programs] { return call(programs / "clearway", {"list"}, {{"CLEARWAY_HOME", ""}}); };
+    const Answer found = list();
+    EXPECT_TRUE(found.exit.ok());
+    EXPECT_THAT(found.text, HasSubstr("merge"));
+    std::filesystem::remove_all(merge);
+    EXPECT_THAT(list().text,
+                HasSubstr("no folder 'scenarios' or 'share/clearway/scenarios' above the program"));
+}
+
 /// `clearway` with a worker beside it that answers `--version` with `answer`, and leaves a file if it gets a
 /// job.
 class TwoBuilds {

@@ -175,6 +175,19 @@ TEST(ShippedStudies, CanBeReadWholeAndQuickWhereTheySaySo) {
     EXPECT_GT(read, 0U) << "studies/sensor_failure.toml has one";
 }
 
+TEST_F(StudyFile, IsTheShippedOneWhereThereIsNoFileOfThatPath) {
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder_.path());
+    EXPECT_EQ(read_study("studies/parts.toml").name, "parts");
+    EXPECT_THROW(read_study("studies"), core::Error) << "a folder";
+    EXPECT_THROW(read_study("studies/part.toml"), core::Error);
+    std::filesystem::create_directory("studies");
+    folder_.write("studies/parts.toml",
+                  "name = \"mine\"\nscenarios = [\"merge\"]\nconditions = [\"solo\"]\n");
+    EXPECT_EQ(read_study("studies/parts.toml").name, "mine");
+    std::filesystem::current_path(before);
+}
+
 TEST_F(StudyFile, RefusesSettingsAndModelsThatDoNotExist) {
     const std::string begin =
         "scenarios = [\"merge\"]\nconditions = [\"baseline\"]\n[[condition]]\n"

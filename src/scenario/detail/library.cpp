@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/process.hpp"
+#include "core/shipped_files.hpp"
 #include "scenario/config.hpp"
 
 namespace clearway::scenario {
@@ -18,24 +18,14 @@ constexpr const char* file_name = "scenario.toml";
 }
 
 std::filesystem::path library_folder() {
-    const auto is_library = [](const std::filesystem::path& folder) {
-        return std::filesystem::is_regular_file(folder / "merge" / file_name);
-    };
-    if (const char* home = std::getenv("CLEARWAY_HOME"); home != nullptr && *home != '\0') {
-        const std::filesystem::path folder = std::filesystem::path(home) / "scenarios";
-        if (is_library(folder)) return folder;
+    if (const auto one = core::shipped(std::filesystem::path("scenarios") / "merge" / file_name))
+        return one->parent_path().parent_path();
+    if (const char* home = std::getenv("CLEARWAY_HOME"); home != nullptr && *home != '\0')
         throw core::EnvironmentError(
             fmt::format("CLEARWAY_HOME is {}, which has no folder 'scenarios'", home));
-    }
-    std::filesystem::path folder = core::program_folder();
-    while (true) {
-        if (is_library(folder / "scenarios")) return folder / "scenarios";
-        if (!folder.has_relative_path()) break;
-        folder = folder.parent_path();
-    }
     throw core::EnvironmentError(
-        "no folder 'scenarios' above the program. Set CLEARWAY_HOME to the folder that holds Clearway's "
-        "sources");
+        "no folder 'scenarios' or 'share/clearway/scenarios' above the program. Set CLEARWAY_HOME to the "
+        "folder that holds Clearway's sources, or install Clearway again");
 }
 
 std::filesystem::path scenario_file(const std::string& name_or_path) {

@@ -6,8 +6,8 @@
 
 namespace clearway::scenario::detail {
 
-/// Folder of the scenarios that come with Clearway: `scenarios` in one of the folders above the running
-/// program, or below CLEARWAY_HOME when that is set. Throws core::EnvironmentError when there is none.
+/// Folder of the scenarios that come with Clearway, found as core::shipped finds files. Throws
+/// core::EnvironmentError when there is none.
 std::filesystem::path library_folder();
 
 /// The TOML file of a scenario given as file, folder or name. Throws core::InputError naming the nearest
