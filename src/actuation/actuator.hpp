@@ -1,10 +1,7 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "actuation/actuator_config.hpp"

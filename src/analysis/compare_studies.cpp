@@ -56,7 +56,7 @@ Summary compare_studies(const results::Results& first, const results::Results& s
     const detail::Index second_index(second);
     detail::ResampleCache resamples(level);
     if (first.manifest.clearway_build != second.manifest.clearway_build)
-        summary.builds.emplace(results::build_of(first.manifest), results::build_of(second.manifest));
+        summary.builds.emplace(first.manifest.clearway_build, second.manifest.clearway_build);
     if (first.manifest.study_seed != second.manifest.study_seed) refuse_pair("seed", first, second);
     add_only_in(first.manifest, second.manifest, "first", summary.unpaired);
     add_only_in(second.manifest, first.manifest, "second", summary.unpaired);

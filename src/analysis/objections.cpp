@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/error.hpp"
+
 namespace clearway::analysis {
 namespace {
 
@@ -58,7 +60,7 @@ std::string endings(const OutcomeCounts& counts) {
     add(counts.running_at_end, "still on the road at the end");
     add(counts.not_inserted, "not inserted");
     add(counts.removed, "removed");
-    return fmt::format("{}", fmt::join(words, ", "));
+    return core::listed(words);
 }
 
 }  // namespace

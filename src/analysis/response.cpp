@@ -69,16 +69,16 @@ Chosen chosen_from(std::span<const results::RunRecord* const> runs,
     for (std::size_t replication = 0; replication < runs.size(); ++replication) {
         if (runs[replication] == nullptr) continue;
         auto times = response_times_s(*runs[replication]);
-        if (!times || times->empty()) continue;
+        if (times.empty()) continue;
         if (baseline.empty()) {
-            chosen.condition.push_back(std::move(*times));
+            chosen.condition.push_back(std::move(times));
             continue;
         }
         if (replication >= baseline.size() || baseline[replication] == nullptr) continue;
         auto before = response_times_s(*baseline[replication]);
-        if (!before || before->empty()) continue;
-        chosen.condition.push_back(std::move(*times));
-        chosen.baseline.push_back(std::move(*before));
+        if (before.empty()) continue;
+        chosen.condition.push_back(std::move(times));
+        chosen.baseline.push_back(std::move(before));
     }
     return chosen;
 }
@@ -98,7 +98,7 @@ MaybeEstimate resampled(std::size_t replications, double level, const Statistic&
 
 }  // namespace
 
-std::optional<std::vector<double>> response_times_s(const results::RunRecord& run) {
+std::vector<double> response_times_s(const results::RunRecord& run) {
     std::vector<double> times;
     std::size_t lost = 0;
     double sum_s = 0.0;
@@ -113,10 +113,9 @@ std::optional<std::vector<double>> response_times_s(const results::RunRecord& ru
     }
     if (lost == 0) return times;
     // The restricted mean counts each lost vehicle with the horizon, which a record does not state itself.
-    const auto& restricted_s = run.metrics.emergency_restricted_travel_time_s;
-    if (!restricted_s) return std::nullopt;
+    const double restricted_s = run.metrics.emergency_restricted_travel_time_s.value();
     const auto all = static_cast<double>(times.size() + lost);
-    const double horizon_s = (*restricted_s * all - sum_s) / static_cast<double>(lost);
+    const double horizon_s = (restricted_s * all - sum_s) / static_cast<double>(lost);
     times.insert(times.end(), lost, horizon_s);
     return times;
 }

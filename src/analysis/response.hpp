@@ -29,9 +29,8 @@ struct ResponseTime {
     MaybeEstimate in_time_difference;
 };
 
-/// Travel times of the emergency vehicles of a run, s, those that did not arrive with the horizon. Nothing
-/// for a record that does not tell the horizon of one that did not arrive (older versions).
-std::optional<std::vector<double>> response_times_s(const results::RunRecord& run);
+/// Travel times of the emergency vehicles of a run, s, those that did not arrive with the horizon.
+std::vector<double> response_times_s(const results::RunRecord& run);
 
 /// `response_pace_s_per_km` times the mean route of the emergency vehicles that arrived, rounded to 5 s, at
 /// least 5 s. Every trip of the runs counts once, however many conditions it was driven in. Nothing if none

@@ -141,19 +141,11 @@ TravelTimeTail tail_of(const Runs& runs, ResampleCache& resamples) {
     return {pooled_quantile(clusters, 0.5, drawn), pooled_quantile(clusters, 0.95, drawn)};
 }
 
-/// Whether a run has emergency vehicles but no restricted travel time: see
-/// ConditionSummary::runs_without_horizon.
-bool lacks_horizon(const results::RunRecord* run) {
-    return run != nullptr && !run->metrics.emergency_restricted_travel_time_s &&
-           emergency_outcomes(*run).total() > 0;
-}
-
 void count_outcomes(const Runs& runs, ConditionSummary& summary) {
     for (const results::RunRecord* run : runs) {
         if (run == nullptr) continue;
         ++summary.complete_runs;
         summary.emergency += emergency_outcomes(*run);
-        if (lacks_horizon(run)) ++summary.runs_without_horizon;
         summary.others += other_outcomes(*run);
     }
 }
@@ -174,17 +166,12 @@ void add_leases(const std::vector<metrics::LeaseRow>& more, std::vector<metrics:
     }
 }
 
-std::optional<std::vector<metrics::LeaseRow>> leases_of(const Runs& runs) {
-    std::optional<std::vector<metrics::LeaseRow>> total;
-    for (const results::RunRecord* run : runs) {
-        if (run == nullptr || !run->leases) continue;
-        if (!total) total.emplace();
-        add_leases(*run->leases, *total);
-    }
-    if (total) {
-        std::ranges::sort(*total, {},
-                          [](const metrics::LeaseRow& row) { return std::tie(row.policy, row.action); });
-    }
+std::vector<metrics::LeaseRow> leases_of(const Runs& runs) {
+    std::vector<metrics::LeaseRow> total;
+    for (const results::RunRecord* run : runs)
+        if (run != nullptr) add_leases(run->leases, total);
+    std::ranges::sort(total, {},
+                      [](const metrics::LeaseRow& row) { return std::tie(row.policy, row.action); });
     return total;
 }
 
@@ -207,7 +194,7 @@ std::vector<IdlePart> idle_parts(const Runs& runs, const ConditionSpec& conditio
     for (const std::string& policy : experiment::parts_of(condition)) {
         IdlePart part{policy};
         for (const results::RunRecord* run : runs) {
-            if (run != nullptr && run->leases) count_run(*run->leases, part);
+            if (run != nullptr) count_run(run->leases, part);
         }
         if (part.idle_runs + part.own_runs > 0) idle.push_back(std::move(part));
     }
@@ -224,7 +211,6 @@ void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, Re
         const auto has_value = [](const results::RunRecord* run) {
             return run != nullptr && run->metrics.emergency_restricted_travel_time_s;
         };
-        if (std::ranges::any_of(runs, lacks_horizon)) return;
         if (!std::ranges::all_of(runs, has_value)) continue;
         with.push_back(*runs[0]->metrics.emergency_restricted_travel_time_s);
         without.push_back(*runs[1]->metrics.emergency_restricted_travel_time_s);
@@ -305,9 +291,6 @@ ConditionSummary describe_condition(const Index& index, const std::string& scena
     std::vector<Values> values = values_of(runs);
     const std::vector<MetricInfo> metrics = all_metrics();
     for (std::size_t metric = 0; metric < metrics.size(); ++metric) {
-        // Only the runs that lost no emergency vehicle have a value.
-        if (summary.runs_without_horizon > 0 && metrics[metric].name == primary_metric)
-            values[metric].assign(values[metric].size(), std::nullopt);
         summary.metrics.push_back(describe(metrics[metric], std::move(values[metric]), resamples.level()));
     }
     return summary;

@@ -101,15 +101,11 @@ struct ConditionSummary {
     std::size_t complete_runs = 0;
     std::size_t failed_runs = 0;
     std::size_t missing_runs = 0;
-    /// Complete runs with emergency vehicles but without a restricted travel time. They were made by an older
-    /// version, which did not record the horizon.
-    std::size_t runs_without_horizon = 0;
     OutcomeCounts emergency;
     OutcomeCounts others;
-    Objections objections;  ///< Against the baseline; none for baselines and solo.
-    /// Leases over all complete runs, by policy, then action. Nothing if no run has them by action.
-    std::optional<std::vector<metrics::LeaseRow>> leases;
-    std::vector<IdlePart> idle_parts;  ///< In the order of the policies; empty if records lack leases.
+    Objections objections;                  ///< Against the baseline; none for baselines and solo.
+    std::vector<metrics::LeaseRow> leases;  ///< Over all complete runs, by policy, then action.
+    std::vector<IdlePart> idle_parts;       ///< In the order of the policies.
     TravelTimeTail travel_time;
     ResponseTime response;                 ///< Compared with the baseline where there is one.
     std::vector<MetricSummary> metrics;    ///< In the order of `all_metrics()`.

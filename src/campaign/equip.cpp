@@ -4,13 +4,12 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "campaign/equip_rounds.hpp"
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/temporary_folder.hpp"
 #include "experiment/conditions.hpp"
@@ -136,9 +135,9 @@ core::ExitCode equip(EquipRequest request) {
     config.name = "equip-" + config.name;
     const core::TemporaryFolder network_folder;
     const Signals signals = signals_of(config, network_folder.path());
-    std::vector<std::string> ids;
-    for (const core::SignalIndex signal : signals.candidates.signals)
-        ids.push_back(signals.built.network.signal(signal).id);
+    const std::vector<std::string> ids = core::texts_of(
+        signals.candidates.signals,
+        [&](const core::SignalIndex signal) { return signals.built.network.signal(signal).id; });
     if (request.run.folder.empty()) request.run.folder = usual_folder(config, base);
     const std::filesystem::path& folder = request.run.folder;
     EquipRounds rounds(config, base, ids, request.run);

@@ -1,6 +1,5 @@
 #include "campaign/equip_rounds.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <system_error>
@@ -113,9 +112,8 @@ EquipRounds::EquipRounds(study::StudyConfig config, experiment::ConditionSpec ba
 
 experiment::ConditionSpec EquipRounds::with(const analysis::SignalSet& set) const {
     experiment::ConditionSpec condition = base_;
-    std::vector<std::string> ids;
-    for (const std::size_t candidate : set)
-        ids.push_back(signals_.at(candidate));
+    std::vector<std::string> ids =
+        core::texts_of(set, [&](const std::size_t candidate) { return signals_.at(candidate); });
     const std::string equipped =
         ids.empty() ? experiment::none_equipped : fmt::format("{}", fmt::join(ids, ","));
     condition.settings[experiment::equipped_setting] = equipped;

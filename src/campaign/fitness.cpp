@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <sstream>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "campaign/detail/abort_cure.hpp"
+#include "campaign/study_run.hpp"
 #include "core/files.hpp"
 #include "experiment/conditions.hpp"
 #include "scenario/network.hpp"

@@ -10,6 +10,7 @@
 #include "campaign/names.hpp"
 #include "campaign/programs.hpp"
 #include "campaign/worker_jobs.hpp"
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/shipped_files.hpp"
 #include "experiment/link_job.hpp"
@@ -38,9 +39,7 @@ links::LinkPredictor& predictor_named(const std::string& option, const std::stri
                                       std::vector<links::LinkPredictor>& predictors) {
     const auto found = std::ranges::find(predictors, name, &links::LinkPredictor::name);
     if (found != predictors.end()) return *found;
-    std::vector<std::string> names;
-    for (const links::LinkPredictor& predictor : predictors)
-        names.push_back(predictor.name);
+    const std::vector<std::string> names = core::texts_of(predictors, &links::LinkPredictor::name);
     if (is_predictor(name))
         throw core::InputError({option, fmt::format("`{}` is not among the predictors to evaluate", name),
                                 core::listed(names), "Name it after --predictor"});
@@ -133,9 +132,8 @@ fs::path benchmark_file(const std::string& name) {
 /// Keeps the benchmark's scenarios with these labels; all of them if `names` is empty.
 void keep_scenarios(const std::vector<std::string>& names, links::LinkBenchmark& benchmark) {
     if (names.empty()) return;
-    std::vector<std::string> known;
-    for (const links::BenchmarkScenario& entry : benchmark.scenarios)
-        known.push_back(entry.label);
+    const std::vector<std::string> known =
+        core::texts_of(benchmark.scenarios, &links::BenchmarkScenario::label);
     for (const std::string& name : names) {
         if (std::ranges::find(known, name) == known.end())
             throw core::InputError(unknown_name("scenario of " + benchmark.name, name, known));

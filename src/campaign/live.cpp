@@ -10,12 +10,11 @@
 #include <unistd.h>
 
 #include "campaign/programs.hpp"
-#include "campaign/shown_run.hpp"
+#include "campaign/study_run.hpp"
 #include "campaign/worker_jobs.hpp"
 #include "core/files.hpp"
 #include "core/interruption.hpp"
 #include "core/process.hpp"
-#include "core/process_folder.hpp"
 #include "core/temporary_folder.hpp"
 #include "experiment/job.hpp"
 #include "server/access.hpp"

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/settings.hpp"
 #include "failures/failure_config.hpp"
@@ -24,11 +25,7 @@ core::Problem unknown_name(const std::string& where, const std::string& name,
 }
 
 std::vector<std::string> failure_names() {
-    std::vector<std::string> names;
-    for (const failures::FailurePreset& preset : failures::failure_presets()) {
-        names.push_back(preset.name);
-    }
-    return names;
+    return core::texts_of(failures::failure_presets(), &failures::FailurePreset::name);
 }
 
 void check_failure(const std::string& where, const std::string& failure,

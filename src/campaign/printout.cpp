@@ -4,25 +4,23 @@
 
 #include <fmt/format.h>
 
+#include "core/progress.hpp"
+
 namespace clearway::campaign {
 namespace {
 
 using core::Json;
 
-/// Characters of a text in UTF-8.
-std::size_t width_of(const std::string& text) {
-    return static_cast<std::size_t>(std::ranges::count_if(
-        text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
-}
-
 std::string cell_text(const Json& cell) {
     if (cell.is_null()) return "-";
     if (cell.is_string()) return cell.get<std::string>();
     if (cell.is_number_float()) return fmt::format("{:g}", cell.get<double>());
-    if (!cell.is_array()) return cell.dump();
+    if (!cell.is_structured()) return cell.dump();
     std::string text;
-    for (const Json& one : cell)
-        text += (text.empty() ? "" : "+") + cell_text(one);
+    for (const auto& [key, value] : cell.items()) {
+        text += text.empty() ? "" : cell.is_array() ? "+" : " ";
+        text += (cell.is_array() ? "" : key + "=") + cell_text(value);
+    }
     return text.empty() ? "-" : text;
 }
 
@@ -51,9 +49,9 @@ std::string text_of(const Table& table) {
         }
         std::size_t width = 0;
         for (const std::string& cell : cells)
-            width = std::max(width, width_of(cell));
+            width = std::max(width, core::characters_in(cell));
         for (std::size_t line = 0; line < lines.size(); ++line) {
-            const std::string gap(width - width_of(cells[line]), ' ');
+            const std::string gap(width - core::characters_in(cells[line]), ' ');
             if (!lines[line].empty()) lines[line] += "  ";
             lines[line] += numbers ? gap + cells[line] : cells[line] + gap;
         }

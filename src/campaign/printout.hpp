@@ -23,7 +23,8 @@ struct Row {
     std::vector<std::string> below = {};  ///< Lines of text under the row.
 };
 
-/// Rows that a verb prints. In text, numbers stand to the right, null is `-` and lists are joined by `+`.
+/// Rows that a verb prints. In text, numbers stand to the right, null is `-`, lists are joined by
+/// `+`, and an object is `key=value key=value`.
 struct Table {
     std::string key;  ///< Of the list of rows in JSON; empty: the list is all that is printed.
     std::vector<Column> columns;

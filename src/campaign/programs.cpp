@@ -62,31 +62,29 @@ void become(const std::string& program, const std::vector<std::string>& argument
     throw core::EnvironmentError(fmt::format("{}: cannot be started: {}", program, std::strerror(errno)));
 }
 
-std::optional<WorkerIdentity> identity_from(const std::string& text) {
+std::optional<study::Versions> versions_from(const std::string& text) {
     const std::string head = "clearway-run ";
     const std::string middle = " with SUMO ";
     const std::string last = "\nbuild ";
     const std::size_t split = text.find(middle);
     if (!text.starts_with(head) || split == std::string::npos) return std::nullopt;
     const std::size_t sumo = split + middle.size();
-    const std::size_t end = text.find('\n', sumo);
-    WorkerIdentity identity;
-    identity.versions = {text.substr(head.size(), split - head.size()), text.substr(sumo, end - sumo)};
-    if (const std::size_t build = text.find(last, sumo); build != std::string::npos) {
-        const std::size_t from = build + last.size();
-        identity.build = text.substr(from, text.find('\n', from) - from);
-        identity.versions.build = identity.build;
+    study::Versions versions{text.substr(head.size(), split - head.size()),
+                             text.substr(sumo, text.find('\n', sumo) - sumo), "unknown"};
+    if (const std::size_t end = text.find(last, sumo); end != std::string::npos) {
+        const std::size_t build = end + last.size();
+        versions.build = text.substr(build, text.find('\n', build) - build);
     }
-    return identity;
+    return versions;
 }
 
-bool is_of_this_build(const WorkerIdentity& worker) {
+bool is_of_this_build(const study::Versions& worker) {
     return worker.build == core::build_stamp();
 }
 
 study::Versions installed_versions() {
     const std::string program = sister_program("clearway-run");
-    const auto worker = identity_from(output_of(program, {"--version"}).value_or(""));
+    const auto worker = versions_from(output_of(program, {"--version"}).value_or(""));
     if (!worker)
         throw core::EnvironmentError(
             fmt::format("{}: cannot be started. `clearway doctor` shows what is missing", program));
@@ -94,9 +92,8 @@ study::Versions installed_versions() {
         throw core::EnvironmentError(
             fmt::format("{}: is of another build than this clearway: build {}, not {}. Defaults, models and "
                         "results may differ. {}",
-                        program, worker->build.empty() ? "unknown (an older one)" : worker->build,
-                        core::build_stamp(), cure_of_another_build));
-    return worker->versions;
+                        program, worker->build, core::build_stamp(), cure_of_another_build));
+    return *worker;
 }
 
 std::string worker_program() {

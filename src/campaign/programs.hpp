@@ -27,20 +27,15 @@ inline constexpr const char* why_no_trainer =
 /// Replaces this process with `program`, a path. Throws core::EnvironmentError when it cannot be started.
 [[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments);
 
-/// What a worker says of itself.
-struct WorkerIdentity {
-    study::Versions versions;
-    std::string build;  ///< Its core::build_stamp(); empty for a worker that is too old to have one.
-};
-
-/// From what `clearway-run --version` prints; nothing when it is something else:
+/// What a worker says of itself in `clearway-run --version`, with the build "unknown" if it names none;
+/// nothing for any other text:
 ///
 ///     clearway-run 0.1.0 with SUMO 1.15.0
 ///     build 0123456789abcdef
-std::optional<WorkerIdentity> identity_from(const std::string& text);
+std::optional<study::Versions> versions_from(const std::string& text);
 
 /// Whether a worker and this program were built from the same sources.
-bool is_of_this_build(const WorkerIdentity& worker);
+bool is_of_this_build(const study::Versions& worker);
 
 inline constexpr const char* cure_of_another_build =
     "Build both programs together: ./clearway does so by itself, or `cmake --build` without a target in "

@@ -118,7 +118,7 @@ void publish_study(const Publication& publication, const results::Store& store,
     if (manifest.clearway_build != core::build_stamp() && !named)
         throw core::InputError({folder,
                                 fmt::format("was made by build {} and this is build {}",
-                                            results::build_of(manifest), core::build_stamp()),
+                                            manifest.clearway_build, core::build_stamp()),
                                 "", "Name the tree that made the runs: --tree COMMIT --behaviour DIGITS"});
     const fs::path command = store.folder() / "command.txt";
     const fs::path written =

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "campaign/detail/replay_trips.hpp"
-#include "campaign/stored_job.hpp"
 #include "campaign/worker_jobs.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"

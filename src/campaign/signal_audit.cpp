@@ -37,12 +37,6 @@ Audited limits_of(const results::Store& store, const std::string& scenario) {
     return audited;
 }
 
-bool asks_signals(const results::Manifest& manifest, const experiment::RunKey& key) {
-    const auto condition =
-        std::ranges::find(manifest.conditions, key.condition, &experiment::ConditionSpec::name);
-    return condition->traffic_model != experiment::TrafficModel::free_flow && !condition->policies.empty();
-}
-
 std::string text_of(const analysis::SignalFinding& finding) {
     return fmt::format("{:.2f} s: signal {}, link {}: {} lasted {:.2f} s, its own program {:.2f} s",
                        finding.ended_s, finding.signal, finding.link, core::name(finding.what),
@@ -78,54 +72,36 @@ core::Json json_of(const std::vector<AuditedRun>& runs) {
     return findings;
 }
 
-/// The first findings of each run, in words, then the runs that failed.
+/// The first findings of each run, in words.
 std::string text_of(const AuditReport& report) {
     std::string text;
     for (const AuditedRun& run : report.runs) {
         if (run.audit.findings.empty()) continue;
-        text += fmt::format("{}{}: {} too short\n", run.run, run.repeated ? " (made again)" : "",
-                            run.audit.findings.size());
+        text += fmt::format("{}: {} too short\n", run.run, run.audit.findings.size());
         const std::size_t shown = std::min(shown_findings, run.audit.findings.size());
         for (std::size_t row = 0; row < shown; ++row)
             text += fmt::format("  {}\n", text_of(run.audit.findings[row]));
         if (shown < run.audit.findings.size())
             text += fmt::format("  and {} more: --json has all\n", run.audit.findings.size() - shown);
     }
-    for (const std::string& failed : report.failed)
-        text += fmt::format("failed     {}\n", failed);
     return text;
 }
 
 }  // namespace
 
-AuditReport audit_runs(const results::Store& store, const std::vector<experiment::RunKey>& keys,
-                       const Repeat& repeat) {
+AuditReport audit_runs(const results::Store& store, const std::vector<experiment::RunKey>& keys) {
     AuditReport report;
     std::map<std::string, Audited> audited;
-    std::vector<experiment::RunKey> unlogged;
-    const auto audit = [&](const results::Store& from, const experiment::RunKey& key) {
-        const auto events = from.read_signal_events(key);
-        if (!events) return false;
+    for (const experiment::RunKey& key : keys) {
+        const auto events = store.read_signal_events(key);
+        if (!events) {
+            ++report.without_requests;
+            continue;
+        }
         if (!audited.contains(key.scenario)) audited[key.scenario] = limits_of(store, key.scenario);
         const Audited& owed = audited[key.scenario];
-        report.runs.push_back({results::run_name(store.folder(), key), &from != &store,
+        report.runs.push_back({results::run_name(store.folder(), key),
                                analysis::audit_signals(*events, owed.limits, owed.step_s)});
-        return true;
-    };
-    for (const experiment::RunKey& key : keys) {
-        if (audit(store, key)) continue;
-        if (asks_signals(store.manifest(), key))
-            unlogged.push_back(key);
-        else
-            ++report.without_requests;
-    }
-    if (unlogged.empty()) return report;
-    const results::Store again = repeat(unlogged);
-    for (const experiment::RunKey& key : unlogged) {
-        if (audit(again, key)) continue;
-        const auto error = again.read_error(key);
-        report.failed.push_back(fmt::format("{}: {}", results::run_name(store.folder(), key),
-                                            error ? error->message : "was not made"));
     }
     return report;
 }
@@ -135,7 +111,6 @@ Printout audit_printout(const AuditReport& report) {
     return {
         {{"audited", report.runs.size()},
          {"without_requests", report.without_requests},
-         {"failed", report.failed},
          {"yellows", totals.yellows},
          {"red_clearances", totals.reds},
          {"greens", totals.greens},
@@ -150,7 +125,7 @@ Printout audit_printout(const AuditReport& report) {
 
 bool nothing_audited(const AuditReport& report) {
     const Totals totals = totals_of(report);
-    return report.failed.empty() && totals.yellows + totals.reds + totals.greens == 0;
+    return totals.yellows + totals.reds + totals.greens == 0;
 }
 
 std::string nothing_audited_text(const AuditReport& report, const std::string& what) {
@@ -166,8 +141,7 @@ std::string nothing_audited_text(const AuditReport& report, const std::string& w
 }
 
 core::ExitCode code_of(const AuditReport& report) {
-    return totals_of(report).findings > 0 || !report.failed.empty() ? core::ExitCode::runs_failed
-                                                                    : core::ExitCode::ok;
+    return totals_of(report).findings > 0 ? core::ExitCode::runs_failed : core::ExitCode::ok;
 }
 
 }  // namespace clearway::campaign

@@ -10,8 +10,8 @@
 
 #include "campaign/programs.hpp"
 #include "campaign/signal_audit.hpp"
-#include "campaign/stored_job.hpp"
 #include "campaign/study_run.hpp"
+#include "campaign/worker_jobs.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
 #include "core/temporary_folder.hpp"
@@ -60,7 +60,7 @@ void require_same_versions(const results::Manifest& manifest) {
     if (manifest.clearway_version != here.clearway)
         differing += fmt::format("{}Clearway {} in the study, {} here", differing.empty() ? "" : "; ",
                                  manifest.clearway_version, here.clearway);
-    if (!manifest.clearway_build.empty() && manifest.clearway_build != here.build)
+    if (manifest.clearway_build != here.build)
         differing += fmt::format("{}build {} of Clearway in the study, {} here",
                                  differing.empty() ? "" : "; ", manifest.clearway_build, here.build);
     if (!differing.empty())
@@ -267,20 +267,6 @@ Printout printout_of(const std::vector<Verification>& verifications) {
     return {facts, {runs}, verifications.size() > 1 ? sum + "\n" : ""};
 }
 
-/// Where runs are repeated.
-class Workshop {
-  public:
-    explicit Workshop(const std::string& out) {
-        if (out.empty()) temporary_.emplace();
-        folder_ = temporary_ ? temporary_->path() : std::filesystem::path(out);
-    }
-    const std::filesystem::path& folder() const { return folder_; }
-
-  private:
-    std::optional<core::TemporaryFolder> temporary_;
-    std::filesystem::path folder_;
-};
-
 void require_elsewhere(const results::Store& stored, const std::string& out) {
     std::error_code none;
     if (std::filesystem::equivalent(stored.folder(), out, none))
@@ -307,18 +293,8 @@ std::pair<results::Store, core::ExitCode> repeat(const results::Store& stored,
 }
 
 core::ExitCode audit(const VerifyRequest& request) {
-    const auto chosen = chosen_runs(request);
-    const results::Store& stored = chosen.store;
-    require_elsewhere(stored, request.out);
-    const Workshop workshop(request.out);
-    core::ExitCode ended = core::ExitCode::ok;
-    const AuditReport report =
-        audit_runs(stored, chosen.keys, [&](const std::vector<experiment::RunKey>& unlogged) {
-            auto [again, code] = repeat(stored, unlogged, workshop.folder(), request.workers);
-            if (is_interrupted(code)) ended = code;
-            return std::move(again);
-        });
-    if (is_interrupted(ended)) return ended;
+    const auto [store, keys] = chosen_runs(request);
+    const AuditReport report = audit_runs(store, keys);
     print(audit_printout(report), request.printing);
     if (nothing_audited(report))
         throw core::Error(core::ExitCode::incomplete, nothing_audited_text(report, request.what));
@@ -331,8 +307,10 @@ core::ExitCode verify_runs(const VerifyRequest& request) {
     if (request.signals) return audit(request);
     const auto [stored, keys] = chosen_runs(request);
     require_elsewhere(stored, request.out);
-    const Workshop workshop(request.out);
-    const auto [again, code] = repeat(stored, keys, workshop.folder(), request.workers);
+    std::optional<core::TemporaryFolder> temporary;
+    if (request.out.empty()) temporary.emplace();
+    const auto [again, code] = repeat(
+        stored, keys, temporary ? temporary->path() : std::filesystem::path(request.out), request.workers);
     if (is_interrupted(code)) return code;
     std::vector<Verification> verifications;
     for (const experiment::RunKey& key : keys)

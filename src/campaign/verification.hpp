@@ -21,7 +21,7 @@ struct VerifyRequest {
 
 /// Makes stored runs again elsewhere, from the configurations and networks of their folder, compares every
 /// number of their records, and prints the verdicts. With `signals` it audits event logs instead, as
-/// signal_audit.hpp says, and makes only runs again that kept none. Returns the worst verdict: conflict for a
+/// signal_audit.hpp says, and makes no run again. Returns the worst verdict: conflict for a
 /// difference, bad_input for a damaged record, runs_failed; or how it was interrupted. Throws
 /// core::InputError, core::EnvironmentError for other versions than the study's, and core::Error with
 /// incomplete where there is nothing to compare.

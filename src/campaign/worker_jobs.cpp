@@ -96,6 +96,23 @@ class JobList : public core::TaskList {
 
 }  // namespace
 
+experiment::RunJob stored_job(const results::Store& store, const experiment::RunKey& key,
+                              const std::filesystem::path& output) {
+    const auto& conditions = store.manifest().conditions;
+    const auto condition = std::ranges::find(conditions, key.condition, &experiment::ConditionSpec::name);
+    const std::filesystem::path scenario = std::filesystem::absolute(store.scenario_folder(key.scenario));
+    experiment::RunJob job;
+    job.scenario = key.scenario;
+    job.scenario_file = scenario / "scenario.toml";
+    job.network_folder = scenario / "network";
+    job.study_seed = store.manifest().study_seed;
+    job.replication = key.replication;
+    job.traffic_model = condition->traffic_model;
+    job.conditions = {*condition};
+    job.output = std::filesystem::absolute(output);
+    return job;
+}
+
 core::ExitCode exit_code_of(const core::Exit& exit) {
     constexpr std::array told = {core::ExitCode::bad_input, core::ExitCode::environment,
                                  core::ExitCode::incomplete, core::ExitCode::conflict};

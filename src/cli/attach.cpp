@@ -1,4 +1,3 @@
-#include <charconv>
 #include <memory>
 #include <string>
 
@@ -11,6 +10,7 @@
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/verb.hpp"
+#include "core/number.hpp"
 #include "experiment/attach_job.hpp"
 #include "results/store.hpp"
 
@@ -31,9 +31,9 @@ void read_place(const std::string& place, experiment::AttachJob& job) {
     job.host = colon == std::string::npos ? "" : place.substr(0, colon);
     if (job.host.empty()) job.host = "localhost";
     const std::string digits = colon == std::string::npos ? place : place.substr(colon + 1);
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), job.port);
+    job.port = core::number_from<int>(digits).value_or(0);
     constexpr int last_port = 65535;
-    if (error != std::errc() || end != digits.data() + digits.size() || job.port < 1 || job.port > last_port)
+    if (job.port < 1 || job.port > last_port)
         throw core::InputError({"HOST:PORT", fmt::format("`{}` is not the address of a SUMO", place),
                                 "a host and a port from 1 to 65535, as localhost:8813",
                                 "Give the port that SUMO was started with (--remote-port)"});
@@ -74,7 +74,10 @@ Action configure_attach(CLI::App& app) {
     app.add_option("place", arguments->place, "Where SUMO waits for a client (its --remote-port)")
         ->required()
         ->option_text("HOST:PORT (required)");
-    add_condition_options(app, arguments->described, "none", "Condition (names: clearway list)");
+    {
+        const OptionGroup group(app, "Condition (names: clearway list)");
+        add_condition_options(app, arguments->described, "none");
+    }
     app.add_option("--automated", job.automated,
                    "Vehicle types that are automated, besides those that declare it (clearway.class)")
         ->option_text("TYPE ... [none]");

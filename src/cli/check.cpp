@@ -5,7 +5,6 @@
 
 #include "campaign/fitness.hpp"
 #include "cli/detail/common_options.hpp"
-#include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 
 namespace clearway::cli {
@@ -19,9 +18,7 @@ Action configure_check(CLI::App& app) {
         scenario::Options options;
     };
     const auto arguments = std::make_shared<Arguments>();
-    app.add_option("scenario", arguments->scenario, "Name (clearway list), folder or TOML file")
-        ->required()
-        ->option_text("SCENARIO (required)");
+    add_scenario_argument(app, arguments->scenario);
     add_seed_option(app, arguments->seed);
     app.add_option("--lock-trials", arguments->lock_trials,
                    "Also look for locks in N runs with time.ignore_junction_blocker_s, and in N without")

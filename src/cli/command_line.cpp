@@ -6,16 +6,15 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/verb.hpp"
 #include "core/build_stamp.hpp"
+#include "core/error.hpp"
 #include "core/process.hpp"
 #include "core/usage.hpp"
 
@@ -117,10 +116,7 @@ Invocation invocation_of(int argument_count, const char* const* arguments) {
 }
 
 std::string names_of(std::span<const Verb> verbs) {
-    std::vector<std::string> names;
-    for (const Verb& verb : verbs)
-        names.emplace_back(verb.name);
-    return fmt::format("{}", fmt::join(names, ", "));
+    return core::listed(core::texts_of(verbs, &Verb::name));
 }
 
 /// `study status` for `status` and what is nearly that; a part is found without the word before it.
@@ -131,18 +127,15 @@ std::string meant(const std::string& word) {
         for (const Verb& part : verb.parts)
             commands.emplace(part.name, fmt::format("{} {}", verb.name, part.name));
     }
-    std::vector<std::string> names;
-    for (const auto& [name, command] : commands)
-        names.push_back(name);
+    const std::vector<std::string> names =
+        core::texts_of(commands, [](const auto& entry) { return entry.first; });
     const std::string near = core::nearest(word, names);
     return near.empty() ? "" : commands.at(near);
 }
 
 /// What is wrong with the word behind a verb that takes a file or a part: it is no file and nearly a part.
 std::optional<std::string> part_problem(const Verb& verb, const std::string& word) {
-    std::vector<std::string> names;
-    for (const Verb& part : verb.parts)
-        names.emplace_back(part.name);
+    const std::vector<std::string> names = core::texts_of(verb.parts, &Verb::name);
     const std::string near = core::nearest(word, names);
     if (near.empty() || near == word || word.starts_with('-') || std::filesystem::exists(word))
         return std::nullopt;

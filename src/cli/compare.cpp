@@ -13,6 +13,7 @@
 #include "campaign/names.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
+#include "core/error.hpp"
 #include "report/comparison.hpp"
 #include "results/store.hpp"
 
@@ -36,10 +37,7 @@ const std::vector<std::string>& usual_metrics() {
 }
 
 std::vector<std::string> metric_names() {
-    std::vector<std::string> names;
-    for (const analysis::MetricInfo& metric : analysis::all_metrics())
-        names.push_back(metric.name);
-    return names;
+    return core::texts_of(analysis::all_metrics(), &analysis::MetricInfo::name);
 }
 
 /// The metric of a tolerance without a name: the chosen one, else the primary one.

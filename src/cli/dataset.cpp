@@ -10,7 +10,6 @@
 #include "campaign/worker_jobs.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
-#include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
 #include "experiment/code_parts.hpp"
@@ -117,7 +116,7 @@ core::ExitCode record(Arguments arguments, const Invocation& invocation) {
 }
 
 void add_published_options(CLI::App& app, experiment::DatasetJob& job, CLI::Option* samples) {
-    const char* const group = "As published (three CSV files)";
+    const OptionGroup group(app, "As published (three CSV files)");
     static const std::map<std::string, experiment::ListedPairs> pairs = {
         {"true-links", experiment::ListedPairs::true_links},
         {"candidates", experiment::ListedPairs::candidates}};
@@ -126,23 +125,19 @@ void add_published_options(CLI::App& app, experiment::DatasetJob& job, CLI::Opti
            "Pairs in the list: only linked ones, or all within reach")
         ->check(CLI::IsMember(pairs))
         ->option_text("true-links|candidates [candidates]")
-        ->excludes(samples)
-        ->group(group);
+        ->excludes(samples);
     app.add_option("--features", job.feature_count, "Features of a vehicle: position alone, or all five")
         ->check(CLI::IsMember({2, 5}))
         ->option_text("2|5 [5]")
-        ->excludes(samples)
-        ->group(group);
+        ->excludes(samples);
 }
 
 CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
-    const char* const group = "Many snapshots (for the other trainings)";
+    const OptionGroup group(app, "Many snapshots (for the other trainings)");
     experiment::DatasetJob& job = arguments.job;
-    CLI::Option* const samples =
-        app.add_flag_callback(
-               "--samples", [&job] { job.dataset = experiment::DatasetKind::samples; },
-               "Inputs of predictors at many moments, with the true links [one snapshot]")
-            ->group(group);
+    CLI::Option* const samples = app.add_flag_callback(
+        "--samples", [&job] { job.dataset = experiment::DatasetKind::samples; },
+        "Inputs of predictors at many moments, with the true links [one snapshot]");
     static const std::map<std::string, experiment::DatasetKind> nets = {
         {"corrected", experiment::DatasetKind::samples},
         {"graphsage", experiment::DatasetKind::repair},
@@ -152,36 +147,30 @@ CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
            "Predictor to record for: graphsage_corrected, graphsage or the pair model (CSV)")
         ->check(CLI::IsMember(nets))
         ->option_text("corrected|graphsage|logistic [corrected]")
-        ->needs(samples)
-        ->group(group);
+        ->needs(samples);
     app.add_option_function<std::string>(
            "--exits",
            [&job](const std::string& word) { job.exits = *core::value_from<failures::Exits>(word); },
            "Whether it is known that a vehicle has left the network")
         ->check(CLI::IsMember({"known", "unknown"}))
         ->option_text("known|unknown [known]")
-        ->needs(samples)
-        ->group(group);
+        ->needs(samples);
     app.add_option("--failure", job.failures, "Sensor failures, one file each (clearway list)")
         ->option_text("NAME ... [B10]")
-        ->needs(samples)
-        ->group(group);
+        ->needs(samples);
     CLI::Option* const policy =
         app.add_option("--policy", job.policies,
                        "Policies that act on the traffic, in this order; they know everything")
             ->option_text("NAME ... [none]")
-            ->needs(samples)
-            ->group(group);
+            ->needs(samples);
     app.add_option("--set", arguments.settings, "A setting of the policies (clearway list settings)")
         ->option_text("COMPONENT.NAME=VALUE ... [defaults]")
-        ->needs(policy)
-        ->group(group);
+        ->needs(policy);
     app.add_option("--interval", job.interval_s, "Simulation time between two snapshots, s")
         ->check(core::NumberRange{0.1, 3600.0})
         ->option_text(fmt::format("SECONDS, 0.1 to 3600 [{}]", job.interval_s))
-        ->needs(samples)
-        ->group(group);
-    for (CLI::Option* const option : add_link_options(app, job, group))
+        ->needs(samples);
+    for (CLI::Option* const option : add_link_options(app, job))
         option->needs(samples);
     return samples;
 }
@@ -190,9 +179,7 @@ CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
 
 Action configure_dataset(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    app.add_option("scenario", arguments->scenario, "Name (clearway list), folder or TOML file")
-        ->required()
-        ->option_text("SCENARIO (required)");
+    add_scenario_argument(app, arguments->scenario);
     app.add_option("--out", arguments->folder, "Folder of the data set; made when absent")
         ->required()
         ->option_text("DIR (required)");

@@ -80,13 +80,12 @@ Check check_sister(const std::string& program, const std::string& purpose) {
 Check check_worker() {
     Check check = check_sister("clearway-run", "the worker that holds SUMO");
     if (!check.passed()) return check;
-    const auto worker = campaign::identity_from(
+    const auto worker = campaign::versions_from(
         campaign::output_of(campaign::sister_program("clearway-run"), {"--version"}).value_or(""));
     check.finding = fit_if(worker && campaign::is_of_this_build(*worker));
     if (check.passed()) return check;
-    const bool has_build = worker && !worker->build.empty();
     check.found += fmt::format(", of another build than this clearway: {}, not {}",
-                               has_build ? worker->build : "an older one", core::build_stamp());
+                               worker ? worker->build : "unknown", core::build_stamp());
     check.cure = campaign::cure_of_another_build;
     return check;
 }

@@ -11,7 +11,6 @@
 #include "campaign/study_run.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
-#include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "experiment/conditions.hpp"
@@ -73,11 +72,11 @@ core::ExitCode serve(const Arguments& arguments, const Invocation& invocation) {
 
 Action configure_environment(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    app.add_option("scenario", arguments->scenario, "Name (clearway list), folder or TOML file")
-        ->required()
-        ->option_text("SCENARIO (required)");
-    add_condition_options(app, arguments->described, "none",
-                          "What acts besides the agent, and how sensors fail");
+    add_scenario_argument(app, arguments->scenario);
+    {
+        const OptionGroup group(app, "What acts besides the agent, and how sensors fail");
+        add_condition_options(app, arguments->described, "none");
+    }
     add_seed_option(app, arguments->seed);
     app.add_option("--replication", arguments->replication, "Which replication of that seed")
         ->option_text("N [0]");

@@ -6,9 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/detail/chosen_conditions.hpp"
 #include "cli/detail/common_options.hpp"
-#include "cli/detail/scenario_options.hpp"
+#include "cli/detail/condition_options.hpp"
 #include "cli/verb.hpp"
 
 namespace clearway::cli {
@@ -51,9 +50,7 @@ void add_study_options(CLI::App& app, const std::shared_ptr<Arguments>& argument
 Action configure_equip(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     arguments->request.replications = usual_seeds;
-    app.add_option("scenario", arguments->scenario, "Name (clearway list), folder or TOML file")
-        ->required()
-        ->option_text("SCENARIO (required)");
+    add_scenario_argument(app, arguments->scenario);
     add_study_options(app, arguments);
     add_own_condition_options(app, arguments->conditions.own);
     add_scenario_options(app, arguments->options);

@@ -8,7 +8,6 @@
 #include "campaign/link_evaluation.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
-#include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 
 namespace clearway::cli {
@@ -46,15 +45,14 @@ void add_what(CLI::App& app, Arguments& arguments) {
 }
 
 void add_seeds(CLI::App& app, Arguments& arguments) {
-    const char* const group = "Seeds (a benchmark has its own)";
+    const OptionGroup group(app, "Seeds (a benchmark has its own)");
     const auto declare = [&](const char* name, std::uint32_t& value, const char* doc, std::uint32_t least) {
         app.add_option(name, value, doc)
             ->check(CLI::Range(least, 4000000000U))
             ->option_text(fmt::format("N, from {} [{}]", least, value))
-            ->excludes("--benchmark")
-            ->group(group);
+            ->excludes("--benchmark");
     };
-    add_seed_option(app, arguments.request.study_seed)->excludes("--benchmark")->group(group);
+    add_seed_option(app, arguments.request.study_seed)->excludes("--benchmark");
     declare("--seeds", arguments.request.test.count, "Replications to test on", 0U);
     declare("--first-seed", arguments.request.test.first, "Number of the first of them", 0U);
     declare("--validation-seeds", arguments.request.validation.count,
@@ -62,8 +60,7 @@ void add_seeds(CLI::App& app, Arguments& arguments) {
     declare("--first-validation-seed", arguments.request.validation.first, "Number of the first of them", 0U);
     app.add_flag("--quick", arguments.request.quick,
                  fmt::format("At most {} test and {} validation seeds, or what the benchmark says [all]",
-                             links::QuickBenchmark{}.test, links::QuickBenchmark{}.validation))
-        ->group(group);
+                             links::QuickBenchmark{}.test, links::QuickBenchmark{}.validation));
     app.add_option_function<std::string>(
            "--split",
            [&arguments](const std::string& name) {
@@ -72,8 +69,7 @@ void add_seeds(CLI::App& app, Arguments& arguments) {
            },
            "Seeds whose results are printed; tune settings only on `validation`")
         ->check(CLI::IsMember({"test", "validation"}))
-        ->option_text("test|validation [test]")
-        ->group(group);
+        ->option_text("test|validation [test]");
 }
 
 }  // namespace
@@ -89,7 +85,10 @@ Action configure_evaluate(CLI::App& app) {
     add_json_option(app, arguments->request.printing, "all figures");
     add_seeds(app, *arguments);
     const std::size_t own_options = app.get_options().size();
-    add_link_options(app, arguments->request.links, "Links");
+    {
+        const OptionGroup group(app, "Links");
+        add_link_options(app, arguments->request.links);
+    }
     add_scenario_options(app, arguments->request.options);
     const std::vector<CLI::Option*> options = app.get_options();
     for (std::size_t i = own_options; i < options.size(); ++i)

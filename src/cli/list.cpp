@@ -6,13 +6,12 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/reference_pages.hpp"
 #include "cli/verb.hpp"
-#include "core/usage.hpp"
+#include "core/progress.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/settings_page.hpp"
 #include "failures/failure_config.hpp"

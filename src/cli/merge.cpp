@@ -10,6 +10,7 @@
 
 #include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
+#include "core/error.hpp"
 #include "core/progress.hpp"
 
 namespace clearway::cli {
@@ -37,9 +38,8 @@ std::string text_of(const study::MergeResult& result, const std::string& out) {
 }
 
 campaign::Printout printout_of(const study::MergeResult& result, const std::string& out) {
-    std::vector<std::string> missing;
-    for (const experiment::RunKey& key : result.missing)
-        missing.push_back(experiment::to_text(key));
+    const std::vector<std::string> missing = core::texts_of(
+        result.missing, [](const experiment::RunKey& key) { return experiment::to_text(key); });
     return {{{"folder", out},
              {"complete_runs", result.counts.complete},
              {"failed_runs", result.counts.failed},

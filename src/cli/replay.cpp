@@ -1,23 +1,23 @@
 #include "trace/replay.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include "campaign/names.hpp"
-#include "campaign/recorded_network.hpp"
 #include "campaign/replay_page.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/verb.hpp"
+#include "core/json.hpp"
 #include "core/number_range.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/settings.hpp"
@@ -27,6 +27,8 @@
 
 namespace clearway::cli {
 namespace {
+
+using core::Json;
 
 const char* const open_loop =
     "Nothing is simulated: sensing, prediction and policy run again over the recorded traffic, which does "
@@ -167,24 +169,16 @@ core::ExitCode print_table(trace::RecordingReader& recording, const Arguments& a
                      [&](const trace::RecordedStep& step) { return trace::csv_lines(table, step, names); });
 }
 
-std::string number(const std::optional<double>& value) {
-    return value ? fmt::format("{:.4f}", *value) : "-";
+Json counts_json(const metrics::LinkCounts& counts) {
+    return {{"true_positive", counts.true_positive},
+            {"false_positive", counts.false_positive},
+            {"false_negative", counts.false_negative},
+            {"precision", core::to_json_value(counts.precision())},
+            {"recall", core::to_json_value(counts.recall())},
+            {"f1", core::to_json_value(counts.f1())}};
 }
 
-nlohmann::ordered_json counts_json(const metrics::LinkCounts& counts) {
-    nlohmann::ordered_json json{{"true_positive", counts.true_positive},
-                                {"false_positive", counts.false_positive},
-                                {"false_negative", counts.false_negative}};
-    const auto put = [&](const char* name, const std::optional<double>& value) {
-        json[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
-    };
-    put("precision", counts.precision());
-    put("recall", counts.recall());
-    put("f1", counts.f1());
-    return json;
-}
-
-nlohmann::ordered_json score_json(const trace::LinkScore& score, const experiment::ConditionSpec& condition) {
+Json score_json(const trace::LinkScore& score, const experiment::ConditionSpec& condition) {
     return {{"failure", condition.failure},          {"predictor", condition.predictor},
             {"policy", condition.policies},          {"settings", condition.settings},
             {"model", condition.model_file},         {"decisions", score.decisions},
@@ -192,12 +186,11 @@ nlohmann::ordered_json score_json(const trace::LinkScore& score, const experimen
             {"dark_links", counts_json(score.dark)}, {"leases", score.leases}};
 }
 
-nlohmann::ordered_json agreement_json(const trace::Agreement& agreement) {
-    nlohmann::ordered_json json{{"compared", agreement.compared}, {"same", agreement.same}};
-    json["first_difference"] = agreement.first_difference.empty()
-                                   ? nlohmann::ordered_json(nullptr)
-                                   : nlohmann::ordered_json(agreement.first_difference);
-    return json;
+Json agreement_json(const trace::Agreement& agreement) {
+    const std::string& difference = agreement.first_difference;
+    return {{"compared", agreement.compared},
+            {"same", agreement.same},
+            {"first_difference", difference.empty() ? Json(nullptr) : Json(difference)}};
 }
 
 /// The run's name; without the folder if the recording is not in a run folder.
@@ -207,82 +200,70 @@ std::string run_of(const std::filesystem::path& recording, const experiment::Run
     return results::run_name(std::filesystem::proximate(folder), key);
 }
 
-void print_json(const std::string& run, const trace::RecordingInfo& info,
-                const experiment::ConditionSpec& condition, const trace::ReplayResult& result) {
-    nlohmann::ordered_json json;
-    json["run"] = run;
-    json["clearway_version"] = info.provenance.clearway_version;
-    json["sumo_version"] = info.provenance.sumo_version;
-    json["begin_s"] = result.begin_s;
-    json["end_s"] = result.end_s;
-    json["steps"] = result.steps;
-    json["vehicle_steps"] = result.vehicle_steps;
-    json["traffic_reacts"] = false;
-    json["recorded"] = score_json(result.recorded, info.condition);
-    json["replayed"] = score_json(result.replayed, condition);
-    nlohmann::ordered_json& candidates = json["replayed"]["candidates"];
-    core::for_each_field<metrics::LinkQuality>([&](const auto& field) {
-        const auto& value = result.candidates.*field.member;
-        if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
-            candidates[field.name] = value;
-        } else {
-            candidates[field.name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
-        }
-    });
-    json["same_to_the_bit"] = {{"observations", agreement_json(result.observations)},
-                               {"beliefs", agreement_json(result.beliefs)},
-                               {"leases", agreement_json(result.leases)}};
-    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+Json facts_of(const std::string& run, const trace::RecordingInfo& info,
+              const experiment::ConditionSpec& condition, const trace::ReplayResult& result) {
+    Json facts = {{"run", run},
+                  {"clearway_version", info.provenance.clearway_version},
+                  {"sumo_version", info.provenance.sumo_version},
+                  {"begin_s", result.begin_s},
+                  {"end_s", result.end_s},
+                  {"steps", result.steps},
+                  {"vehicle_steps", result.vehicle_steps},
+                  {"traffic_reacts", false},
+                  {"recorded", score_json(result.recorded, info.condition)},
+                  {"replayed", score_json(result.replayed, condition)},
+                  {"same_to_the_bit",
+                   {{"observations", agreement_json(result.observations)},
+                    {"beliefs", agreement_json(result.beliefs)},
+                    {"leases", agreement_json(result.leases)}}}};
+    core::write_fields(facts["replayed"]["candidates"], result.candidates);
+    return facts;
 }
 
-void print_row(const std::string& label, const std::string& recorded, const std::string& replayed) {
-    fmt::print("{:<26}  {:>20}  {:>20}\n", label, recorded, replayed);
-}
+/// The figures that the text shows, and where the facts of a condition hold them.
+constexpr std::array<std::pair<const char*, const char*>, 18> shown = {
+    {{"failure", "/failure"},
+     {"predictor", "/predictor"},
+     {"model", "/model"},
+     {"settings", "/settings"},
+     {"policy", "/policy"},
+     {"decisions", "/decisions"},
+     {"  at report rounds", "/decisions_scored"},
+     {"links: precision", "/links/precision"},
+     {"links: recall", "/links/recall"},
+     {"links: F1", "/links/f1"},
+     {"dark links: precision", "/dark_links/precision"},
+     {"dark links: recall", "/dark_links/recall"},
+     {"dark links: F1", "/dark_links/f1"},
+     {"candidates: pairs", "/candidates/pairs"},
+     {"candidates: AUC", "/candidates/auc"},
+     {"candidates: AP", "/candidates/ap"},
+     {"candidates: log loss, nat", "/candidates/log_loss"},
+     {"leases", "/leases"}}};
 
-std::string settings_or_dash(const experiment::ConditionSpec& condition) {
-    const std::string text = experiment::settings_text(condition);
-    return text.empty() ? "-" : text;
-}
-
-void print_counts(const std::string& label, const metrics::LinkCounts& recorded,
-                  const metrics::LinkCounts& replayed) {
-    print_row(label + ": precision", number(recorded.precision()), number(replayed.precision()));
-    print_row(label + ": recall", number(recorded.recall()), number(replayed.recall()));
-    print_row(label + ": F1", number(recorded.f1()), number(replayed.f1()));
-}
-
-void print_agreement(const std::string& what, const trace::Agreement& agreement) {
-    fmt::print("{}: {} of {} the same to the bit{}\n", what, agreement.same, agreement.compared,
-               agreement.first_difference.empty() ? "" : "; first difference " + agreement.first_difference);
-}
-
-void print_text(const std::string& run, const trace::RecordingInfo& info,
-                const experiment::ConditionSpec& condition, const trace::ReplayResult& result) {
-    fmt::print("{}: {} to {} s, {} steps, {} vehicle-steps; recorded by Clearway {} with SUMO {}\n", run,
-               result.begin_s, result.end_s, result.steps, result.vehicle_steps,
-               info.provenance.clearway_version, info.provenance.sumo_version);
-    fmt::print("The traffic is as recorded: it does not react to what is believed in the replay.\n\n");
-    print_row("", "recorded", "replayed");
-    print_row("failure", info.condition.failure, condition.failure);
-    print_row("predictor", info.condition.predictor, condition.predictor);
-    print_row("settings", settings_or_dash(info.condition), settings_or_dash(condition));
-    print_row("policy", fmt::format("{}", fmt::join(info.condition.policies, "+")),
-              fmt::format("{}", fmt::join(condition.policies, "+")));
-    print_row("decisions", std::to_string(result.recorded.decisions),
-              std::to_string(result.replayed.decisions));
-    print_row("  at report rounds", std::to_string(result.recorded.scored),
-              std::to_string(result.replayed.scored));
-    print_counts("links", result.recorded.links, result.replayed.links);
-    print_counts("dark links", result.recorded.dark, result.replayed.dark);
-    print_row("candidates: pairs", "", std::to_string(result.candidates.pairs));
-    print_row("candidates: AUC", "", number(result.candidates.auc));
-    print_row("candidates: AP", "", number(result.candidates.ap));
-    print_row("candidates: log loss, nat", "", number(result.candidates.log_loss));
-    print_row("leases", std::to_string(result.recorded.leases), std::to_string(result.replayed.leases));
-    fmt::print("\n");
-    print_agreement("observations", result.observations);
-    print_agreement("beliefs", result.beliefs);
-    print_agreement("leases of decisions", result.leases);
+campaign::Printout printout_of(const Json& facts) {
+    campaign::Table table{"", {{"", "figure"}, {"", "recorded"}, {"", "replayed"}}, {}};
+    for (const auto& [title, place] : shown) {
+        const Json::json_pointer at(place);
+        std::vector<Json> cells = {title};
+        for (const char* const whose : {"recorded", "replayed"})
+            cells.push_back(facts[whose].contains(at) ? facts[whose][at] : Json(nullptr));
+        table.rows.push_back({std::move(cells)});
+    }
+    std::string text = fmt::format(
+        "{}: {} to {} s, {} steps, {} vehicle-steps; recorded by Clearway {} with SUMO {}\n"
+        "The traffic is as recorded: it does not react to what is believed in the replay.\n\n{}\n",
+        facts["run"].get<std::string>(), facts["begin_s"].get<double>(), facts["end_s"].get<double>(),
+        facts["steps"].dump(), facts["vehicle_steps"].dump(), facts["clearway_version"].get<std::string>(),
+        facts["sumo_version"].get<std::string>(), campaign::text_of(table));
+    for (const auto& [what, agreement] : facts["same_to_the_bit"].items()) {
+        const Json& difference = agreement["first_difference"];
+        text +=
+            fmt::format("{}: {} of {} the same to the bit{}\n", what, agreement["same"].dump(),
+                        agreement["compared"].dump(),
+                        difference.is_null() ? "" : "; first difference " + difference.get<std::string>());
+    }
+    return {.facts = facts, .text = std::move(text)};
 }
 
 bool is_same(const trace::ReplayResult& result) {
@@ -317,8 +298,7 @@ core::ExitCode replay_file(Arguments arguments) {
     const roads::Network network = campaign::recorded_network(info, arguments.file, arguments.network);
     const trace::ReplayResult result = trace::replay(recording, condition, network);
     const std::string run = run_of(arguments.file, info.key);
-    arguments.printing == Printing::json ? print_json(run, info, condition, result)
-                                         : print_text(run, info, condition, result);
+    campaign::print(printout_of(facts_of(run, info, condition, result)), arguments.printing);
     if (condition != info.condition || is_same(result)) return core::ExitCode::ok;
     fmt::print(
         stderr,
@@ -330,36 +310,31 @@ core::ExitCode replay_file(Arguments arguments) {
 
 /// Returns what cannot be combined with another replay.
 CLI::Option* add_view_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
-    const char* const group = "Watch, instead of a replay";
+    const OptionGroup group(app, "Watch, instead of a replay");
     CLI::Option* const view =
         app.add_flag("--view", arguments->is_viewed,
-                     "Write a page that plays the run, or two side by side, in a browser [off]")
-            ->group(group);
+                     "Write a page that plays the run, or two side by side, in a browser [off]");
     app.add_option("--out", arguments->page, "The page to write")
         ->option_text("FILE [SCENARIO-CONDITION-N.html]")
-        ->needs(view)
-        ->group(group);
+        ->needs(view);
     return view;
 }
 
 void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
                      const std::vector<CLI::Option*>& others) {
-    const char* const group = "Export as CSV, instead of a replay";
+    const OptionGroup group(app, "Export as CSV, instead of a replay");
     CLI::Option* const csv = app.add_option("--csv", arguments->table, "Table to print, see below")
                                  ->check(CLI::IsMember(table_names()))
-                                 ->option_text("TABLE [replay]")
-                                 ->group(group);
+                                 ->option_text("TABLE [replay]");
     for (CLI::Option* const other : others)
         csv->excludes(other);
     const core::NumberRange times{0.0, 1e9};
     app.add_option("--from", arguments->from_s, "First simulation time of the table or page, s")
         ->check(times)
-        ->option_text("SECONDS [beginning]")
-        ->group(group);
+        ->option_text("SECONDS [beginning]");
     app.add_option("--to", arguments->to_s, "Last simulation time of the table or page, s")
         ->check(times)
-        ->option_text("SECONDS [end]")
-        ->group(group);
+        ->option_text("SECONDS [end]");
 }
 
 }  // namespace
@@ -384,8 +359,7 @@ Action configure_replay(CLI::App& app) {
         ->option_text("NAME [as recorded]");
     thinking.push_back(app.add_option("--policy", arguments->policies, "Policies, in this order")
                            ->option_text("NAME ... [as recorded]"));
-    add_setting_options(app, arguments->settings, arguments->model, "as recorded",
-                        app.option_defaults()->get_group());
+    add_setting_options(app, arguments->settings, arguments->model, "as recorded");
     app.add_option("--network", arguments->network, "Network file on which the recording was made")
         ->option_text("FILE [that of its run folder]");
     thinking.push_back(app.add_flag_callback(

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -8,11 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "campaign/shown_run.hpp"
 #include "campaign/study_run.hpp"
-#include "cli/detail/chosen_conditions.hpp"
 #include "cli/detail/common_options.hpp"
-#include "cli/detail/scenario_options.hpp"
+#include "cli/detail/condition_options.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
 #include "experiment/conditions.hpp"
@@ -87,31 +83,26 @@ core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
 }
 
 void add_window_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
-    const char* const group = "A window";
-    CLI::Option* const gui = app.add_flag("--gui", arguments->is_shown,
-                                          fmt::format("Show the first seed of one condition [{}] in sumo-gui",
-                                                      experiment::usual_condition))
-                                 ->group(group);
+    const OptionGroup group(app, "A window");
+    CLI::Option* const gui = app.add_flag(
+        "--gui", arguments->is_shown,
+        fmt::format("Show the first seed of one condition [{}] in sumo-gui", experiment::usual_condition));
     constexpr double longest_delay_ms = 60000.0;
     app.add_option("--gui-delay", arguments->delay_ms,
                    "Minimum wall time per step, from a minute before the first emergency vehicle, ms")
         ->check(core::NumberRange{0.0, longest_delay_ms})
         ->option_text(fmt::format("MS, 0 to {:g} [{:g}]", longest_delay_ms, arguments->delay_ms))
-        ->needs(gui)
-        ->group(group);
+        ->needs(gui);
     app.add_option("--gui-settings-file", arguments->window_settings, "View settings of sumo-gui")
         ->option_text("FILE [Clearway's own]")
-        ->needs(gui)
-        ->group(group);
+        ->needs(gui);
 }
 
 }  // namespace
 
 Action configure_run(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    app.add_option("scenario", arguments->scenario, "Name (clearway list), folder or TOML file")
-        ->required()
-        ->option_text("SCENARIO (required)");
+    add_scenario_argument(app, arguments->scenario);
     add_condition_words(app, arguments->conditions);
     app.add_flag_callback(
         "--no-solo", [arguments] { arguments->floor = Floor::none; },

@@ -5,16 +5,13 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "cli/detail/common_options.hpp"
-#include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/temporary_folder.hpp"
-#include "report/signal_name.hpp"
 #include "report/text.hpp"
 #include "scenario/network.hpp"
 #include "scenario/picture.hpp"
@@ -50,7 +47,7 @@ std::string text_of(const traffic::Preemption& set) {
         const auto& value = set.*field.member;
         if (value) parts.push_back(fmt::format("{}={}", field.name, core::csv_cell(value)));
     });
-    return parts.empty() ? "-" : fmt::format("{}", fmt::join(parts, ", "));
+    return parts.empty() ? "-" : core::listed(parts);
 }
 
 std::string approach_text(const SignalSheet& sheet, const scenario::SignalPhase& phase) {
@@ -63,7 +60,7 @@ std::string approach_text(const SignalSheet& sheet, const scenario::SignalPhase&
     }
     if (phase.on_foot) names.emplace_back("people on foot");
     if (names.empty()) names.emplace_back("no road of this network");
-    return report::printable(fmt::format("{}", fmt::join(names, ", ")));
+    return report::printable(core::listed(names));
 }
 
 Json range_json(const std::optional<SecondsRange>& times) {
@@ -217,9 +214,7 @@ core::ExitCode show(const Arguments& arguments) {
 
 Action configure_signals(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    app.add_option("scenario", arguments->scenario, "Name (clearway list), folder or TOML file")
-        ->required()
-        ->option_text("SCENARIO (required)");
+    add_scenario_argument(app, arguments->scenario);
     app.add_option("--svg", arguments->picture, "Write a map of the signals with their numbers")
         ->option_text("FILE [none]");
     app.add_option("--out", arguments->parameters,

@@ -23,11 +23,13 @@ Action configure_verify(CLI::App& app) {
         ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}))
         ->option_text("N, 1 or more [off]")
         ->excludes(all);
+    CLI::Option* const out =
+        app.add_option("--out", arguments->out, "New run folder that keeps the repeated runs")
+            ->option_text("DIR [a temporary one, removed at the end]");
     app.add_flag("--signals", arguments->signals,
                  "Audit signals instead: no yellow, red clearance or green below the "
-                 "signal's own program in any event log [off]");
-    app.add_option("--out", arguments->out, "New run folder that keeps the repeated runs")
-        ->option_text("DIR [a temporary one, removed at the end]");
+                 "signal's own program in any event log [off]")
+        ->excludes(out);
     add_jobs_option(app, arguments->workers);
     add_json_option(app, arguments->printing, "the verdicts");
     app.footer(
@@ -37,8 +39,8 @@ Action configure_verify(CLI::App& app) {
         "number of their records is compared. Exit codes: 0 all the same, 7 one differs (two results for\n"
         "one run), 3 a stored record is damaged, 1 a run fails now, 5 the run is not complete in the\n"
         "folder, 4 SUMO or Clearway is of another version than the study's: such runs need not agree.\n\n"
-        "With --signals nothing is repeated that kept an event log; exit code 1 tells findings, and 5 also\n"
-        "that there was nothing to audit.");
+        "With --signals nothing is repeated; exit code 1 tells findings, and 5 also that there was nothing\n"
+        "to audit.");
     return [arguments](const Invocation&) { return campaign::verify_runs(*arguments); };
 }
 

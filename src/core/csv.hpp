@@ -1,6 +1,5 @@
 #pragma once
 
-#include <charconv>
 #include <deque>
 #include <optional>
 #include <stdexcept>
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/json.hpp"
+#include "core/number.hpp"
 
 namespace clearway::core {
 
@@ -83,9 +83,9 @@ void read_cell(std::string_view cell, Value& target) {
             read_cell(cell, *target);
         }
     } else if constexpr (std::is_arithmetic_v<Value>) {
-        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), target);
-        if (error != std::errc() || end != cell.data() + cell.size())
-            throw std::runtime_error(fmt::format("\"{}\" is not a number", cell));
+        const auto number = number_from<Value>(cell);
+        if (!number) throw std::runtime_error(fmt::format("\"{}\" is not a number", cell));
+        target = *number;
     } else {
         target = cell;
     }

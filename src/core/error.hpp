@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -75,6 +76,15 @@ class ConflictError : public Error {
 
 /// One line per problem: `where: what (allowed: ...). cure`.
 std::string format_problem(const Problem& problem);
+
+/// The texts that `projection` gives for the elements of a range, in their order.
+template <class Range, class Projection>
+std::vector<std::string> texts_of(const Range& range, const Projection& projection) {
+    std::vector<std::string> texts;
+    for (const auto& element : range)
+        texts.emplace_back(std::invoke(projection, element));
+    return texts;
+}
 
 /// `a, b, c`.
 std::string listed(const std::vector<std::string>& words);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/json.hpp"
-#include "core/usage.hpp"
+#include "core/progress.hpp"
 
 namespace clearway::core {
 namespace {
@@ -19,7 +19,7 @@ std::string unit_of(const SettingInfo& row) {
 
 /// `0 to 60`, or the words; nothing for free text.
 std::string range_of(const SettingInfo& row) {
-    if (!row.words.empty()) return fmt::format("{}", fmt::join(row.words, ", "));
+    if (!row.words.empty()) return listed(row.words);
     return row.minimum == row.maximum ? "" : fmt::format("{} to {}", row.minimum, row.maximum);
 }
 

@@ -9,11 +9,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/running_hash.hpp"
 
 namespace clearway::core {
 namespace {
@@ -59,8 +57,9 @@ void make_folder(const std::filesystem::path& folder) {
 }
 
 std::string content_hash(std::string_view bytes) {
-    const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+    RunningHash hash;
+    hash.add(bytes);
+    return hash.digest();
 }
 
 }  // namespace clearway::core

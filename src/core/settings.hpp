@@ -1,9 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,20 +14,13 @@
 
 #include "core/error.hpp"
 #include "core/fields.hpp"
+#include "core/number.hpp"
 #include "core/spellings.hpp"
 
 namespace clearway::core {
 
 /// Members of field tables that are set by name: `mean_outage_s` -> `20`.
 using Settings = std::map<std::string, std::string>;
-
-/// `text` as a number; nothing when it is not one.
-inline std::optional<double> number_from(const std::string& text) {
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
 
 /// One spelling for each number, `12` for `12.0`, so that equal settings are equal texts. Other text is
 /// returned unchanged.

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/progress.hpp"
 
 namespace clearway::core {
 namespace {
@@ -34,20 +35,6 @@ std::string wrapped_line(const std::string& line) {
 }
 
 }  // namespace
-
-std::string wrapped(const std::string& text, std::size_t indent, const std::string& join) {
-    std::string result;
-    std::string line = text;
-    while (line.size() > help_columns) {
-        const std::size_t first = line.find_first_not_of(' ');
-        std::size_t end = line.rfind(' ', help_columns - join.size());
-        if (end == std::string::npos || end <= first) end = line.find(' ', first);
-        if (end == std::string::npos) break;
-        result += line.substr(0, line.find_last_not_of(' ', end) + 1) + join + '\n';
-        line = std::string(indent, ' ') + line.substr(line.find_first_not_of(' ', end));
-    }
-    return result + line;
-}
 
 HelpFormatter::HelpFormatter() {
     column_width(description_column);

@@ -14,14 +14,6 @@ namespace clearway::core {
 std::string usage_message(const CLI::App& command, const std::string& name, const CLI::ParseError& error,
                           const std::vector<std::string>& words = {});
 
-/// Columns of a terminal that help texts and lists keep to.
-inline constexpr std::size_t help_columns = 80;
-
-/// The words of `text` in lines of at most `help_columns`; lines after the first begin with `indent` spaces.
-/// A word that is longer stands alone on its line. Spaces before the first line's words are kept. `join` ends
-/// every line but the last.
-std::string wrapped(const std::string& text, std::size_t indent, const std::string& join = "");
-
 /// Writes help within `help_columns`: descriptions go on below themselves, paragraphs are filled again, and
 /// long example commands are continued with a backslash.
 class HelpFormatter : public CLI::Formatter {

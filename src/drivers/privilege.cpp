@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "drivers/detail/gap_across.hpp"
 #include "roads/route.hpp"

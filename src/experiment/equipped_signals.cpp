@@ -45,9 +45,7 @@ std::vector<bool> equipped_signals(const ConditionSpec& condition, const roads::
     if (set->second == none_equipped) return equipped;
     const std::string where = fmt::format("condition {}: {}", condition.name, equipped_setting);
     std::vector<core::Problem> problems = check_equipped(set->second, where);
-    std::vector<std::string> known;
-    for (const roads::Signal& signal : network.signals())
-        known.push_back(signal.id);
+    const std::vector<std::string> known = core::texts_of(network.signals(), &roads::Signal::id);
     for (const std::string& id : ids_in(set->second)) {
         if (id.empty()) continue;
         if (const auto signal = network.find_signal(id)) {

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "actuation/actuator_config.hpp"
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/folder_name.hpp"
 #include "drivers/config.hpp"
@@ -118,10 +119,7 @@ std::vector<std::string> full_names(const std::vector<std::string>& of) {
 }
 
 std::vector<std::string> component_names() {
-    std::vector<std::string> names;
-    for (const Component& component : components())
-        names.push_back(component.name);
-    return names;
+    return core::texts_of(components(), &Component::name);
 }
 
 /// Asks for the full name probably meant by a name without a component or with a wrong one.
@@ -419,9 +417,8 @@ std::vector<core::Problem> check_settings(const ConditionSpec& condition, const 
 }
 
 std::string settings_text(const ConditionSpec& condition) {
-    std::vector<std::string> words;
-    for (const auto& [name, value] : condition.settings)
-        words.push_back(name + "=" + value);
+    std::vector<std::string> words = core::texts_of(
+        condition.settings, [](const auto& entry) { return entry.first + "=" + entry.second; });
     if (!condition.model_file.empty())
         words.push_back("model=" + std::filesystem::path(condition.model_file).filename().string());
     return fmt::format("{}", fmt::join(words, " "));
@@ -429,9 +426,8 @@ std::string settings_text(const ConditionSpec& condition) {
 
 std::string described_name(const ConditionSpec& condition) {
     const ConditionSpec usual;
-    std::vector<std::string> words;
-    for (const std::string& policy : condition.policies)
-        words.push_back(python::short_name(policy));
+    std::vector<std::string> words = core::texts_of(
+        condition.policies, [](const std::string& policy) { return python::short_name(policy); });
     if (condition.bluelight == traffic::BlueLight::on) words.emplace_back("bluelight");
     if (words.empty()) words.emplace_back("no_policy");
     if (condition.failure != usual.failure) words.push_back(condition.failure);

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "core/error.hpp"
 #include "core/field_page.hpp"
-#include "core/usage.hpp"
+#include "core/progress.hpp"
 #include "policy/policy.hpp"
 
 namespace clearway::experiment {
@@ -59,10 +59,7 @@ std::vector<core::FieldTable> with_shared_rows(std::vector<core::FieldTable> tab
 }
 
 std::vector<std::string> names_of(const std::vector<Component>& components) {
-    std::vector<std::string> names;
-    for (const Component& component : components)
-        names.push_back(component.name);
-    return names;
+    return core::texts_of(components, &Component::name);
 }
 
 }  // namespace

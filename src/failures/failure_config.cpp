@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "core/settings.hpp"
 
 namespace clearway::failures {
@@ -196,9 +197,7 @@ class ItemReader {
         const std::vector<FailurePreset> presets = failure_presets();
         const auto preset = std::ranges::find(presets, item, &FailurePreset::name);
         if (preset == presets.end()) {
-            std::vector<std::string> names;
-            for (const FailurePreset& one : presets)
-                names.push_back(one.name);
+            const std::vector<std::string> names = core::texts_of(presets, &FailurePreset::name);
             problems.push_back({"failure", fmt::format("'{}' is not a failure preset", item),
                                 core::listed(names), core::did_you_mean(std::string(item), names)});
             return;

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <array>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "core/error.hpp"

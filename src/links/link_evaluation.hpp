@@ -8,7 +8,6 @@
 #include "core/random.hpp"
 #include "links/link_run.hpp"
 #include "links/link_scores.hpp"
-#include "links/next_ahead.hpp"
 #include "links/place_errors.hpp"
 #include "metrics/link_comparison.hpp"
 #include "metrics/true_links.hpp"

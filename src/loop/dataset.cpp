@@ -11,7 +11,7 @@
 #include "loop/unit_run.hpp"
 #include "prediction/comparison/features.hpp"
 #include "samples/recorders.hpp"
-#include "trace/listeners.hpp"
+#include "trace/step_listener.hpp"
 
 namespace clearway::loop {
 namespace {

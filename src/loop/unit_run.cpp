@@ -8,8 +8,8 @@
 #include "experiment/settings.hpp"
 #include "loop/road_layout.hpp"
 #include "scenario/sumo_files.hpp"
-#include "trace/listeners.hpp"
 #include "trace/recording.hpp"
+#include "trace/step_listener.hpp"
 
 namespace clearway::loop {
 namespace {

@@ -1,6 +1,5 @@
 #include "metrics/counts.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -9,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/number.hpp"
 
 namespace clearway::metrics {
 namespace {
@@ -17,8 +17,8 @@ constexpr const char* header = "edge,vehicles_per_hour";
 
 /// False unless the text is a finite number, 0 or more.
 bool read_flow(const std::string& text, double& flow) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), flow);
-    return error == std::errc() && end == text.data() + text.size() && std::isfinite(flow) && flow >= 0.0;
+    flow = core::number_from(text).value_or(-1.0);
+    return std::isfinite(flow) && flow >= 0.0;
 }
 
 /// The next line, without the carriage return of other systems.

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <tuple>
-#include <utility>
 
 #include "core/fields.hpp"
 #include "core/ids.hpp"

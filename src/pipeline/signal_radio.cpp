@@ -1,6 +1,5 @@
 #include "pipeline/signal_radio.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <set>

@@ -261,10 +261,6 @@ std::string objections_text(const ScenarioSummary& scenario) {
                 text += fmt::format("{}: {}: {}.\n", printable(scenario.scenario),
                                     printable(condition.condition.name), why);
         }
-        if (condition.runs_without_horizon > 0)
-            text +=
-                fmt::format("{}: {}: {}\n", printable(scenario.scenario), printable(condition.condition.name),
-                            without_horizon_sentence(condition.runs_without_horizon));
     }
     return text.empty() ? text : text + "\n";
 }

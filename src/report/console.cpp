@@ -166,10 +166,6 @@ void append_wrapped(const std::string& paragraph, std::string& text) {
 
 void append_runs(const ScenarioFacts& scenario, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
-        if (condition.runs_without_horizon > 0)
-            append_wrapped(fmt::format("{}: {}", label(condition),
-                                       without_horizon_sentence(condition.runs_without_horizon)),
-                           text);
         if (condition.failed.empty()) continue;
         append_wrapped(
             fmt::format("Failed: {}: {} of {}; first: replication {}: {}", label(condition),

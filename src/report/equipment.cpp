@@ -6,9 +6,8 @@
 
 #include "core/csv.hpp"
 #include "report/detail/axes.hpp"
+#include "report/detail/figures.hpp"
 #include "report/detail/json.hpp"
-#include "report/detail/standalone.hpp"
-#include "report/signal_name.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report {

@@ -1,13 +1,13 @@
 #include "report/failure_curve.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <set>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "core/number.hpp"
 #include "experiment/settings.hpp"
 #include "report/text.hpp"
 
@@ -30,12 +30,11 @@ FailureText take_apart(std::string_view text) {
         std::string item(text.substr(0, comma));
         text.remove_prefix(std::min(comma + 1, text.size()));
         std::erase(item, ' ');
-        double share = 0.0;
-        const char* const end = item.data() + item.size();
-        const bool is_share = item.starts_with(share_field) &&
-                              std::from_chars(item.data() + share_field.size(), end, share).ptr == end;
-        if (is_share) {
-            result.dark_share = share;
+        const auto share = item.starts_with(share_field)
+                               ? core::number_from(std::string_view(item).substr(share_field.size()))
+                               : std::nullopt;
+        if (share) {
+            result.dark_share = *share;
         } else {
             result.rest += (result.rest.empty() ? "" : ",") + item;
         }

@@ -3,10 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include <fmt/format.h>
-
 #include "core/files.hpp"
-#include "report/detail/standalone.hpp"
+#include "report/detail/figures.hpp"
 #include "report/detail/table_files.hpp"
 #include "report/sections/sections.hpp"
 

@@ -150,7 +150,7 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
             to_json(response.percentile_90_difference_s, "pairs");
         result["response_in_time_1"]["difference"] = to_json(response.in_time_difference, "pairs");
     }
-    if (condition.leases) result["leases"] = to_json(*condition.leases);
+    result["leases"] = to_json(condition.leases);
     if (!condition.factors.empty()) result["factors"] = detail::factors_json(condition.factors);
     if (condition.precision) {
         const bool open = effect_of(condition, Measure::emergency_restricted_time) == Effect::none_shown;

@@ -255,12 +255,12 @@ std::vector<Provenance> provenance_of(const results::Results& results) {
     std::vector<Provenance> rows = {
         {"Study", manifest.study},
         {"Clearway", manifest.clearway_version},
+        {"Build", manifest.clearway_build},
         {"SUMO", manifest.sumo_version},
         {"Study seed", std::to_string(manifest.study_seed)},
         {"Replications", manifest.replications == 0 ? std::string("none")
                                                     : fmt::format("0 to {}", manifest.replications - 1)},
         {"Hash of the manifest", results::manifest_hash(manifest)}};
-    if (!manifest.clearway_build.empty()) rows.insert(rows.begin() + 2, {"Build", manifest.clearway_build});
     for (const results::ScenarioEntry& scenario : manifest.scenarios) {
         rows.emplace_back(
             fmt::format("Scenario {}", scenario.name),

@@ -7,6 +7,11 @@
 
 namespace clearway::report {
 
+std::string short_signal_name(const std::string& id) {
+    constexpr std::size_t most = 24;
+    return printable(id.size() <= most ? id : id.substr(0, most - 3) + "...");
+}
+
 std::string printable(const std::string& text) {
     std::string result;
     for (const char letter : text) {
@@ -66,14 +71,6 @@ std::string grouped(std::uint64_t count) {
 
 std::string counted(std::uint64_t count, std::string_view noun) {
     return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
-}
-
-std::string without_horizon_sentence(std::uint64_t runs) {
-    if (runs == 0) return {};
-    return fmt::format(
-        "{} that lost emergency vehicles (EV) {} of an older version, which did not record the horizon, so "
-        "EV travel time, all, is not known there. Repeat the study in a new folder.",
-        counted(runs, "run"), runs == 1 ? "is" : "are");
 }
 
 std::string wide_edges_sentence(const ScenarioFacts& scenario) {

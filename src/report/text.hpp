@@ -9,6 +9,9 @@
 
 namespace clearway::report {
 
+/// At most 24 characters of a signal's id for a terminal: those of joined junctions name all their nodes.
+std::string short_signal_name(const std::string& id);
+
 using core::escaped;
 
 /// The characters that numbers are written with.
@@ -57,9 +60,6 @@ std::string grouped(std::uint64_t count);
 
 /// `1 run`, `2 runs`.
 std::string counted(std::uint64_t count, std::string_view noun);
-
-/// What to do about runs of older versions that lost emergency vehicles; empty if there are none.
-std::string without_horizon_sentence(std::uint64_t runs);
 
 /// A sentence on the edges with three or more lanes for cars, without names; empty if the folder does not
 /// list them.

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/error.hpp"
 #include "report/locks.hpp"
 #include "traffic/step_length.hpp"
 
@@ -96,10 +96,9 @@ const char* words_of(traffic::LeaseKind action) {
 std::string reasons_of(const metrics::LeaseRow& row) {
     std::vector<std::pair<traffic::Refusal, std::uint64_t>> reasons(row.refused.begin(), row.refused.end());
     std::ranges::stable_sort(reasons, std::greater{}, &std::pair<traffic::Refusal, std::uint64_t>::second);
-    std::vector<std::string> words;
-    for (const auto& [reason, count] : reasons)
-        words.push_back(fmt::format("{} {}", name(reason), grouped(count)));
-    return fmt::format("{}", fmt::join(words, ", "));
+    return core::listed(core::texts_of(reasons, [](const auto& entry) {
+        return fmt::format("{} {}", name(entry.first), grouped(entry.second));
+    }));
 }
 
 /// Certain changes of other measures; for the others' time loss also that no effect is shown.
@@ -156,10 +155,9 @@ bool is_void_for_lost(const ConditionFacts& condition, Measure measure) {
 
 std::string lease_sentence(const ConditionFacts& condition) {
     if (condition.condition.policies.empty()) return "has no policy that could ask for anything";
-    if (!condition.leases) return "records of an older version hold totals only; run again for actions";
     std::vector<std::string> found;
     bool lane_changes = false;
-    for (const metrics::LeaseRow& row : *condition.leases) {
+    for (const metrics::LeaseRow& row : condition.leases) {
         lane_changes = lane_changes || row.action == traffic::LeaseKind::change_lane;
         const std::string often = row.issued == 1 ? "once" : grouped(row.issued) + " times";
         std::string text = fmt::format("{}: {} {}, {} carried out", row.policy, words_of(row.action), often,

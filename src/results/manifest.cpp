@@ -50,7 +50,7 @@ core::Json to_object(const Manifest& manifest) {
     object["format"] = manifest.format;
     object["study"] = manifest.study;
     object["clearway_version"] = manifest.clearway_version;
-    if (!manifest.clearway_build.empty()) object["clearway_build"] = manifest.clearway_build;
+    object["clearway_build"] = manifest.clearway_build;
     object["sumo_version"] = manifest.sumo_version;
     object["study_seed"] = manifest.study_seed;
     object["replications"] = manifest.replications;
@@ -95,9 +95,8 @@ void check_format(const core::Json& object, const std::string& where) {
 
 void Manifest::for_each_run(const std::function<void(const experiment::RunKey&)>& visit) const {
     const auto sorted_names = [](const auto& entries) {
-        std::vector<std::string> names;
-        for (const auto& entry : entries)
-            names.push_back(entry.name);
+        std::vector<std::string> names =
+            core::texts_of(entries, [](const auto& entry) { return entry.name; });
         std::ranges::sort(names);
         return names;
     };
@@ -160,7 +159,7 @@ Manifest manifest_from_json(const std::string& text, const std::string& where) {
     core::ObjectReader reader(object, where, problems);
     reader.read("study", manifest.study);
     reader.read("clearway_version", manifest.clearway_version);
-    reader.read_if_there("clearway_build", manifest.clearway_build);
+    reader.read("clearway_build", manifest.clearway_build);
     reader.read("sumo_version", manifest.sumo_version);
     reader.read("study_seed", manifest.study_seed);
     reader.read("replications", manifest.replications);

@@ -49,10 +49,10 @@ struct PrecisionTarget {
 
 /// What a study is. With it and the same versions every run can be repeated.
 struct Manifest {
-    int format = 4;  ///< Format of the run folder; other formats are rejected.
+    int format = 5;  ///< Format of the run folder; other formats are rejected.
     std::string study;
     std::string clearway_version;
-    std::string clearway_build = {};  ///< Of the programs (core::build_stamp); empty in older folders.
+    std::string clearway_build = {};  ///< Of the programs (core::build_stamp).
     std::string sumo_version;
     std::uint64_t study_seed = 1;
     std::uint32_t replications = 0;  ///< With a precision target: those asked for so far.
@@ -71,10 +71,6 @@ struct Manifest {
 
 /// How `differences` names another build of the programs.
 inline constexpr const char* another_build = "build of Clearway";
-/// The build as messages name it.
-inline std::string build_of(const Manifest& manifest) {
-    return manifest.clearway_build.empty() ? "an older one" : manifest.clearway_build;
-}
 
 /// Names of what differs between two manifests, `seed, conditions`; empty for the same study.
 std::string differences(const Manifest& left, const Manifest& right);

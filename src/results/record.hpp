@@ -1,10 +1,8 @@
 #pragma once
 
-#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -32,12 +30,11 @@ struct RunRecord {
     /// Where time was lost; empty for solo. Journeys, edge times, holds and locks are
     /// written but not read back; see Store::read_traffic.
     metrics::TrafficTables traffic;
-    /// By policy, then action. Nothing in a record of a version which kept only totals.
-    std::optional<std::vector<metrics::LeaseRow>> leases = {};
+    std::vector<metrics::LeaseRow> leases = {};  ///< By policy, then action.
     /// Written but not read back; see Store::read_signal_events. Nothing where no policy could ask for
-    /// greens, and in records of older versions.
+    /// greens.
     std::optional<std::vector<metrics::SignalEvent>> signal_events = {};
-    std::string build = {};  ///< Of the programs. Written from the manifest; empty in older records.
+    std::string build = {};  ///< Of the programs. Written from the manifest.
 
     bool operator==(const RunRecord&) const = default;
 };

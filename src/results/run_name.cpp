@@ -1,14 +1,13 @@
 #include "results/run_name.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/number.hpp"
 #include "trace/recording.hpp"
 
 namespace clearway::results {
@@ -49,19 +48,10 @@ std::optional<Parts> parts_of(const std::string& name) {
 template <class Entry>
 void require_known(const std::string& where, const std::string& name, const std::vector<Entry>& entries,
                    std::vector<core::Problem>& problems) {
-    std::vector<std::string> known;
-    for (const Entry& entry : entries)
-        known.push_back(entry.name);
+    const std::vector<std::string> known = core::texts_of(entries, &Entry::name);
     if (std::ranges::find(known, name) != known.end()) return;
     problems.push_back({where, fmt::format("`{}` is not in this study", name), core::listed(known),
                         core::did_you_mean(name, known)});
-}
-
-std::optional<std::uint32_t> number_from(const std::string& text) {
-    std::uint32_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return number;
 }
 
 }  // namespace
@@ -88,7 +78,7 @@ NamedRun run_named(const std::string& name, const std::string& where) {
     std::vector<core::Problem> problems;
     require_known(where + ": scenario", parts->scenario, manifest.scenarios, problems);
     require_known(where + ": condition", parts->condition, manifest.conditions, problems);
-    const std::optional<std::uint32_t> number = number_from(parts->number);
+    const std::optional<std::uint32_t> number = core::number_from<std::uint32_t>(parts->number);
     if (number && *number < manifest.replications) {
         run.key.replication = *number;
     } else {

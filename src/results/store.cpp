@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <ctime>
 #include <fstream>
 #include <set>
@@ -15,6 +14,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/number.hpp"
 #include "results/detail/record_files.hpp"
 #include "results/detail/signal_event_files.hpp"
 #include "results/detail/traffic_files.hpp"
@@ -106,7 +106,7 @@ void require_continues(const Manifest& wanted, const Manifest& stored, const fs:
     if (continues(of_this_build, stored))
         throw core::InputError({folder.string(),
                                 fmt::format("was made by another build of Clearway: {}, and this is {}",
-                                            build_of(stored), build_of(wanted)),
+                                            stored.clearway_build, wanted.clearway_build),
                                 "runs of one build in a folder",
                                 "Choose another folder with --out, and see with `clearway compare` whether "
                                 "the builds differ; or "
@@ -258,13 +258,9 @@ void Store::for_each_file(const fs::path& root,
             const fs::path folder = root / scenario.name / condition.name;
             for (auto entry = fs::directory_iterator(folder, none);
                  !none && entry != fs::directory_iterator(); entry.increment(none)) {
-                const std::string stem = entry->path().stem().string();
-                std::uint32_t replication = 0;
-                const auto [end, error] =
-                    std::from_chars(stem.data(), stem.data() + stem.size(), replication);
-                const bool whole = error == std::errc() && end == stem.data() + stem.size();
-                if (whole && replication < manifest_.replications)
-                    visit({scenario.name, condition.name, replication});
+                const auto number = core::number_from<std::uint32_t>(entry->path().stem().string());
+                if (number && *number < manifest_.replications)
+                    visit({scenario.name, condition.name, *number});
             }
         }
     }

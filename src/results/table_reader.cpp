@@ -4,13 +4,12 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "results/detail/log_tables.hpp"
-#include "results/detail/runs_hash.hpp"
+#include "results/detail/record_files.hpp"
 #include "results/detail/sqlite.hpp"
 
 namespace clearway::results {
@@ -34,7 +33,7 @@ std::string text_at(sqlite3_stmt* row, int column) {
     return {text, static_cast<std::size_t>(sqlite3_column_bytes(row, column))};
 }
 
-/// A value of table `study`; empty if it has none, as a database of an older version.
+/// A value of table `study`; empty if it has none.
 std::string study_value(const Database& database, const char* key) {
     std::string value;
     database.for_each_row(fmt::format("SELECT value FROM study WHERE key = '{}'", key),
@@ -149,7 +148,7 @@ void print_table(const Store& store, const std::string& table, TableFormat forma
     if (std::ranges::find(known, table) == known.end()) {
         throw core::InputError({"table",
                                 fmt::format("there is no `{}` in {}", table, store.folder().string()),
-                                fmt::format("{}", fmt::join(known, ", ")), ""});
+                                core::listed(known), ""});
     }
     format == TableFormat::csv ? print_csv(database, table, out) : print_json(database, table, out);
 }

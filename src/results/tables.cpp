@@ -4,7 +4,6 @@
 #include "core/csv.hpp"
 #include "results/detail/database.hpp"
 #include "results/detail/record_files.hpp"
-#include "results/detail/runs_hash.hpp"
 #include "results/factor_columns.hpp"
 #include "results/table_writer.hpp"
 
@@ -79,8 +78,7 @@ std::string leases_header() {
 
 void append_leases(const RunRecord& run, std::string& text) {
     const std::string key = key_cells(run.key);
-    if (!run.leases) return;
-    for (const metrics::LeaseRow& lease : *run.leases) {
+    for (const metrics::LeaseRow& lease : run.leases) {
         const std::string start = fmt::format("{},{},{}", key, csv_text(lease.policy), name(lease.action));
         core::for_each_field<metrics::LeaseRow>([&](const auto& field) {
             text += fmt::format("{},{},,{}\n", start, field.name, lease.*field.member);

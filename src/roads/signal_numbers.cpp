@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <map>
 #include <string>
 
+#include "core/number.hpp"
 #include "traffic/signal.hpp"
 
 namespace clearway::roads {
@@ -23,9 +23,7 @@ std::string colours(const Signal& signal, std::size_t link) {
 
 /// The number in a phase's name; 0 for another name.
 std::uint32_t number_in(const std::string& name) {
-    std::uint32_t number = 0;
-    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-    return error == std::errc() && end == name.data() + name.size() ? number : 0;
+    return core::number_from<std::uint32_t>(name).value_or(0);
 }
 
 /// Phases that run side by side and are named by numbers, as in SUMO's controller NEMA.

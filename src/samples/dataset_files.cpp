@@ -1,6 +1,5 @@
 #include "samples/dataset_files.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -11,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/number.hpp"
 
 namespace clearway::samples {
 namespace {
@@ -77,10 +77,7 @@ Table parse(const std::string& file, std::string_view content) {
 template <class Number>
 std::optional<Number> number_from(std::string_view text) {
     if (text.starts_with('+')) text.remove_prefix(1);
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return number;
+    return core::number_from<Number>(text);
 }
 
 std::string quoted(std::string_view text) {

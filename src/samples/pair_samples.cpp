@@ -1,7 +1,6 @@
 #include "samples/pair_samples.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
@@ -9,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/number.hpp"
 #include "samples/detail/sample_file.hpp"
 
 namespace clearway::samples {
@@ -60,9 +60,8 @@ std::string read_row(std::string_view line, PairSampleFile& samples) {
                                prediction::pair_feature_count + 1);
         }
         const std::string_view cell = line.substr(0, end);
-        float value = 0.0F;
-        const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-        if (error != std::errc{} || stop != cell.data() + cell.size() || !std::isfinite(value))
+        const float value = core::number_from<float>(cell).value_or(std::nanf(""));
+        if (!std::isfinite(value))
             return fmt::format("value {}: `{}` is not a finite number", column + 1, cell.substr(0, 40));
         if (is_last) {
             if (value != 0.0F && value != 1.0F) return fmt::format("the label {} is neither 0 nor 1", value);

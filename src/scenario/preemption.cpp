@@ -1,8 +1,6 @@
 #include "scenario/preemption.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -11,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "core/csv.hpp"
+#include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/number.hpp"
 #include "roads/own_clearance.hpp"
 #include "traffic/signal.hpp"
 
@@ -123,17 +123,12 @@ class Reading {
             core::read_cell(cell, target);
         } catch (const std::runtime_error&) {
             target.reset();
-            return refuse_value(line, cell, field, is_number(cell) ? "is no whole number" : "is no number");
+            return refuse_value(line, cell, field,
+                                core::number_from(cell) ? "is no whole number" : "is no number");
         }
         if (!target || (*target >= field.minimum && *target <= field.maximum)) return;
         target.reset();
         refuse_value(line, cell, field, "is out of range");
-    }
-
-    static bool is_number(std::string_view cell) {
-        double number = 0.0;
-        const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-        return error == std::errc() && end == cell.data() + cell.size();
     }
 
     template <class Field>
@@ -237,9 +232,7 @@ PreemptionRows read_preemption_rows(const std::filesystem::path& file, std::vect
 std::vector<Preemption> preemption_of(const PreemptionRows& rows, const std::filesystem::path& file,
                                       const roads::Network& network) {
     std::vector<Problem> problems;
-    std::vector<std::string> known;
-    for (const roads::Signal& signal : network.signals())
-        known.push_back(signal.id);
+    const std::vector<std::string> known = core::texts_of(network.signals(), &roads::Signal::id);
     std::vector<Preemption> signals(network.signals().size());
     for (const auto& [id, row] : rows) {
         const std::string where = fmt::format("{}:{}", file.string(), row.line);

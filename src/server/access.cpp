@@ -135,9 +135,9 @@ std::vector<std::string> addresses_of(const std::string& host, const std::string
     if (!error) return {host};
     boost::asio::io_context loop;
     boost::asio::ip::tcp::resolver resolver(loop);
-    std::vector<std::string> found;
-    for (const auto& entry : resolver.resolve(host, "", error))
-        found.push_back(entry.endpoint().address().to_string());
+    std::vector<std::string> found = core::texts_of(resolver.resolve(host, "", error), [](const auto& entry) {
+        return entry.endpoint().address().to_string();
+    });
     if (error || found.empty())
         throw core::InputError({where, fmt::format("`{}` is neither an address nor a known name", host),
                                 "an IPv4 or IPv6 address, or a name of this machine",

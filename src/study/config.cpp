@@ -340,9 +340,7 @@ void keep_named(StrictTable& quick, const char* key, std::vector<Element>& all) 
     std::vector<std::string> kept;
     quick.texts(key, kept);
     if (kept.empty()) return;
-    std::vector<std::string> names;
-    for (const Element& element : all)
-        names.push_back(element.name);
+    const std::vector<std::string> names = core::texts_of(all, &Element::name);
     for (const std::string& name : kept) {
         if (std::ranges::find(names, name) != names.end()) continue;
         quick.problem(key, fmt::format("'{}' is not in the study", name), core::listed(names),

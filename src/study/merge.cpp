@@ -26,7 +26,7 @@ void require_same_study(const results::Store& first, const results::Store& other
         throw core::InputError(
             {other.folder().string(),
              fmt::format("was made by another build of Clearway than {}: {}, not {}", first.folder().string(),
-                         results::build_of(other.manifest()), results::build_of(first.manifest())),
+                         other.manifest().clearway_build, first.manifest().clearway_build),
              "shards of one build", "Make the shards of one of them again with the build of the others"});
     throw core::InputError(
         {other.folder().string(),

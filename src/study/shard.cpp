@@ -1,22 +1,16 @@
 #include "study/shard.hpp"
 
-#include <charconv>
-
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/number.hpp"
 
 namespace clearway::study {
 namespace {
 
 constexpr const char* shard_file = ".shard";
 constexpr const char* allowed = "I/N with 1 <= I <= N, for example 3/8";
-
-bool read_number(const std::string& text, std::uint32_t& number) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc() && end == text.data() + text.size();
-}
 
 }  // namespace
 
@@ -26,10 +20,12 @@ std::string to_text(const Shard& shard) {
 
 Shard shard_from(const std::string& text, const std::string& where) {
     const std::size_t slash = text.find('/');
-    Shard shard;
-    if (slash == std::string::npos || !read_number(text.substr(0, slash), shard.index) ||
-        !read_number(text.substr(slash + 1), shard.count))
+    const auto index = core::number_from<std::uint32_t>(text.substr(0, slash));
+    const auto count =
+        core::number_from<std::uint32_t>(slash == std::string::npos ? "" : text.substr(slash + 1));
+    if (!index || !count)
         throw core::InputError({where, fmt::format("\"{}\" is not a shard", text), allowed, ""});
+    const Shard shard{*index, *count};
     if (shard.count == 0)
         throw core::InputError({where, text + " divides a study into 0 shards", allowed, ""});
     if (shard.index == 0 || shard.index > shard.count)

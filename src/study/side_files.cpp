@@ -21,7 +21,7 @@ std::string wide_edges_json(const roads::Network& network) {
     for (const scenario::WideEdge& edge : scenario::wide_edges(network)) {
         rows.push_back({{"edge", edge.id}, {"street", edge.name}, {"car_lanes", edge.car_lanes}});
     }
-    return rows.dump(2, ' ', false, core::Json::error_handler_t::replace) + "\n";
+    return core::to_text(rows);
 }
 
 /// Street names of edges outside junctions, as read_facts expects them.

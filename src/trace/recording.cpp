@@ -80,7 +80,7 @@ core::Json read_info(hid_t file, const std::string& where) {
 /// Hash of everything recorded; does not depend on chunks or compression.
 template <class Tables>
 std::string hash_of(const RecordingInfo& info, Tables& steps) {
-    detail::RunningHash hash;
+    core::RunningHash hash;
     hash.add(core::to_text(to_json(info)));
     for (const detail::ColumnFile* const column : steps.file.columns())
         hash.add(column->path() + " " + column->digest() + "\n");

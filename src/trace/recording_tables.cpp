@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/csv.hpp"
+#include "core/error.hpp"
 #include "truth/events.hpp"
 #include "truth/snapshot.hpp"
 
@@ -196,10 +197,7 @@ std::string_view name(RecordingTable table) {
 }
 
 std::vector<std::string> recording_table_names() {
-    std::vector<std::string> names;
-    for (const TableEntry& entry : tables)
-        names.emplace_back(entry.name);
-    return names;
+    return core::texts_of(tables, &TableEntry::name);
 }
 
 std::optional<RecordingTable> recording_table_from(std::string_view word) {

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "experiment/condition.hpp"
 #include "metrics/link_quality.hpp"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "trace/recording.hpp"
 #include "traffic/vehicle.hpp"
 
@@ -18,6 +20,26 @@ class StepListener {
     /// At the end of the step, with what was reported and decided in it. `step` is valid only during the
     /// call.
     virtual void on_step_end(const RecordedStep& /*step*/) {}
+};
+
+/// Passes every step on to several listeners, which outlive it.
+class Listeners : public StepListener {
+  public:
+    void add(StepListener& listener) { listeners_.push_back(&listener); }
+    bool empty() const { return listeners_.empty(); }
+    void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) override {
+        for (StepListener* const listener : listeners_) {
+            listener->on_step(snapshot, roster);
+        }
+    }
+    void on_step_end(const RecordedStep& step) override {
+        for (StepListener* const listener : listeners_) {
+            listener->on_step_end(step);
+        }
+    }
+
+  private:
+    std::vector<StepListener*> listeners_;
 };
 
 }  // namespace clearway::trace

@@ -3,7 +3,6 @@
 #include <compare>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>

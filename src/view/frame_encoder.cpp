@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <iterator>
-#include <stdexcept>
 
 namespace clearway::view {
 namespace {

@@ -18,6 +18,11 @@ TEST(Printout, aligns_columns_and_leaves_out_what_has_no_title) {
               "Ane        12.5  tea+salt\n"
               "Bö            -  -\n"
               "    in dock\n");
+    EXPECT_EQ(
+        text_of({"", {{"", "set"}}, {{{core::Json{{"a", 1}, {"b", "two"}}}}, {{core::Json::object()}}}}),
+        "set\n"
+        "a=1 b=two\n"
+        "-\n");
 }
 
 TEST(Printout, json_has_the_facts_and_what_has_a_key) {

@@ -120,23 +120,12 @@ kind = "car"
         EXPECT_THAT(events.out, HasSubstr(signal));
 }
 
-TEST_F(SignalAuditTest, repeats_runs_that_kept_no_event_log) {
-    make("intersection", "out", {"--seeds", "1"});
-    const std::string run = "out/runs/intersection/mine/00000/run.json";
-    std::string text = read(run);
-    const std::size_t at = text.find("\"signal_events_hash\"");
-    ASSERT_NE(at, std::string::npos);
-    write(run, text.erase(at, text.find('\n', at) + 1 - at));
-    const Ended ended = clearway({"verify", "--signals", "out"});
-    EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
-    EXPECT_THAT(ended.out, HasSubstr("1 run audited, 1 without"));
-}
-
 TEST_F(SignalAuditTest, refuses_what_is_no_run_folder_and_a_damaged_log) {
     const Ended nowhere = clearway({"verify", "--signals", "nowhere"});
     EXPECT_EQ(nowhere.code, 3);
     EXPECT_THAT(nowhere.err,
                 HasSubstr("nowhere is not a run folder (allowed: a folder written with --out, or"));
+    EXPECT_EQ(clearway({"verify", "--signals", "out", "--out", "again"}).code, 2) << "nothing is repeated";
     make("intersection", "out", {"--seeds", "1"});
     const std::string log = "out/runs/intersection/mine/00000/signal_events.csv";
     write(log, read(log) + "yesterday,J,1,1,0,,Phase Begin Green\n");

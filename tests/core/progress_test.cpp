@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "core/terminal.hpp"
-
 namespace clearway::core {
 namespace {
 

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
-#include "core/process_folder.hpp"
 
 namespace clearway::core {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "links/next_ahead.hpp"
-
 namespace clearway::links {
 namespace {
 

@@ -61,7 +61,7 @@ class Golden : public testing::Test {
             all.push_back(vehicle.id);
             add(vehicle);
         }
-        for (const metrics::LeaseRow& lease : record.leases.value()) {
+        for (const metrics::LeaseRow& lease : record.leases) {
             all.push_back({lease.policy, name(lease.action), lease.refused_words()});
             add(lease);
         }

@@ -120,7 +120,7 @@ TEST(Worker, LetsEmergencyVehiclesInWhereThereIsNoSignalAndOnlyWhereVehiclesHear
     ASSERT_TRUE(run_worker(folder, folder.unit(0)).ok());
     std::uint64_t stops = 0;
     const results::RunRecord asked = record_of(folder, "city", "asking");
-    for (const metrics::LeaseRow& row : asked.leases.value()) {
+    for (const metrics::LeaseRow& row : asked.leases) {
         if (row.action == traffic::LeaseKind::stop_at_line) stops += row.acted;
     }
     EXPECT_GT(stops, 0U);
@@ -130,7 +130,7 @@ TEST(Worker, LetsEmergencyVehiclesInWhereThereIsNoSignalAndOnlyWhereVehiclesHear
     };
     EXPECT_NE(trace("asking"), trace("baseline"));
     const results::RunRecord unheard = record_of(folder, "city", "deaf");
-    for (const metrics::LeaseRow& row : unheard.leases.value())
+    for (const metrics::LeaseRow& row : unheard.leases)
         EXPECT_EQ(row.acted, 0U) << name(row.action);
 }
 

@@ -159,15 +159,6 @@ TEST(Shortfalls, IncludeLostEmergencyVehiclesHoweverGoodTheMeanOfTheRest) {
                 testing::StartsWith("city: treated?[2J: lost 2 of 20"));
 }
 
-TEST(ComparisonText, SaysWhatToDoAboutRunsThatNameNoHorizon) {
-    analysis::Summary summary = summary_with(-3.25);
-    summary.scenarios[0].conditions[0].runs_without_horizon = 2;
-    EXPECT_THAT(
-        comparison_text(summary, {"collisions"}),
-        testing::StartsWith("city: baseline: 2 runs that lost emergency vehicles (EV) are of an older "
-                            "version"));
-}
-
 TEST(ComparisonText, SaysTooFewSeedsBelowFivePairs) {
     analysis::Summary summary = summary_with(-3.25);
     for (analysis::MetricSummary& metric : summary.scenarios[0].conditions[1].metrics)

@@ -178,7 +178,6 @@ TEST(ConsoleTables, show_lost_emergency_vehicles_beside_the_means_of_those_that_
     condition.objections.emergency = {.arrived = 47, .teleported = 13};
     condition.objections.baseline_emergency = {.arrived = 60};
     condition.condition.policies = {"corridor"};
-    condition.leases.emplace();
     const std::string text = console_tables(study);
     EXPECT_THAT(text, HasSubstr("[-15.5, -9.3]  lost EVs\n"));
     EXPECT_THAT(text, Not(HasSubstr("[-15.5, -9.3]  better\n")));

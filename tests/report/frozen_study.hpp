@@ -48,6 +48,7 @@ class FrozenStudy {
         results::Manifest manifest;
         manifest.study = "frozen <script>";
         manifest.clearway_version = "0.1.0";
+        manifest.clearway_build = "0123456789abcdef";
         manifest.sumo_version = "1.15.0";
         manifest.study_seed = 7;
         manifest.replications = 6;

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 
 #include "core/temporary_folder.hpp"
+#include "report/detail/figures.hpp"
 #include "report/detail/script.hpp"
-#include "report/detail/standalone.hpp"
 #include "report/figure_files.hpp"
 #include "report/sample.hpp"
 

@@ -38,12 +38,13 @@ TEST(Manifest, IsRefusedWhenEditedOrOfAnotherFormat) {
     text.replace(text.find("1.15.0"), 6, "1.16.0");
     EXPECT_THROW(manifest_from_json(text, "m"), core::InputError);
     text = to_json(synthetic::manifest());
-    text.replace(text.find("\"format\": 4"), 11, "\"format\": 9");
+    text.replace(text.find("\"format\": 5"), 11, "\"format\": 9");
     try {
         manifest_from_json(text, "m.json");
         FAIL();
     } catch (const core::InputError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("m.json: format"));
+        EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("m.json: format: is 9 (allowed: 5)"),
+                                                 testing::HasSubstr("version of Clearway that wrote it")));
     }
 }
 

@@ -127,26 +127,21 @@ TEST_F(StoreOfAStudy, NoticesAnEditedNumberOfTheRunItself) {
     }
 }
 
-/// Makes the record that of a version without restricted times.
-void take_restricted_time_out(const std::filesystem::path& file) {
+TEST_F(StoreOfAStudy, RefusesARecordThatLacksAMetricAndSaysHowToMakeItAgain) {
+    store_.write(record(treated, 50.5), {});
+    const std::filesystem::path file = store_.run_folder(treated) / "run.json";
     nlohmann::ordered_json object = nlohmann::ordered_json::parse(core::read_file(file));
     object["metrics"].erase("emergency_restricted_travel_time_s");
     object.erase("hash");
     object["hash"] = core::content_hash(core::to_text(object));
     core::write_atomically(file, core::to_text(object));
-}
-
-TEST_F(StoreOfAStudy, ReadsRecordsOfVersionsWithoutRestrictedTimesAndInventsNone) {
-    store_.write(record(treated, 50.5), {});
-    take_restricted_time_out(store_.run_folder(treated) / "run.json");
-    EXPECT_EQ(store_.read(treated)->metrics.emergency_restricted_travel_time_s, 50.5) << "all arrived";
-    EXPECT_FALSE(store_.read(treated)->leases);
-    const experiment::RunKey other{"alpha", "treated", 0};
-    RunRecord lost = record(other);
-    lost.vehicles[0].outcome = metrics::VehicleOutcome::teleported;
-    store_.write(lost, {});
-    take_restricted_time_out(store_.run_folder(other) / "run.json");
-    EXPECT_FALSE(store_.read(other)->metrics.emergency_restricted_travel_time_s) << "no horizon is known";
+    try {
+        store_.read(treated);
+        FAIL();
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("emergency_restricted_travel_time_s"),
+                                                 testing::HasSubstr("makes the run again")));
+    }
 }
 
 TEST_F(StoreOfAStudy, SetsDamagedRunsAsideWithoutLosingThem) {

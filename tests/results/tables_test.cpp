@@ -91,13 +91,13 @@ TEST(Tables, HaveALineForEveryOutcomeOfTheLeasesOfAnAction) {
     const support::TemporaryFolder folder;
     const Store store = Store::create(folder.path(), synthetic::manifest());
     RunRecord run = synthetic::record({"alpha", "treated", 0});
-    run.leases.emplace().push_back({"listing_5_5",
-                                    traffic::LeaseKind::change_lane,
-                                    5,
-                                    2,
-                                    1,
-                                    3,
-                                    {{traffic::Refusal::no_room_beside, 4}}});
+    run.leases.push_back({"listing_5_5",
+                          traffic::LeaseKind::change_lane,
+                          5,
+                          2,
+                          1,
+                          3,
+                          {{traffic::Refusal::no_room_beside, 4}}});
     store.write(run, {});
     EXPECT_EQ(store.read(run.key)->leases, run.leases);
     write_tables(store);

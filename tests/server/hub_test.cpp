@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/json.hpp"
 #include "view/frame_encoder.hpp"
 
 namespace clearway::server::detail {

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <cstdint>
 #include <list>
-#include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "actuation/lease_counts.hpp"

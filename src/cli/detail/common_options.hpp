@@ -12,14 +12,41 @@
 #include "experiment/loop_config.hpp"
 #include "experiment/run_job.hpp"
 #include "report/console.hpp"
+#include "scenario/config.hpp"
 
 namespace clearway::cli {
 
+/// Declares an option for each override of a scenario (`--dense`, `--density`, ...; scenario/overrides.hpp).
+/// `options` receives the values and must outlive the parsing. Ranges are checked when the scenario is
+/// loaded, together with the rest of it.
+void add_scenario_options(CLI::App& app, scenario::Options& options);
+
+/// Declares `--override NAME=VALUE` instead: all overrides by their names in study files.
+void add_override_option(CLI::App& app, scenario::Options& options);
+
 using campaign::Printing;
+
+/// While it lives, options that are declared stand in this group of the help.
+class OptionGroup {
+  public:
+    OptionGroup(CLI::App& app, const std::string& name)
+        : defaults_(*app.option_defaults()), before_(defaults_.get_group()) {
+        defaults_.group(name);
+    }
+    ~OptionGroup() { defaults_.group(before_); }
+    OptionGroup(const OptionGroup&) = delete;
+    OptionGroup& operator=(const OptionGroup&) = delete;
+
+  private:
+    CLI::OptionDefaults& defaults_;
+    std::string before_;
+};
 
 /// Largest number of replications that an option takes.
 inline constexpr std::uint32_t most_replications = 100000;
 
+/// Declares the scenario that a verb needs, its first word.
+void add_scenario_argument(CLI::App& app, std::string& scenario);
 /// Declares `--json`; `what` completes "Print ... as JSON".
 void add_json_option(CLI::App& app, Printing& printing, const std::string& what);
 /// Declares `--tables`: every measure is printed.
@@ -42,6 +69,6 @@ void add_limit_options(CLI::App& app, experiment::RunLimits& limits);
 void add_publish_options(CLI::App& app, campaign::Publication& publication);
 
 /// `--link-radius` and `--automated-links`.
-std::vector<CLI::Option*> add_link_options(CLI::App& app, experiment::LinkSettings& links, const char* group);
+std::vector<CLI::Option*> add_link_options(CLI::App& app, experiment::LinkSettings& links);
 
 }  // namespace clearway::cli

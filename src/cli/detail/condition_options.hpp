@@ -17,14 +17,13 @@ struct DescribedCondition {
     std::string model;                  ///< Model file; empty: the built-in model.
 };
 
-/// Declares `--policy`, `--failure`, `--predictor`, `--set`, `--model` and `--safety-checks` in a group of
-/// the help. Names are checked later (names.hpp). `usual_policy` is the default that the help shows.
-void add_condition_options(CLI::App& app, DescribedCondition& described, const std::string& usual_policy,
-                           const std::string& group);
+/// Declares `--policy`, `--failure`, `--predictor`, `--set`, `--model` and `--safety-checks`. Names are
+/// checked later (names.hpp). `usual_policy` is the default that the help shows.
+void add_condition_options(CLI::App& app, DescribedCondition& described, const std::string& usual_policy);
 
 /// Declares only `--set` and `--model`; `usual` is the default that the help shows for `--model`.
 void add_setting_options(CLI::App& app, std::vector<std::string>& settings, std::string& model,
-                         const std::string& usual, const std::string& group);
+                         const std::string& usual);
 
 /// Name and value of `NAME=VALUE`. Throws core::InputError, naming `option`.
 std::pair<std::string, std::string> assignment(const std::string& option, const std::string& words,
@@ -52,5 +51,27 @@ CLI::Option* add_switch(CLI::App& app, const std::string& name, Switch& value, c
             name, [&value](const std::string& word) { value = *core::value_from<Switch>(word); }, help)
         ->check(CLI::IsMember({"on", "off"}));
 }
+
+/// The conditions that a user names or describes on the command line.
+struct ConditionWords {
+    std::vector<std::string> names;  ///< Built-in ones.
+    DescribedCondition own;          ///< Without a name it is named after its content.
+};
+
+/// Declares `--condition`.
+void add_condition_words(CLI::App& app, ConditionWords& words);
+/// Declares the options that describe a condition of one's own.
+void add_own_condition_options(CLI::App& app, DescribedCondition& described);
+
+/// The conditions that the words mean; may be empty. Throws core::InputError.
+std::vector<experiment::ConditionSpec> chosen_conditions(const ConditionWords& words);
+
+/// The only one of `chosen`, or the usual one. Throws core::InputError, naming `what` (an option or verb),
+/// for more.
+experiment::ConditionSpec shown_condition(const std::vector<experiment::ConditionSpec>& chosen,
+                                          const std::string& what);
+
+/// Adds a condition unless one of its name is there.
+void add_once(std::vector<experiment::ConditionSpec>& conditions, const experiment::ConditionSpec& condition);
 
 }  // namespace clearway::cli

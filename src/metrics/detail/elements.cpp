@@ -1,10 +1,11 @@
 #include "metrics/detail/elements.hpp"
 
-#include <charconv>
 #include <exception>
 #include <stdexcept>
 
 #include <fmt/format.h>
+
+#include "core/number.hpp"
 
 namespace clearway::metrics::detail {
 namespace {
@@ -32,12 +33,8 @@ class Visitor : public core::XmlHandler {
 
 double Element::number(std::string_view attribute) const {
     const std::string_view word = text(attribute);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size()) {
-        throw std::invalid_argument(fmt::format("{}: {}=\"{}\" is not a number", name_, attribute, word));
-    }
-    return value;
+    if (const auto value = core::number_from(word)) return *value;
+    throw std::invalid_argument(fmt::format("{}: {}=\"{}\" is not a number", name_, attribute, word));
 }
 
 void for_each_element(const std::filesystem::path& file, const std::function<void(const Element&)>& visit) {

@@ -5,20 +5,15 @@
 #include <variant>
 #include <vector>
 
-#include <fmt/format.h>
-
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 namespace clearway::metrics::detail {
+namespace {
 
-struct TraceHash::State {
-    State() { XXH3_128bits_reset(&hash); }
-
+/// Adds values to a hash.
+struct Adder {
     template <class Value>
     void value(Value number) {
         static_assert(std::is_arithmetic_v<Value> || std::is_enum_v<Value>);
-        XXH3_128bits_update(&hash, &number, sizeof(number));
+        hash.add({reinterpret_cast<const char*>(&number), sizeof(number)});
     }
 
     /// For element types without padding. The length is hashed first, so that the boundary between two arrays
@@ -27,12 +22,12 @@ struct TraceHash::State {
     void array(const std::vector<Element>& elements) {
         static_assert(std::is_floating_point_v<Element> || std::has_unique_object_representations_v<Element>);
         value(static_cast<std::uint64_t>(elements.size()));
-        XXH3_128bits_update(&hash, elements.data(), elements.size() * sizeof(Element));
+        hash.add({reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(Element)});
     }
 
     void text(std::string_view characters) {
         value(static_cast<std::uint64_t>(characters.size()));
-        XXH3_128bits_update(&hash, characters.data(), characters.size());
+        hash.add(characters);
     }
 
     void operator()(const traffic::DriveAt& action) { value(action.speed.value); }
@@ -56,50 +51,42 @@ struct TraceHash::State {
         value(stretch.addressed);
     }
 
-    XXH3_state_t hash{};
+    core::RunningHash& hash;
 };
 
-TraceHash::TraceHash() : state_(std::make_unique<State>()) {}
-TraceHash::~TraceHash() = default;
-TraceHash::TraceHash(TraceHash&&) noexcept = default;
-TraceHash& TraceHash::operator=(TraceHash&&) noexcept = default;
+}  // namespace
 
 void TraceHash::add(const truth::Snapshot& snapshot) {
-    State& state = *state_;
-    state.value(snapshot.time.value);
-    state.array(snapshot.key);
-    state.array(snapshot.vehicle_class);
-    state.array(snapshot.x_m);
-    state.array(snapshot.y_m);
-    state.array(snapshot.heading_rad);
-    state.array(snapshot.speed_mps);
-    state.array(snapshot.acceleration_mps2);
-    state.array(snapshot.lane);
-    state.array(snapshot.lane_position_m);
-    state.array(snapshot.route_edge);
+    Adder adder{hash_};
+    adder.value(snapshot.time.value);
+    adder.array(snapshot.key);
+    adder.array(snapshot.vehicle_class);
+    adder.array(snapshot.x_m);
+    adder.array(snapshot.y_m);
+    adder.array(snapshot.heading_rad);
+    adder.array(snapshot.speed_mps);
+    adder.array(snapshot.acceleration_mps2);
+    adder.array(snapshot.lane);
+    adder.array(snapshot.lane_position_m);
+    adder.array(snapshot.route_edge);
     for (const std::string& signal : snapshot.signals.state)
-        state.text(signal);
+        adder.text(signal);
 }
 
 void TraceHash::add(std::span<const traffic::Lease> leases) {
-    State& state = *state_;
-    state.value(static_cast<std::uint64_t>(leases.size()));
+    Adder adder{hash_};
+    adder.value(static_cast<std::uint64_t>(leases.size()));
     for (const traffic::Lease& lease : leases) {
-        state.value(static_cast<std::uint64_t>(lease.target.index()));
-        std::visit(state, lease.target);
-        state.text(traffic::name(lease.action));
-        std::visit(state, lease.action);
-        state.value(lease.expiry.value);
-        state.value(lease.priority);
-        state.text(lease.policy);
-        state.text(lease.reason);
-        state.value(lease.beneficiary.value);
+        adder.value(static_cast<std::uint64_t>(lease.target.index()));
+        std::visit(adder, lease.target);
+        adder.text(traffic::name(lease.action));
+        std::visit(adder, lease.action);
+        adder.value(lease.expiry.value);
+        adder.value(lease.priority);
+        adder.text(lease.policy);
+        adder.text(lease.reason);
+        adder.value(lease.beneficiary.value);
     }
-}
-
-std::string TraceHash::digest() const {
-    const XXH128_hash_t hash = XXH3_128bits_digest(&state_->hash);
-    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
 }  // namespace clearway::metrics::detail

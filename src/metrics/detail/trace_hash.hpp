@@ -1,9 +1,9 @@
 #pragma once
 
-#include <memory>
 #include <span>
 #include <string>
 
+#include "core/running_hash.hpp"
 #include "traffic/lease.hpp"
 #include "truth/snapshot.hpp"
 
@@ -14,19 +14,13 @@ namespace clearway::metrics::detail {
 /// numbers.
 class TraceHash {
   public:
-    TraceHash();
-    ~TraceHash();
-    TraceHash(TraceHash&&) noexcept;
-    TraceHash& operator=(TraceHash&&) noexcept;
-
     void add(const truth::Snapshot& snapshot);
     void add(std::span<const traffic::Lease> leases);
     /// Hash of everything added so far, 32 hex digits.
-    std::string digest() const;
+    std::string digest() const { return hash_.digest(); }
 
   private:
-    struct State;
-    std::unique_ptr<State> state_;
+    core::RunningHash hash_;
 };
 
 }  // namespace clearway::metrics::detail

@@ -1,9 +1,8 @@
 #include "report/detail/canvas.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
+#include "core/progress.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report::detail {
@@ -13,12 +12,6 @@ constexpr double letter_width = 6.3;  // of text of 12 units, mean; from Liberat
 constexpr double legend_row = 18.0;
 constexpr double legend_mark = 34.0;  // the mark and the gap behind it
 constexpr std::size_t longest_entry = 56;
-
-/// Characters of a UTF-8 text.
-std::size_t letters(const std::string& text) {
-    return static_cast<std::size_t>(std::ranges::count_if(
-        text, [](char letter) { return (static_cast<unsigned char>(letter) & 0xC0U) != 0x80U; }));
-}
 
 std::string class_of(std::size_t series) {
     return fmt::format("s{}", series % palette_size);
@@ -81,7 +74,8 @@ void Canvas::legend(const std::vector<LegendEntry>& entries) {
     height_ += legend_row;
     for (const LegendEntry& entry : entries) {
         const std::string words = shortened(entry.words, longest_entry);
-        const double entry_width = legend_mark + letter_width * static_cast<double>(letters(words)) + 12.0;
+        const double entry_width =
+            legend_mark + letter_width * static_cast<double>(core::characters_in(words)) + 12.0;
         if (x > 8.0 && x + entry_width > width) {
             x = 8.0;
             height_ += legend_row;

@@ -1,13 +1,42 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
+#include "report/detail/axes.hpp"
 #include "report/detail/writer.hpp"
 #include "report/facts.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report::detail {
+
+/// A drawing of the page, one `<svg>` element with a view box, as a file of its own: with a size, a style
+/// sheet and white paper. A picture with a style of its own keeps it.
+std::string standalone(const std::string& drawing);
+
+// Figures of the first screen. Without a drawing if there is nothing to draw.
+
+/// Extends the ranges by the places of a journey.
+void include(const JourneyFacts& journey, Range& times, Range& distances);
+/// Distance over time.
+Points way_of(const JourneyFacts& journey);
+
+/// Time and distance of one emergency vehicle of one replication, with and without a condition in one
+/// drawing, and what the signals on its route showed in both.
+Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& condition);
+
+/// Map of the roads with the ways of the emergency vehicles in the colour and width of the seconds gained on
+/// each edge, the signals held, and the approaches on which others lose time.
+Figure gain_map_figure(const ScenarioFacts& scenario);
+
+/// Map of what an emergency vehicle reaches from its stations within some minutes with and without a
+/// condition; what only one of the two reaches is marked.
+Figure reach_figure(const ScenarioFacts& scenario);
+
+/// Gain of the emergency vehicles over the cost to the others: one point for each condition with both
+/// intervals, and the band of gains that do not count. Conditions have numbers, their places in the scenario.
+Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario);
 
 constexpr NumberStyle typeset(int decimals, Sign sign = Sign::negative_only) {
     return {decimals, Script::typeset, sign};

@@ -6,7 +6,6 @@
 
 #include "report/detail/figures.hpp"
 #include "report/detail/map_canvas.hpp"
-#include "report/detail/overview_figures.hpp"
 
 namespace clearway::report::detail {
 namespace {

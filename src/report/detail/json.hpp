@@ -3,15 +3,15 @@
 #include <optional>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include "analysis/estimate.hpp"
 #include "analysis/summary.hpp"
+#include "core/json.hpp"
 #include "core/settings.hpp"
 
 namespace clearway::report::detail {
 
-using Json = nlohmann::ordered_json;
+using core::Json;
+using core::to_text;
 
 /// Null for a missing value.
 inline Json json_of(const std::optional<double>& value) {
@@ -51,10 +51,6 @@ inline Json locks_json(const analysis::ConditionSummary& condition) {
          {"locks", "locked_vehicles", "locked_emergency_vehicles", "locked_vehicle_s"})
         object[metric] = condition.total(metric);
     return object;
-}
-
-inline std::string to_text(const Json& object) {
-    return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace clearway::report::detail

@@ -1,11 +1,8 @@
-#include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
 #include "report/detail/figures.hpp"
 #include "report/detail/map_canvas.hpp"
-#include "report/detail/overview_figures.hpp"
 
 namespace clearway::report::detail {
 namespace {

@@ -1,7 +1,6 @@
 #include "report/detail/style.hpp"
 
 #include <array>
-#include <string_view>
 
 #include <fmt/format.h>
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -13,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "core/csv.hpp"
+#include "core/error.hpp"
 
 namespace clearway::report::detail {
 namespace {
@@ -105,9 +104,8 @@ std::string latex_escaped(const std::string& text) {
 }
 
 std::string latex_line(const std::vector<std::string>& cells) {
-    std::vector<std::string> escaped_cells;
-    for (const std::string& cell : cells)
-        escaped_cells.push_back(latex_escaped(cell));
+    std::vector<std::string> escaped_cells =
+        core::texts_of(cells, [](const std::string& cell) { return latex_escaped(cell); });
     return fmt::format("{} \\\\\n", fmt::join(escaped_cells, " & "));
 }
 

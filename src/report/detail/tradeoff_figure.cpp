@@ -4,7 +4,6 @@
 
 #include "report/detail/axes.hpp"
 #include "report/detail/figures.hpp"
-#include "report/detail/overview_figures.hpp"
 #include "report/verdict.hpp"
 
 namespace clearway::report::detail {

@@ -1,11 +1,9 @@
-#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
 
 #include "report/detail/axes.hpp"
 #include "report/detail/figures.hpp"
-#include "report/detail/overview_figures.hpp"
 #include "report/sections/sections.hpp"
 
 namespace clearway::report::detail {

@@ -77,11 +77,6 @@ void outcomes_section(const StudyFacts& study, Writer& writer) {
         "road; the third lists the actions and the reasons for refusals.</p>\n");
     for (const ScenarioFacts& scenario : study.scenarios) {
         writer.heading(scenario.name);
-        for (const ConditionFacts& condition : scenario.conditions) {
-            if (condition.runs_without_horizon > 0)
-                writer.markup(fmt::format("<p class=\"note\">{}: {}</p>\n", condition_label(condition),
-                                          without_horizon_sentence(condition.runs_without_horizon)));
-        }
         writer.table({"outcomes-" + scenario.name, "", endings_of(scenario)});
         writer.table({"events-" + scenario.name, "", events_of(scenario)});
         writer.table({"actions-" + scenario.name, "", leases_of(scenario)});

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "report/detail/overview_figures.hpp"
+#include "report/detail/figures.hpp"
 #include "report/sections/sections.hpp"
 
 namespace clearway::report::detail {

@@ -219,8 +219,7 @@ void DatabaseWriter::add(const RunRecord& run) {
     row.insert();
     for (const metrics::VehicleRow& vehicle : run.vehicles)
         add(run.key, vehicle);
-    if (!run.leases) return;
-    for (const metrics::LeaseRow& lease : *run.leases) {
+    for (const metrics::LeaseRow& lease : run.leases) {
         core::for_each_field<metrics::LeaseRow>(
             [&](const auto& field) { add(run.key, lease, field.name, "", lease.*field.member); });
         for (const auto& [reason, count] : lease.refused)

@@ -16,10 +16,8 @@ namespace clearway::results::detail {
 namespace {
 
 std::vector<std::string> event_rows(const std::vector<metrics::SignalEvent>& events) {
-    std::vector<std::string> rows;
-    for (const metrics::SignalEvent& event : events)
-        rows.push_back(signal_event_cells(event));
-    return rows;
+    return core::texts_of(events,
+                          [](const metrics::SignalEvent& event) { return signal_event_cells(event); });
 }
 
 std::string measures_header() {

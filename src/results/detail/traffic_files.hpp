@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "core/json.hpp"
 #include "metrics/traffic_tables.hpp"
@@ -15,7 +14,7 @@ core::Json traffic_to_json(const metrics::TrafficTables& tables);
 /// Approaches and recovery. The other tables are not read, because they are large and few readers want them.
 /// Throws core::InputError, naming `where`.
 metrics::TrafficTables traffic_from_json(const core::Json& run, const std::string& where);
-/// All tables; those that a record of an older version lacks are empty.
+/// All tables; empty ones for a record without them.
 metrics::TrafficTables all_traffic_from_json(const core::Json& run, const std::string& where);
 
 }  // namespace clearway::results::detail

@@ -1,19 +1,17 @@
 #pragma once
 
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
 
+#include "core/number.hpp"
+
 namespace clearway::roads::detail {
 
-/// Parses all of `text` as a finite number, independent of the locale; nothing when it is not one.
+/// All of `text` as a finite number; nothing when it is not one.
 inline std::optional<double> parse_number(std::string_view text) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-        return std::nullopt;
-    return value;
+    const auto value = core::number_from(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 /// Calls `visit` with each non-empty part of `text` between separators.

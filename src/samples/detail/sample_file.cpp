@@ -1,7 +1,6 @@
 #include "samples/detail/sample_file.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 #include "scenario/detail/checks.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>

@@ -14,7 +14,6 @@
 #include "scenario/detail/demand.hpp"
 #include "scenario/detail/driver_types.hpp"
 #include "scenario/detail/own_types.hpp"
-#include "scenario/detail/route_file.hpp"
 #include "scenario/detail/trip_routes.hpp"
 #include "scenario/detail/xml_text.hpp"
 #include "scenario/vehicle_types.hpp"

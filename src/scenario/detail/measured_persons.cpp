@@ -12,7 +12,6 @@
 
 #include "core/error.hpp"
 #include "roads/walkways.hpp"
-#include "scenario/detail/route_file.hpp"
 #include "scenario/detail/xml_text.hpp"
 
 namespace clearway::scenario::detail {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "core/xml_stream.hpp"
@@ -98,9 +99,8 @@ const Source* blamed(const std::vector<Source>& sources, const std::string& comp
 /// Problems of a network that its source does not show.
 std::vector<core::Problem> problems_of_source(const ScenarioConfig& config, const std::filesystem::path& made,
                                               std::vector<core::Problem> problems) {
-    std::vector<std::string> files;
-    for (const Source& source : sources_of(config))
-        files.push_back(source.file.string());
+    std::vector<std::string> files =
+        core::texts_of(sources_of(config), [](const Source& source) { return source.file.string(); });
     const char* const key = config.network.plain() ? "network" : "network.file";
     for (core::Problem& problem : problems) {
         if (!problem.where.starts_with(made.string())) continue;
@@ -148,9 +148,8 @@ core::Problem refusal(const ScenarioConfig& config, const std::string& ended, co
     const std::string what = fmt::format("netconvert refuses this network ({}):\n{}", ended, complaint);
     if (const Source* source = blamed(sources, complaint))
         return {config.where(source->key), what, "", fmt::format("Correct {}", source->file.string())};
-    std::vector<std::string> files;
-    for (const Source& source : sources)
-        files.push_back(source.file.string());
+    std::vector<std::string> files =
+        core::texts_of(sources, [](const Source& source) { return source.file.string(); });
     return {config.where("network"), what, "", fmt::format("Correct one of {}", core::listed(files))};
 }
 

@@ -1,7 +1,10 @@
 #include "scenario/detail/xml_text.hpp"
 
-namespace clearway::scenario::detail {
+#include <fmt/format.h>
 
+#include "core/error.hpp"
+
+namespace clearway::scenario::detail {
 namespace {
 
 struct TextWriter : pugi::xml_writer {
@@ -12,6 +15,15 @@ struct TextWriter : pugi::xml_writer {
 };
 
 }  // namespace
+
+pugi::xml_document load_route_file(const std::filesystem::path& file) {
+    pugi::xml_document document;
+    const pugi::xml_parse_result result = document.load_file(file.c_str());
+    if (!result)
+        throw core::InputError(core::Problem{fmt::format("{}: byte {}", file.string(), result.offset),
+                                             result.description(), "a SUMO route file", "correct the file"});
+    return document;
+}
 
 std::string element_text(pugi::xml_node element) {
     TextWriter writer;

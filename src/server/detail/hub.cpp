@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/write.hpp>
+
 #include "view/frame_encoder.hpp"
 
 namespace clearway::server::detail {
@@ -9,17 +12,15 @@ namespace {
 
 using view::BlockKind;
 
-/// The first number of a block's content; the content is a run's own, so it is whole.
-std::uint64_t first_number(std::string_view content) {
-    std::uint64_t value = 0;
-    unsigned shift = 0;
-    for (const char letter : content) {
-        const auto byte = static_cast<unsigned char>(letter);
+/// Reads one number of a stream (view::BlockKind). False when it is not whole yet.
+bool read_number(std::string_view bytes, std::size_t& at, std::uint64_t& value) {
+    value = 0;
+    for (unsigned shift = 0; at < bytes.size(); shift += 7) {
+        const auto byte = static_cast<unsigned char>(bytes[at++]);
         value |= static_cast<std::uint64_t>(byte & 0x7fU) << shift;
-        shift += 7;
-        if (byte < 0x80U || shift > 56) break;
+        if (byte < 0x80U) return true;
     }
-    return value;
+    return false;
 }
 
 Message::Kind kind_of(BlockKind kind) {
@@ -41,6 +42,43 @@ std::string block_of(std::size_t run, std::uint8_t kind, std::string_view conten
 
 }  // namespace
 
+void Feed::allow(double time_s) {
+    allowed_s_ = time_s;
+    if (is_writing_ || allowed_s_ == sent_s_) return;
+    is_writing_ = true;
+    sent_s_ = allowed_s_;
+    boost::asio::async_write(
+        socket_, boost::asio::buffer(&sent_s_, sizeof sent_s_),
+        [self = shared_from_this()](const boost::system::error_code& error, std::size_t) {
+            self->is_writing_ = false;
+            if (!error && self->allowed_s_ != self->sent_s_) self->allow(self->allowed_s_);
+        });
+}
+
+void Feed::read() {
+    socket_.async_read_some(
+        boost::asio::buffer(chunk_),
+        [self = shared_from_this()](const boost::system::error_code& error, std::size_t size) {
+            if (error) return self->events_.closed();
+            self->pending_.append(self->chunk_.data(), size);
+            self->take_blocks();
+            self->read();
+        });
+}
+
+void Feed::take_blocks() {
+    std::size_t taken = 0;
+    while (taken < pending_.size()) {
+        std::size_t at = taken + 1;
+        std::uint64_t length = 0;
+        if (!read_number(pending_, at, length) || length > pending_.size() - at) break;
+        events_.block(static_cast<std::uint8_t>(pending_[taken]),
+                      std::string_view(pending_).substr(at, length));
+        taken = at + length;
+    }
+    pending_.erase(0, taken);
+}
+
 Hub::Taken Hub::take(std::size_t number, std::uint8_t kind, std::string_view content) {
     Run& run = runs_.at(number);
     if (static_cast<BlockKind>(kind) == BlockKind::message) {
@@ -56,10 +94,10 @@ Hub::Taken Hub::take(std::size_t number, std::uint8_t kind, std::string_view con
     }
     if (what == Message::Kind::key) run.frames.clear();
     run.frames.push_back(message);
-    constexpr double milliseconds = 1000.0;
-    return {.message = message,
-            .time_s = static_cast<double>(first_number(content)) / milliseconds,
-            .ended = false};
+    std::size_t at = 0;
+    std::uint64_t time_ms = 0;
+    read_number(content, at, time_ms);  // a frame begins with its time, and the content is a run's own
+    return {.message = message, .time_s = static_cast<double>(time_ms) / 1000.0, .ended = false};
 }
 
 bool Hub::has_begun() const {

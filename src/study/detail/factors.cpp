@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "core/folder_name.hpp"
 #include "experiment/settings.hpp"
 #include "scenario/keys.hpp"
@@ -196,9 +197,8 @@ void check_design(const Factors& factors, Problems& problems) {
 
 /// Keys that every scenario may have, and overrides.
 std::vector<std::string> scenario_names() {
-    std::vector<std::string> names;
-    for (const scenario::Override& override : scenario::overrides())
-        names.push_back(override.value.name);
+    std::vector<std::string> names = core::texts_of(
+        scenario::overrides(), [](const scenario::Override& override) { return override.value.name; });
     for (const core::FieldTable& table : scenario::key_tables()) {
         if (table.title.starts_with("[[")) continue;
         for (const core::SettingInfo& row : table.rows)

@@ -18,10 +18,7 @@ using core::StrictTable;
 
 template <class Element>
 std::vector<std::string> names_of(const std::vector<Element>& elements) {
-    std::vector<std::string> names;
-    for (const Element& element : elements)
-        names.push_back(element.name);
-    return names;
+    return core::texts_of(elements, &Element::name);
 }
 
 /// The name probably meant by one that is not in the study. Factors lengthen names: `a` is `a+lease_s=2`
@@ -40,7 +37,7 @@ void check_name(StrictTable& row, const char* key, const std::string& name,
                 const std::vector<std::string>& known) {
     if (std::ranges::find(known, name) != known.end()) return;
     row.problem(key, name.empty() ? "is missing" : fmt::format("'{}' is not in the study", name),
-                fmt::format("{}", fmt::join(known, ", ")), meant(name, known));
+                core::listed(known), meant(name, known));
 }
 
 /// Metrics in seconds, for which the margin has a meaning.
@@ -133,7 +130,7 @@ void read_plan(StrictTable& root, Extent extent, StudyConfig& config) {
     const std::vector<std::string> metrics = metrics_in_seconds();
     if (std::ranges::find(metrics, plan.metric) == metrics.end())
         reader->problem("metric", fmt::format("'{}' is not a metric in seconds", plan.metric),
-                        fmt::format("{}", fmt::join(metrics, ", ")), "");
+                        core::listed(metrics), "");
     if (rows.empty())
         reader->problem("comparison", "is missing", "at least one [[plan.comparison]]",
                         "Name what the study is to show, or remove [plan]");

@@ -10,7 +10,7 @@
 #include <hdf5.h>
 
 #include "core/json.hpp"
-#include "trace/detail/running_hash.hpp"
+#include "core/running_hash.hpp"
 
 namespace clearway::trace::detail {
 
@@ -128,7 +128,7 @@ class DataSet {
     std::size_t width_;
     std::size_t chunk_ = 0;
     std::size_t size_ = 0;
-    RunningHash hash_;
+    core::RunningHash hash_;
 };
 
 }  // namespace clearway::trace::detail

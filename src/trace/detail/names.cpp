@@ -87,7 +87,7 @@ void Names::read(TableReader& file) {
     texts_.assign(read_texts(texts.get(), "value"));
 }
 
-void Names::add_to(RunningHash& hash) const {
+void Names::add_to(core::RunningHash& hash) const {
     for (const core::VehicleKey key : keys_.values())
         hash.add({reinterpret_cast<const char*>(&key.value), sizeof(key.value)});
     for (const std::vector<std::string>* const texts : {&ids_, &texts_.values()}) {

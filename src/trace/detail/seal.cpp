@@ -12,7 +12,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
-#include "trace/detail/running_hash.hpp"
+#include "core/running_hash.hpp"
 
 namespace clearway::trace::detail {
 namespace {
@@ -29,7 +29,7 @@ std::string seal_text(std::uint64_t length, const std::string& hash) {
 }
 
 /// Hashes what follows the seal. False when the stream cannot be read to its end.
-bool hash_rest(std::ifstream& stream, RunningHash& hash, std::uint64_t& length) {
+bool hash_rest(std::ifstream& stream, core::RunningHash& hash, std::uint64_t& length) {
     std::vector<char> piece(piece_length);
     stream.seekg(seal_length);
     while (stream) {
@@ -63,7 +63,7 @@ void refuse_other_formats(const std::filesystem::path& file, const std::string& 
 
 std::string seal_of(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
-    RunningHash hash;
+    core::RunningHash hash;
     std::uint64_t length = 0;
     if (!stream || !hash_rest(stream, hash, length)) throw core::write_error(file, errno);
     return seal_text(length, hash.digest());
@@ -88,7 +88,7 @@ void check_seal(const std::filesystem::path& file) {
     if (number != std::string::npos)
         std::from_chars(head.data() + number + 8, head.data() + head.size(), length);
     if (size - seal_length < length) fail(file, "is cut short: it has no end");
-    RunningHash hash;
+    core::RunningHash hash;
     std::uint64_t found = 0;
     if (!hash_rest(stream, hash, found)) fail(file, "cannot be read to its end");
     if (length != 0 && found > length) fail(file, "is damaged: something follows its end");

@@ -370,7 +370,7 @@ class Names {
     void write(TableWriter& file) const;
     void read(TableReader& file);
     /// Adds all names to the hash.
-    void add_to(RunningHash& hash) const;
+    void add_to(core::RunningHash& hash) const;
 
   private:
     Interned<core::VehicleKey> keys_;

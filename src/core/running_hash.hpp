@@ -4,13 +4,14 @@
 #include <string>
 #include <string_view>
 
-namespace clearway::trace::detail {
+namespace clearway::core {
 
-/// Hash of everything added, 32 hex digits: equal to core::content_hash of the whole.
+/// Hash of everything added, 32 hex digits (XXH3, 128 bit): equal to `content_hash` of the whole.
 class RunningHash {
   public:
     RunningHash();
     RunningHash(RunningHash&&) noexcept;
+    RunningHash& operator=(RunningHash&&) noexcept;
     ~RunningHash();
 
     void add(std::string_view bytes);
@@ -21,4 +22,4 @@ class RunningHash {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace clearway::trace::detail
+}  // namespace clearway::core

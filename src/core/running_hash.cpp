@@ -1,11 +1,11 @@
-#include "trace/detail/running_hash.hpp"
+#include "core/running_hash.hpp"
 
 #include <fmt/format.h>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-namespace clearway::trace::detail {
+namespace clearway::core {
 
 struct RunningHash::State {
     XXH3_state_t hash{};
@@ -14,6 +14,7 @@ RunningHash::RunningHash() : state_(std::make_unique<State>()) {
     XXH3_128bits_reset(&state_->hash);
 }
 RunningHash::RunningHash(RunningHash&&) noexcept = default;
+RunningHash& RunningHash::operator=(RunningHash&&) noexcept = default;
 RunningHash::~RunningHash() = default;
 void RunningHash::add(std::string_view bytes) {
     XXH3_128bits_update(&state_->hash, bytes.data(), bytes.size());
@@ -23,4 +24,4 @@ std::string RunningHash::digest() const {
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-}  // namespace clearway::trace::detail
+}  // namespace clearway::core
