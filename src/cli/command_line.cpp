@@ -256,6 +256,13 @@ std::span<const Verb> verbs() {
 }
 
 int run_command_line(int argument_count, const char* const* arguments) {
+    std::vector<const char*> asked;
+    if (argument_count > 1 && std::string_view(arguments[1]) == "help") {  // `help run` is `run --help`
+        asked.assign(arguments, arguments + argument_count);
+        asked.erase(asked.begin() + 1);
+        asked.push_back("--help");
+        arguments = asked.data();
+    }
     // Line buffering for pipes too, so that messages on standard error never land within a line of output.
     std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
     const int usage = static_cast<int>(core::ExitCode::usage);

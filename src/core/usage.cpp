@@ -1,6 +1,7 @@
 #include "core/usage.hpp"
 
 #include <algorithm>
+#include <regex>
 #include <sstream>
 #include <utility>
 
@@ -32,6 +33,16 @@ std::string wrapped_line(const std::string& line) {
     if (line.starts_with("  clearway ")) return wrapped(line, 6, " \\");
     const std::size_t margin = line.find_first_not_of(' ');
     return wrapped(line, margin <= 2 ? description_column : margin);
+}
+
+/// The parser says `--seeds: Value x not in range 1 to 100`, whether x is a number or not.
+std::string range_message(const std::string& text) {
+    static const std::regex out_of_range("(.*): Value (.*) not in range (.*) to (.*)");
+    std::smatch part;
+    if (!std::regex_match(text, part, out_of_range)) return text;
+    const bool is_number = part[2].str().find_first_not_of("0123456789-") == std::string::npos;
+    return fmt::format("{}: {} is {} (allowed: {} to {})", part[1].str(), part[2].str(),
+                       is_number ? "out of range" : "no whole number", part[3].str(), part[4].str());
 }
 
 }  // namespace
@@ -70,7 +81,7 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI:
 
 std::string usage_message(const CLI::App& command, const std::string& name, const CLI::ParseError& error,
                           const std::vector<std::string>& words) {
-    std::string text = fmt::format("{}: {}", name, error.what());
+    std::string text = fmt::format("{}: {}", name, range_message(error.what()));
     const std::vector<std::string> unknown = command.remaining();
     if (!unknown.empty()) {
         const std::string word = unknown.front().substr(0, unknown.front().find('='));

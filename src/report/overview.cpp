@@ -159,9 +159,8 @@ Tile time_tile(const TileWords& words, const ConditionFacts& condition, Measure 
     return tile;
 }
 
-}  // namespace
-
-const ConditionFacts* featured_condition(const StudyFacts& study, const ScenarioFacts& scenario) {
+/// The compared condition with the largest shown gain, else as `featured_condition` says.
+const ConditionFacts* largest_gain(const StudyFacts& study, const ScenarioFacts& scenario) {
     const ConditionFacts* best = nullptr;
     std::tuple<bool, int, double> best_rank;
     for (const ConditionFacts& condition : scenario.conditions) {
@@ -175,6 +174,33 @@ const ConditionFacts* featured_condition(const StudyFacts& study, const Scenario
         best_rank = rank;
     }
     return best;
+}
+
+/// How much a condition needs: the fewer, the simpler.
+std::size_t parts_of(const ConditionFacts& facts) {
+    const experiment::ConditionSpec& condition = facts.condition;
+    std::size_t parts = condition.policies.size() + condition.settings.size();
+    if (condition.failure != "perfect") ++parts;
+    if (condition.predictor != "none") ++parts;
+    if (condition.bluelight == traffic::BlueLight::on) ++parts;
+    return parts;
+}
+
+}  // namespace
+
+const ConditionFacts* featured_condition(const StudyFacts& study, const ScenarioFacts& scenario) {
+    const ConditionFacts* const leader = largest_gain(study, scenario);
+    if (leader == nullptr || effect_of(*leader, primary) != Effect::better) return leader;
+    const bool varied = reference_of(study, scenario, *leader) != nullptr;
+    const double enough_s = leader->difference(primary)->mean + leader->least_relevant_s;
+    const ConditionFacts* simplest = leader;
+    for (const ConditionFacts& condition : scenario.conditions) {
+        const bool level = condition.is_compared() && effect_of(condition, primary) == Effect::better &&
+                           condition.difference(primary)->mean <= enough_s &&
+                           (reference_of(study, scenario, condition) != nullptr) == varied;
+        if (level && parts_of(condition) < parts_of(*simplest)) simplest = &condition;
+    }
+    return simplest;
 }
 
 std::string scenario_headline(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
@@ -225,7 +251,10 @@ std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scena
                                   : fmt::format("{} of {} conditions {} shown to help", help, compared,
                                                 help == 1 ? "is" : "are");
     if (help > 1)
-        words += "; this one has the largest mean gain, which usually overstates its true gain a little";
+        words += featured_condition(study, scenario) == largest_gain(study, scenario)
+                     ? "; this one has the largest mean gain, which usually overstates its true gain a little"
+                     : "; this one is the simplest of those whose mean gain is as large but for less than "
+                       "what counts as a difference";
     if (objected > 0)
         words += fmt::format("; {} lost or hit emergency vehicles, or ran without safety checks", objected);
     return words + ".";

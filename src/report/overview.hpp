@@ -10,9 +10,10 @@
 namespace clearway::report {
 
 /// The condition that a scenario's first screen is about: of those with a shown gain for emergency vehicles
-/// (EV) the one with the largest; else the one with the smallest EV travel time to which nothing is objected;
-/// else the first that is compared. Conditions with a setting turned alone come last. Null if none is
-/// compared.
+/// (EV) the one with the largest, or the simplest of those that are less than the least relevant difference
+/// behind it (fewest policies, settings, failures, repairs); else the one with the smallest EV travel time to
+/// which nothing is objected; else the first that is compared. Conditions with a setting turned alone come
+/// last. Null if none is compared.
 const ConditionFacts* featured_condition(const StudyFacts& study, const ScenarioFacts& scenario);
 
 /// One sentence made from the figures of a condition: `corridor saves ambulances 26 s a trip (24 %); other

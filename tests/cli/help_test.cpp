@@ -121,6 +121,19 @@ TEST_F(HelpTest, version_is_told_with_the_build_as_the_worker_does) {
     EXPECT_THAT(version.out, testing::MatchesRegex("clearway [0-9.]+\nbuild [0-9a-f]+\n"));
 }
 
+TEST_F(HelpTest, the_word_help_is_the_option) {
+    EXPECT_EQ(clearway({"help"}).out, clearway({"--help"}).out);
+    EXPECT_EQ(clearway({"help", "study", "status"}).out, clearway({"study", "status", "--help"}).out);
+    EXPECT_THAT(clearway({"help", "studdy"}).err, HasSubstr("Did you mean 'study'?"));
+}
+
+TEST_F(HelpTest, a_word_that_should_be_a_number_is_told_from_a_number_out_of_range) {
+    EXPECT_THAT(clearway({"run", "merge", "--seeds", "x"}).err,
+                HasSubstr("--seeds: x is no whole number (allowed: 1 to 100000)"));
+    EXPECT_THAT(clearway({"run", "merge", "--seeds", "0"}).err,
+                HasSubstr("--seeds: 0 is out of range (allowed: 1 to 100000)"));
+}
+
 TEST_F(HelpTest, an_unknown_verb_names_the_nearest) {
     const Ended ended = clearway({"compaer"});
     EXPECT_EQ(ended.code, 2);

@@ -158,6 +158,21 @@ TEST_F(Overview, FeaturesTheLargestShownGainAndSaysThatItWasChosen) {
     EXPECT_EQ(featured_condition(study_, scenario_), &scenario_.conditions[3]);
 }
 
+TEST_F(Overview, LetsTheSimplestOfEqualGainsSpeak) {
+    ConditionFacts failing = tests::condition("failing", "corridor with failing sensors", 73.9);
+    failing.condition.policies = corridor().condition.policies;
+    failing.condition.failure = "B10";
+    const double gain_s = corridor().difference(Measure::emergency_restricted_time)->mean;
+    corridor().least_relevant_s = failing.least_relevant_s = 1.0;
+    tests::compare(failing, around(gain_s - 0.1, 4.0), around(4.6, 1.0));
+    scenario_.conditions.push_back(failing);
+    EXPECT_EQ(featured_condition(study_, scenario_), &corridor());
+    EXPECT_THAT(among_conditions(study_, scenario_), HasSubstr("this one is the simplest of those"));
+    tests::compare(scenario_.conditions.back(), around(gain_s - 1.1, 4.0), around(4.6, 1.0));
+    EXPECT_EQ(featured_condition(study_, scenario_), &scenario_.conditions.back());
+    EXPECT_THAT(among_conditions(study_, scenario_), HasSubstr("largest mean gain"));
+}
+
 TEST_F(Overview, OfABaselineAloneIsEmpty) {
     scenario_.conditions.pop_back();
     EXPECT_EQ(featured_condition(study_, scenario_), nullptr);
