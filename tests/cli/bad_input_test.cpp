@@ -14,6 +14,16 @@ class BadInputTest : public UserTest {
     }
 };
 
+TEST_F(BadInputTest, a_name_of_a_shipped_scenario_and_of_a_folder_here_is_refused_with_both_places) {
+    ASSERT_EQ(clearway({"scenario", "init", "merge"}).code, 0);
+    const Ended ended = clearway({"run", "merge", "--seeds", "1"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("merge: is a shipped scenario and stands in this folder too"),
+                                 HasSubstr("./merge for the one here"), HasSubstr("scenarios/merge for")));
+    EXPECT_EQ(clearway({"scenario", "check", "./merge"}).code, 0);
+    std::filesystem::remove_all(folder() / "merge");
+}
+
 TEST_F(BadInputTest, an_unknown_scenario_names_the_nearest) {
     const Ended ended = clearway({"run", "mergee"});
     EXPECT_EQ(ended.code, 3);

@@ -29,12 +29,21 @@ std::filesystem::path library_folder() {
 }
 
 std::filesystem::path scenario_file(const std::string& name_or_path) {
-    const std::filesystem::path path(name_or_path);
-    if (std::filesystem::is_regular_file(path)) return path;
-    if (std::filesystem::is_regular_file(path / file_name)) return path / file_name;
+    std::filesystem::path path(name_or_path);
+    if (std::filesystem::is_regular_file(path / file_name)) path /= file_name;
+    const bool is_file = std::filesystem::is_regular_file(path);
+    if (is_file && name_or_path.find('/') != std::string::npos) return path;
     const std::vector<std::string> names = list();
-    if (std::find(names.begin(), names.end(), name_or_path) != names.end())
-        return library_folder() / name_or_path / file_name;
+    if (std::find(names.begin(), names.end(), name_or_path) != names.end()) {
+        const std::filesystem::path shipped = library_folder() / name_or_path;
+        if (is_file && !std::filesystem::equivalent(path, shipped / file_name))
+            throw core::InputError(
+                core::Problem{name_or_path, "is a shipped scenario and stands in this folder too", "",
+                              fmt::format("Say ./{} for the one here, {} for the shipped one", name_or_path,
+                                          shipped.string())});
+        return shipped / file_name;
+    }
+    if (is_file) return path;
     throw core::InputError(core::Problem{
         name_or_path, "is neither a scenario, nor a folder with a scenario.toml, nor a file",
         core::listed(names) + ", a folder or a TOML file", core::did_you_mean(name_or_path, names)});

@@ -10,7 +10,7 @@ namespace clearway::scenario::detail {
 std::filesystem::path library_folder();
 
 /// The TOML file of a scenario given as file, folder or name. Throws core::InputError naming the nearest
-/// known name.
+/// known name, or both places where a shipped scenario and one in the working folder have this name.
 std::filesystem::path scenario_file(const std::string& name_or_path);
 
 /// Text as a TOML string, quotes included.
