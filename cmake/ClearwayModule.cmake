@@ -230,6 +230,7 @@ function(clearway_test name)
     target_compile_definitions(${name} PRIVATE CLEARWAY_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                                CLEARWAY_BINARY_DIR="${CMAKE_BINARY_DIR}")
     clearway_compile_options(${name})
+    target_compile_options(${name} PRIVATE ${CLEARWAY_TEST_FLAGS})
     if("fast" IN_LIST arg_LABELS OR "torch" IN_LIST arg_LABELS)
         add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
         set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} COST ${arg_COST})
