@@ -126,6 +126,9 @@ class Env(_Base):
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
         """Begins an episode: the replication ``seed``, or, without one, the next of ``seeds`` in turn.
 
+        Which is next follows from the last ``seed`` alone: the one after it in ``seeds``, or, for any other s, the one at position s
+        modulo their number.
+
         The same seed gives the same episode, to the bit. The first episode of a seed loads and warms up its simulation; later ones
         fork from there. ``options`` are not used.
         """
@@ -136,6 +139,7 @@ class Env(_Base):
         else:
             seed = _checked_seed(seed)
             self._seed_generator(seed)
+            self._episode = self._seeds.index(seed) + 1 if seed in self._seeds else seed
         if self._np_random is None:
             self._seed_generator(self._seeds[0])
         self._state = "over"

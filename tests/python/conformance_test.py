@@ -145,6 +145,17 @@ class GymnasiumTest(FolderCase):
         env.reset()
         self.assertEqual(env.np_random.bit_generator.state, state)
 
+    def test_the_next_replication_follows_from_the_seed_alone(self) -> None:
+        for seed in (123, 1):
+            rounds = []
+            for _ in range(2):
+                self.env.reset(seed=seed)
+                rounds.append([self.env.reset() for _ in range(2)])
+                self.env.reset()
+            for (observation, info), (again, info_again) in zip(*rounds):
+                self.check_equal(observation, again)
+                self.assertEqual(info["seed"], info_again["seed"])
+
     def test_a_step_is_deterministic_and_has_the_right_types(self) -> None:
         env = self.env
         env.action_space.seed(123)
