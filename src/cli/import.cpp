@@ -77,8 +77,9 @@ core::ExitCode import(Arguments& arguments) {
                    folder.string(),
                    core::shell_text({"clearway", "scenario", "check", scenario, "--lock-trials", "6"}));
     }
-    return findings.bad_vehicles_share > scenario_import::most_bad_vehicles ? core::ExitCode::fell_short
-                                                                            : core::ExitCode::ok;
+    const bool falls_short =
+        findings.bad_vehicles_share > scenario_import::most_bad_vehicles || !findings.trial_failure.empty();
+    return falls_short ? core::ExitCode::fell_short : core::ExitCode::ok;
 }
 
 }  // namespace

@@ -184,6 +184,20 @@ void NetworkDocument::begin_programs_at(double begin_s) {
     }
 }
 
+bool NetworkDocument::replace_programs(const std::string& id, const std::string& program) {
+    pugi::xml_node root = document_.document_element();
+    pugi::xml_node first = root.find_child_by_attribute("tlLogic", "id", id.c_str());
+    if (!first) return false;
+    pugi::xml_document made;
+    made.load_string(program.c_str());
+    root.insert_copy_before(made.document_element(), first);
+    for (pugi::xml_node next; first; first = next) {
+        next = first.next_sibling("tlLogic");
+        if (first.attribute("id").value() == id) first.parent().remove_child(first);
+    }
+    return true;
+}
+
 std::string NetworkDocument::text() const {
     return detail::document_text(document_);
 }

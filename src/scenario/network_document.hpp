@@ -45,6 +45,9 @@ class NetworkDocument {
     void scale_speeds(const std::function<double(const std::string& edge)>& factor_of);
     /// Shifts the offsets of signal programs so that at time 0 they are where they were at `begin_s`.
     void begin_programs_at(double begin_s);
+    /// Puts `program`, the XML of a `<tlLogic>`, in place of the programs of signal `id`. Returns false when
+    /// there is no such signal.
+    bool replace_programs(const std::string& id, const std::string& program);
     std::string text() const;
 
   private:

@@ -42,6 +42,9 @@ std::string to_text(const Findings& findings) {
             "  short            {:.0f} % of the vehicles cannot drive their route and are left out: "
             "the traffic is not that of the files\n",
             100.0 * findings.bad_vehicles_share);
+    if (!findings.trial_failure.empty())
+        text += fmt::format("  short            SUMO fails in a trial run of the scenario: {}\n",
+                            findings.trial_failure);
     text += list_text("Changed:", findings.changes);
     text += list_text("Left out:", findings.left_out);
     return text;
@@ -64,6 +67,7 @@ std::string to_json(const Findings& findings) {
                                    {"routed_trips", findings.routed_trips},
                                    {"routed_at_departure", findings.routed_at_departure},
                                    {"bad_vehicles_share", findings.bad_vehicles_share},
+                                   {"trial_failure", findings.trial_failure},
                                    {"persons", findings.persons},
                                    {"demand", findings.demand},
                                    {"changes", findings.changes},

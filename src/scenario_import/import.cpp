@@ -299,6 +299,7 @@ void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfi
         detail::add_sumo_demand(import, sources.demand, network, import.scenario / network_name, config)) {
         take_over_times(sources, config);
         detail::compare_steps(import, try_out_demand(import, config), sources.step_length_s);
+        import.findings.trial_failure = in_own_words(import.findings.trial_failure, import);
         return;
     }
     if (has_files)

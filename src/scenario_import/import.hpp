@@ -55,6 +55,8 @@ struct Findings {
     std::size_t routed_at_departure = 0;  ///< Of these, those that SUMO routes by the traffic of the moment.
     /// Share of the vehicles in the files that cannot drive their route and were left out, 0 to 1.
     double bad_vehicles_share = 0.0;
+    /// What SUMO says of a trial run of the scenario that failed; empty where none did.
+    std::string trial_failure;
     std::size_t persons = 0;  ///< Persons of the scenario's own files, in the window.
     std::string demand;       ///< Where the demand comes from and how busy it is, in words.
     std::vector<std::string> changes;

@@ -74,12 +74,12 @@ TEST_F(SumoTrips, are_routed_at_departure_as_by_plain_sumo_to_the_vehicle) {
     EXPECT_EQ(trips_of(detail::sumo_arguments(made)), expected);
 
     std::string without = traffic();
-    const std::string device = "<param key=\"has.rerouting.device\" value=\"true\"";
-    for (std::size_t at = without.find(device); at != std::string::npos; at = without.find(device))
-        without.replace(at, device.size(), "<param key=\"nothing\" value=\"true\"");
+    const std::string mark = " reroute=\"true\"";
+    for (std::size_t at = without.find(mark); at != std::string::npos; at = without.find(mark))
+        without.erase(at, mark.size());
     write("demand/traffic.rou.xml", without);
     EXPECT_NE(trips_of(detail::sumo_arguments(made)), expected)
-        << "the ways at free flow, without SUMO's routing device";
+        << "the ways at free flow, without SUMO's mark of trips";
 }
 
 TEST_F(SumoTrips, choose_again_on_their_way_where_the_configuration_says_so) {

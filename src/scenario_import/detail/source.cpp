@@ -99,6 +99,8 @@ SourceKind kind_of(const std::filesystem::path& file) {
     const std::string head = head_of(stream);
     if (head.empty()) refuse(file, "is empty", "download it again");
     if (is_pbf(head)) return SourceKind::map;
+    if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff"))
+        refuse(file, "is text in UTF-16", "save it as UTF-8: iconv -f UTF-16 -t UTF-8 OLD > NEW");
     if (head.starts_with("PK\x03\x04"))
         refuse(file, "is a zip archive", "unpack it and give the file inside");
     const std::size_t start = head.find_first_not_of(" \t\r\n\xef\xbb\xbf");

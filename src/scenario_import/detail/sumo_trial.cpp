@@ -26,10 +26,11 @@ std::string joined(const std::vector<std::filesystem::path>& files) {
     return fmt::format("{}", fmt::join(names, ","));
 }
 
-/// Mean time loss of the vehicles that arrive, s; nothing when SUMO fails or nobody arrives.
-std::optional<double> mean_time_loss_s(const Import& import, const scenario::Prepared& demand,
-                                       double step_s) {
-    constexpr double grace_s = 600.0;
+/// Time after the last departure for which a trial runs.
+constexpr double grace_s = 600.0;
+
+/// Mean time loss of the vehicles that arrive, in words. Notes when SUMO fails.
+std::string mean_time_loss(Import& import, const scenario::Prepared& demand, double step_s) {
     const std::filesystem::path statistics = import.work / "statistics.xml";
     std::filesystem::remove(statistics);
     std::vector<std::string> arguments = sumo_arguments(demand);
@@ -44,13 +45,18 @@ std::optional<double> mean_time_loss_s(const Import& import, const scenario::Pre
         arguments.push_back(word);
     const Tool tool{"sumo", std::move(arguments), import.work / "steps.log",
                     fmt::format("running it at steps of {:g} s", step_s), "sumo"};
-    if (!succeeds(tool, import.on_progress)) return std::nullopt;
+    if (!succeeds(tool, import.on_progress)) {
+        import.findings.trial_failure = complaint(tool.log);
+        return "not known, because SUMO fails";
+    }
     std::optional<double> loss_s;
     for_each_element(statistics, [&](Element&& element) {
         if (element.name == "vehicleTripStatistics" && number(element.text("count")).value_or(0.0) > 0.0)
             loss_s = number(element.text("timeLoss"));
     });
-    return loss_s;
+    return loss_s ? fmt::format("{:.1f} s", *loss_s)
+                  : fmt::format("not known, because nobody arrives within {:g} s of the last departure",
+                                grace_s);
 }
 
 }  // namespace
@@ -109,15 +115,12 @@ void require_load(const Import& import, const scenario::Prepared& demand) {
 void compare_steps(Import& import, const scenario::Prepared& demand, double own_step_s) {
     const double here_s = demand.time.step_length_s;
     if (own_step_s == here_s) return;
-    const auto own = mean_time_loss_s(import, demand, own_step_s);
-    const auto here = mean_time_loss_s(import, demand, here_s);
-    const auto words = [](const std::optional<double>& loss_s) {
-        return loss_s ? fmt::format("{:.1f} s", *loss_s) : std::string("not known, because SUMO fails");
-    };
+    const std::string own = mean_time_loss(import, demand, own_step_s);
+    const std::string here = mean_time_loss(import, demand, here_s);
     import.findings.changes.push_back(fmt::format(
         "steps of {:g} s instead of {:g} s; mean time loss of a vehicle that arrives, one run each: {} at "
         "{:g} s, {} at {:g} s{}",
-        here_s, own_step_s, words(own), own_step_s, words(here), here_s,
+        here_s, own_step_s, own, own_step_s, here, here_s,
         own_step_s <= 1.0
             ? fmt::format("; --step-length {:g} of every verb gives figures to compare with your own",
                           own_step_s)

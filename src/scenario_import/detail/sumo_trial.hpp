@@ -27,7 +27,7 @@ void require_load(const Import& import, const scenario::Prepared& demand);
 
 /// Runs the demand without EVs at the steps of its SUMO scenario and at those of the import, where these
 /// differ, until ten minutes after the last departure, and reports the mean time loss in both: it is not the
-/// same. Says so too when SUMO fails.
+/// same. Notes when SUMO fails.
 void compare_steps(Import& import, const scenario::Prepared& demand, double own_step_s);
 
 }  // namespace clearway::scenario_import::detail

@@ -14,9 +14,9 @@ namespace clearway::scenario_import::detail {
 
 namespace {
 
-constexpr std::array<std::string_view, 11> kept_elements = {
-    "busStop", "trainStop",    "containerStop", "chargingStation",   "parkingArea", "tlLogic",
-    "WAUT",    "wautJunction", "rerouter",      "variableSpeedSign", "parkingSpace"};
+constexpr std::array<std::string_view, 12> kept_elements = {
+    "busStop", "trainStop",    "containerStop", "chargingStation",   "parkingArea",  "tlLogic",
+    "WAUT",    "wautJunction", "rerouter",      "variableSpeedSign", "parkingSpace", "route"};
 
 constexpr std::array<std::string_view, 4> detectors = {"inductionLoop", "e1Detector", "laneAreaDetector",
                                                        "e2Detector"};

@@ -35,7 +35,7 @@ std::optional<double> end_of(const SumoFiles& files) {
 FlowTimes flow_times(const SumoFiles& files, const Import& import) {
     FlowTimes times;
     times.begin_s = files.begin_s.value_or(0.0);
-    times.end_s = end_of(files).value_or(times.begin_s + 3600.0);
+    times.end_s = end_of(files);
     times.from_s = import.request.begin_s.value_or(times.begin_s);
     times.until_s = end_of(files).value_or(times.until_s);
     if (import.request.begin_s) times.until_s = std::min(times.until_s, times.from_s + usual_window_s);
@@ -174,11 +174,8 @@ scenario::Measured describe_types(Import& import, const Demand& demand) {
 /// with all of them.
 void take_out_bad(Import& import, Demand& demand, const roads::Network& network, const ClassAccess& access,
                   const std::vector<Element>& additional) {
-    const auto all = static_cast<double>(demand.vehicles.size());
     std::vector<core::Problem> problems =
         take_out_bad_vehicles(demand, network, access, additional, import.left_out);
-    if (all > 0.0)
-        import.findings.bad_vehicles_share = 1.0 - static_cast<double>(demand.vehicles.size()) / all;
     const bool has_traffic = !demand.vehicles.empty() || !problems.empty();
     std::vector<core::Problem> of_persons;
     if (has_traffic) of_persons = take_out_bad_persons(demand, network, additional, import.left_out);
@@ -283,11 +280,31 @@ void add_additional(Import& import, const std::vector<Element>& elements, const 
     config.measured->additional = {"additional.add.xml"};
 }
 
-/// Without vehicles, nothing else is kept.
+/// The last program that the files give a signal is the one that SUMO runs.
+void write_programs(Import& import, const std::vector<Element>& others,
+                    const std::filesystem::path& network_file) {
+    scenario::NetworkDocument document(network_file);
+    std::set<std::string> replaced;
+    for (const Element& element : others) {
+        if (element.name != "tlLogic" || element.children.empty()) continue;
+        const std::string& id = element.text("id");
+        if (document.replace_programs(id, element.xml()))
+            replaced.insert(id);
+        else
+            import.left_out.add("<tlLogic> of signals that the network does not have", id);
+    }
+    if (replaced.empty()) return;
+    core::write_atomically(network_file, document.text());
+    import.findings.changes.push_back(fmt::format(
+        "signal programs of the files replace those of the network at {} signals", replaced.size()));
+}
+
+/// Without vehicles, only signal programs are kept.
 void leave_out_all(Import& import, const Demand& demand, const std::vector<Element>& others) {
     for (const Element& element : others)
-        import.left_out.add(fmt::format("<{}>, because no vehicle is left", element.name),
-                            element.text("id"));
+        if (element.name != "tlLogic")
+            import.left_out.add(fmt::format("<{}>, because no vehicle is left", element.name),
+                                element.text("id"));
     for (const Person& person : demand.persons)
         import.left_out.add("persons, because no vehicle is left", person.id);
 }
@@ -297,7 +314,10 @@ void leave_out_all(Import& import, const Demand& demand, const std::vector<Eleme
 bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Network& network,
                      const std::filesystem::path& network_file, scenario::ScenarioConfig& config) {
     DemandReader reader(flow_times(files, import), files.scale, import.left_out);
-    const std::vector<Element> others = read_files(files, reader);
+    std::vector<Element> others = read_files(files, reader);
+    // SUMO wants them before the rerouters.
+    const std::vector<Element> named = reader.routes_of_rerouters(others);
+    others.insert(others.begin(), named.begin(), named.end());
     Demand demand = reader.finish();
     Findings& findings = import.findings;
     for (const std::filesystem::path& file : demand.unsorted)
@@ -305,13 +325,17 @@ bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Networ
                                                file.filename().string()));
     findings.changes.insert(findings.changes.end(), demand.changes.begin(), demand.changes.end());
     const ClassAccess access(network_file, network);
+    complete_trips(demand, others, import.left_out);
+    const auto read = static_cast<double>(demand.vehicles.size());
     take_out_bad(import, demand, network, access, others);
     find_ways(import, demand, network_file, others);
+    if (read > 0.0) findings.bad_vehicles_share = 1.0 - static_cast<double>(demand.vehicles.size()) / read;
     const std::size_t all = demand.vehicles.size();
     if (const auto end_s = end_of(files))
         std::erase_if(demand.vehicles, [&](const RoadUser& vehicle) { return vehicle.depart_s >= *end_s; });
     if (demand.vehicles.empty()) {
         if (demand.names_vehicles) refuse_without_vehicles(import);
+        write_programs(import, others, network_file);
         leave_out_all(import, demand, others);
         return false;
     }

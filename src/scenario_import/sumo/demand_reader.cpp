@@ -40,6 +40,11 @@ bool is_container(const std::string& name) {
 constexpr std::array ends_of_trips = {"from",  "to",           "via",        "fromTaz",
                                       "toTaz", "fromJunction", "toJunction", "viaJunctions"};
 
+/// Departures by what others do.
+bool is_waiting(const std::string& depart) {
+    return depart == "triggered" || depart == "containerTriggered" || depart == "split";
+}
+
 /// Prefix for vehicle ids that collide with Clearway's own.
 constexpr const char* imported_prefix = "imported.";
 
@@ -76,9 +81,10 @@ std::vector<Element> DemandReader::read(const std::filesystem::path& file) {
     std::map<std::filesystem::path, double> last_departs_s;
     std::set<std::filesystem::path> unsorted;
     for_each_input(file, [&](Element&& element, const std::filesystem::path& part) {
-        if (element.name == "vehicle" || element.name == "trip") {
+        if (is_traffic(element.name)) {
             double& last_depart_s = last_departs_s.try_emplace(part, -1.0).first->second;
-            const double depart_s = time_s(element.text("depart")).value_or(last_depart_s);
+            const double depart_s =
+                time_s(element.text(element.name == "flow" ? "begin" : "depart")).value_or(last_depart_s);
             if (depart_s < last_depart_s) unsorted.insert(part);
             last_depart_s = std::max(last_depart_s, depart_s);
         }
@@ -88,6 +94,20 @@ std::vector<Element> DemandReader::read(const std::filesystem::path& file) {
     });
     demand_.unsorted.insert(demand_.unsorted.end(), unsorted.begin(), unsorted.end());
     return others;
+}
+
+std::vector<Element> DemandReader::routes_of_rerouters(const std::vector<Element>& elements) const {
+    std::set<std::string> ids;
+    for (const Element& rerouter : elements) {
+        if (rerouter.name != "rerouter") continue;
+        for (const Element& interval : rerouter.children)
+            for (const Element& choice : interval.children)
+                if (choice.name == "routeProbReroute") ids.insert(choice.text("id"));
+    }
+    std::vector<Element> routes;
+    for (const std::string& id : ids)
+        if (const auto route = routes_.find(id); route != routes_.end()) routes.push_back(route->second);
+    return routes;
 }
 
 bool DemandReader::take(Element& element, const std::filesystem::path& file) {
@@ -169,12 +189,11 @@ void DemandReader::resolve(const Pending& pending, const Take& take) {
     const std::string& id = element.text("id");
     const std::string& word = element.text("depart");
     auto depart_s = time_s(word);
-    if (word == "triggered" || word == "containerTriggered" || word == "split")
-        return left_out_.add("vehicles that wait for passengers or goods", id);
+    if (is_waiting(word)) return left_out_.add("vehicles that wait for passengers or goods", id);
     if (word == "now") depart_s = times_.begin_s;
-    if (!depart_s)
+    if (!depart_s || *depart_s < 0.0)
         return problem(fmt::format("{}:{}", pending.file.string(), element.line), id,
-                       fmt::format("depart is \"{}\"", word), "a time in s, or h:mm:ss");
+                       fmt::format("depart is \"{}\"", word), "a time in s from 0, or h:mm:ss");
     const std::size_t count = copies(id, scale_ * scale_of_type(element, id));
     for (std::size_t row = 0; row < count; ++row)
         take(row == 0 ? id : fmt::format("{}.{}", id, row), {row, *depart_s});
@@ -184,6 +203,11 @@ void DemandReader::resolve_flow(const Pending& pending, const Take& take) {
     const Element& flow = pending.element;
     const bool is_mixed = type_choices_.holds(flow.text("type"));
     const double scale = scale_ * (is_mixed ? 1.0 : scale_of_type(flow, {}));
+    if (is_waiting(flow.text("begin")))
+        return left_out_.add("flows that wait for passengers or goods", flow.text("id"));
+    if (const auto fault = fault_of_flow(flow, times_))
+        return problem(fmt::format("{}:{}", pending.file.string(), flow.line), flow.text("id"), *fault,
+                       "a begin from 0 s and an end not before it, a whole number, a probability to 1");
     const auto found = departures(flow, times_, scale);
     if (!found)
         return problem(fmt::format("{}:{}", pending.file.string(), flow.line), flow.text("id"),
@@ -326,7 +350,8 @@ bool DemandReader::set_way(const Element& source, RoadUser& vehicle) {
     } else if (const std::optional<Element> route = inline_route(source, vehicle)) {
         drive(*route, vehicle.later_s, vehicle);
     } else {
-        return set_trip(source, vehicle);
+        set_trip(source, vehicle);
+        return true;
     }
     if (!vehicle.edges.empty()) return true;
     problem(vehicle.place, vehicle.id, "has a route without edges");
@@ -354,25 +379,11 @@ std::optional<Element> DemandReader::inline_route(const Element& source, const R
     return std::nullopt;
 }
 
-bool DemandReader::set_trip(const Element& source, RoadUser& vehicle) {
-    const auto has_any = [&](auto... names) { return (source.has(names) || ...); };
-    if (source.has("from") && !has_any("to", "toTaz", "toJunction", "via")) {
-        vehicle.edges = {source.text("from")};  // SUMO lets it drive this edge.
-        return true;
-    }
-    if (!has_any("from", "fromTaz", "fromJunction") || !has_any("to", "toTaz", "toJunction")) {
-        left_out_.add("vehicles without a route: origin or destination is missing", vehicle.id);
-        return false;
-    }
+void DemandReader::set_trip(const Element& source, RoadUser& vehicle) {
     vehicle.is_trip = true;
-    vehicle.is_routed_at_departure = source.has("from") && source.has("to") && !source.has("via");
     vehicle.trip.name = "trip";
     for (const char* const name : ends_of_trips)
         if (source.has(name)) vehicle.trip.set(name, source.text(name));
-    for (const char* const name : {"from", "via", "to"})
-        for (std::string& edge : words(source.text(name)))
-            vehicle.edges.push_back(std::move(edge));
-    return true;
 }
 
 const Element* DemandReader::find_route(std::string id, const std::string& user, const std::string& place) {

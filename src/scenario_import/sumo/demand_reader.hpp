@@ -32,7 +32,7 @@ struct RoadUser {
     std::string type;  ///< Of `Demand::types`.
     double depart_s = 0.0;
     double later_s = 0.0;            ///< As `Departure::later_s`.
-    std::vector<std::string> edges;  ///< Of a trip: its ends and vias.
+    std::vector<std::string> edges;  ///< Of a trip: its ends and vias, once `complete_trips` has run.
     bool is_trip = false;
     /// A trip between two edges without vias, of which SUMO can find the way again when it departs.
     bool is_routed_at_departure = false;
@@ -77,6 +77,8 @@ class DemandReader {
 
     /// Reads the demand elements of a file; returns the others, for example stops and signal programs.
     std::vector<Element> read(const std::filesystem::path& file);
+    /// The routes that rerouters among `elements` name, in order of id.
+    std::vector<Element> routes_of_rerouters(const std::vector<Element>& elements) const;
     /// After all files. Throws core::InputError with every problem: ids that occur twice, unknown types and
     /// routes, departures that are not times.
     Demand finish();
@@ -106,7 +108,7 @@ class DemandReader {
     void add(const Pending& pending, const std::string& id, const Departure& departure);
     bool note_id(const std::string& id, const std::string& place, std::map<std::string, std::string>& places);
     bool set_way(const Element& source, RoadUser& vehicle);
-    bool set_trip(const Element& source, RoadUser& vehicle);
+    void set_trip(const Element& source, RoadUser& vehicle);
     std::optional<Element> inline_route(const Element& source, const RoadUser& vehicle);
     bool set_type(const Element& source, RoadUser& vehicle);
     const Element* find_route(std::string id, const std::string& user, const std::string& place);

@@ -1,7 +1,10 @@
 #include "scenario_import/sumo/flow.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "scenario_import/sumo/draw.hpp"
 
@@ -11,13 +14,25 @@ namespace {
 
 constexpr double day_s = 86400.0;
 
+bool has_rate(const Element& flow) {
+    constexpr std::array rates = {"period",         "perHour",           "vehsPerHour",
+                                  "personsPerHour", "containersPerHour", "probability"};
+    return std::ranges::any_of(rates, [&](const char* const name) { return flow.has(name); });
+}
+
 /// The departures of one flow, by the kind of its rate.
 class Flow {
   public:
     Flow(const Element& flow, const FlowTimes& times, double scale)
-        : id_(flow.text("id")), from_s_(times.from_s), scale_(scale), count_(number(flow.text("number"))) {
+        : id_(flow.text("id")),
+          from_s_(times.from_s),
+          wanted_until_s_(times.until_s),
+          scale_(scale),
+          count_(number(flow.text("number"))) {
         begin_s_ = time_s(flow.text("begin")).value_or(times.begin_s);
-        end_s_ = time_s(flow.text("end")).value_or(times.end_s);
+        end_s_ = time_s(flow.text("end")).value_or(times.end_s.value_or(begin_s_ + day_s));
+        // SUMO counts by a rate to the number, whatever the end of the configuration.
+        if (count_ && !flow.has("end") && has_rate(flow)) end_s_ = begin_s_ + day_s;
         until_s_ = std::min({end_s_, times.until_s, std::max(begin_s_, from_s_) + day_s});
         if (count_) *count_ = static_cast<double>(copies(id_, *count_ * scale_));
     }
@@ -35,6 +50,8 @@ class Flow {
             regular(3600.0 / *number(hourly) / scale_);
         else if (flow.has("probability"))
             by_chance(number(flow.text("probability")).value_or(0.0));
+        else if (count_ && end_s_ == begin_s_)
+            at_once();
         else if (count_ && *count_ > 0.0)
             regular((end_s_ - begin_s_) / *count_);
         else if (!number(hourly) && !count_)
@@ -53,6 +70,11 @@ class Flow {
         const double first = std::max(0.0, std::floor((from_s_ - begin_s_) / period_s));
         for (double row = first; row < most() && begin_s_ + row * period_s < until_s_; ++row)
             add(static_cast<std::size_t>(row), begin_s_ + row * period_s, row * period_s);
+    }
+
+    void at_once() {
+        for (std::size_t row = 0; static_cast<double>(row) < *count_ && begin_s_ < wanted_until_s_; ++row)
+            add(row, begin_s_);
     }
 
     void by_exponential(double rate) {
@@ -78,6 +100,7 @@ class Flow {
 
     const std::string& id_;
     double from_s_;
+    double wanted_until_s_;
     double scale_;
     std::optional<double> count_;
     double begin_s_ = 0.0;
@@ -87,6 +110,25 @@ class Flow {
 };
 
 }  // namespace
+
+std::optional<std::string> fault_of_flow(const Element& flow, const FlowTimes& times) {
+    const std::string& begin = flow.text("begin");
+    const std::string& end = flow.text("end");
+    for (const std::string* const time : {&begin, &end})
+        if (!time->empty() && !time_s(*time)) return fmt::format("has the time \"{}\"", *time);
+    const double begin_s = time_s(begin).value_or(times.begin_s);
+    if (begin_s < 0.0) return fmt::format("begins at {} s", begin_s);
+    const auto end_s = end.empty() ? times.end_s : time_s(end);
+    if (end_s && *end_s < begin_s && (!end.empty() || flow.has("number")))
+        return fmt::format("ends at {} s, before its begin at {} s", *end_s, begin_s);
+    const auto count = number(flow.text("number"));
+    if (flow.has("number") && (!count || *count < 0.0 || *count != std::floor(*count)))
+        return fmt::format("has the number \"{}\"", flow.text("number"));
+    const auto chance = number(flow.text("probability"));
+    if (flow.has("probability") && (!chance || *chance <= 0.0 || *chance > 1.0))
+        return fmt::format("has the probability \"{}\"", flow.text("probability"));
+    return std::nullopt;
+}
 
 std::optional<std::vector<Departure>> departures(const Element& flow, const FlowTimes& times, double scale) {
     if (scale <= 0.0) return std::vector<Departure>{};

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "scenario_import/detail/element.hpp"
@@ -13,7 +14,7 @@ namespace clearway::scenario_import::detail {
 /// wanted.
 struct FlowTimes {
     double begin_s = 0.0;
-    double end_s = 3600.0;
+    std::optional<double> end_s;  ///< Nothing: a day after the flow's begin, as SUMO has it.
     double from_s = 0.0;
     double until_s = std::numeric_limits<double>::infinity();  ///< Exclusive.
 };
@@ -28,7 +29,11 @@ struct Departure {
 
 /// The wanted departures of a `<flow>` or `<personFlow>`, scaled by `scale`, by time; random ones are keyed
 /// by the flow's id. Nothing when it states no rate. Takes memory only for the wanted ones; a flow without an
-/// end is cut off a day after its begin or the first wanted time.
+/// end is cut off a day after its begin or the first wanted time. A number of vehicles whose end is its begin
+/// departs at once.
 std::optional<std::vector<Departure>> departures(const Element& flow, const FlowTimes& times, double scale);
+
+/// Why SUMO 1.15 refuses the times and rates of a flow, in words; nothing when it accepts them.
+std::optional<std::string> fault_of_flow(const Element& flow, const FlowTimes& times);
 
 }  // namespace clearway::scenario_import::detail

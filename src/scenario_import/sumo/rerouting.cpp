@@ -26,7 +26,9 @@ void set_parameter(Element& vehicle, const char* key, const std::string& value) 
 void add_routing_devices(Demand& demand, const Rerouting& rerouting) {
     for (RoadUser& vehicle : demand.vehicles) {
         const bool is_drawn = uniform(vehicle.id, NamedDraw::routing_device) < rerouting.share;
-        if (!is_drawn && !vehicle.is_routed_at_departure) continue;
+        // SUMO's mark of a trip. Unlike the device, it also accepts a way that is closed by then.
+        if (vehicle.is_routed_at_departure) vehicle.element.set("reroute", "true");
+        if (!is_drawn) continue;
         set_parameter(vehicle.element, "has.rerouting.device", "true");
         if (is_drawn && rerouting.period_s > 0.0)
             set_parameter(vehicle.element, "device.rerouting.period",

@@ -10,8 +10,8 @@ struct Rerouting {
     double period_s = 0.0;  ///< These choose again so often on their way; 0: only at departure.
 };
 
-/// Gives SUMO's routing device to vehicles of that share, and to those that SUMO equips by itself: trips
-/// between two edges without vias. They keep the way that they have, from which SUMO departs.
+/// Gives SUMO's routing device to vehicles of that share. Trips between two edges without vias get SUMO's
+/// mark of a trip: they keep the way that they have, and SUMO chooses again when they depart.
 void add_routing_devices(Demand& demand, const Rerouting& rerouting);
 
 }  // namespace clearway::scenario_import::detail

@@ -1,6 +1,7 @@
 #include "scenario_import/sumo/ways.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
@@ -164,7 +165,62 @@ std::string flow_of(const RoadUser& vehicle) {
     return fmt::format("{}: {}", vehicle.place, without_number(vehicle.id));
 }
 
+bool has_any(const Element& trip, std::initializer_list<const char*> names) {
+    return std::ranges::any_of(names, [&](const char* const name) { return trip.has(name); });
+}
+
+/// Completes the ends of a trip. Returns whether it has both.
+bool complete(RoadUser& vehicle, const StopEdges& stops) {
+    Element& trip = vehicle.trip;
+    std::vector<std::string> vias = words(trip.text("via"));
+    std::vector<std::string> stopped;
+    for (const Element& stop : vehicle.element.children)
+        if (std::string edge = stop.name == "stop" ? stops.edge_of(stop) : ""; !edge.empty())
+            stopped.push_back(std::move(edge));
+    const bool has_from = has_any(trip, {"from", "fromTaz", "fromJunction"});
+    const bool has_to = has_any(trip, {"to", "toTaz", "toJunction"});
+    if (!has_from && !vias.empty()) {
+        trip.set("from", vias.front());
+        vias.erase(vias.begin());
+    } else if (!has_from && (!stopped.empty() || trip.has("to"))) {
+        trip.set("from", stopped.empty() ? trip.text("to") : stopped.front());
+    }
+    if (!has_to && !stopped.empty()) {
+        trip.set("to", stopped.back());
+    } else if (!has_to && !vias.empty()) {
+        trip.set("to", vias.back());
+        vias.pop_back();
+    } else if (!has_to && trip.has("from")) {
+        trip.set("to", trip.text("from"));
+    }
+    vias.empty() ? trip.remove("via") : trip.set("via", fmt::format("{}", fmt::join(vias, " ")));
+    if (!has_any(trip, {"from", "fromTaz", "fromJunction"}) || !has_any(trip, {"to", "toTaz", "toJunction"}))
+        return false;
+    vehicle.is_routed_at_departure = trip.has("from") && trip.has("to") && vias.empty();
+    for (const char* const name : {"from", "via", "to"})
+        for (std::string& edge : words(trip.text(name)))
+            vehicle.edges.push_back(std::move(edge));
+    // SUMO lets a trip that names one edge drive that edge.
+    const std::string& only = vehicle.edges.empty() ? trip.text("from") : vehicle.edges.front();
+    const auto is_only = [&](const std::string& edge) { return edge == only; };
+    if (!(has_from && has_to) && trip.has("from") && trip.has("to") &&
+        std::ranges::all_of(vehicle.edges, is_only) && std::ranges::all_of(stopped, is_only)) {
+        vehicle.is_trip = vehicle.is_routed_at_departure = false;
+        vehicle.edges = {trip.text("from")};
+    }
+    return true;
+}
+
 }  // namespace
+
+void complete_trips(Demand& demand, const std::vector<Element>& additional, LeftOut& left_out) {
+    const StopEdges stops(additional);
+    std::erase_if(demand.vehicles, [&](RoadUser& vehicle) {
+        if (!vehicle.is_trip || complete(vehicle, stops)) return false;
+        left_out.add("vehicles without a route: origin or destination is missing", vehicle.id);
+        return true;
+    });
+}
 
 std::vector<core::Problem> take_out_bad_vehicles(Demand& demand, const roads::Network& network,
                                                  const ClassAccess& access,

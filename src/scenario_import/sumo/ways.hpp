@@ -21,6 +21,10 @@ std::vector<core::Problem> take_out_bad_vehicles(Demand& demand, const roads::Ne
                                                  const ClassAccess& access,
                                                  const std::vector<Element>& additional, LeftOut& left_out);
 
+/// Gives trips without origin or destination the ends that SUMO takes: their first and last via or stop, or
+/// the one edge that they name. Removes those with neither and counts them in `left_out`.
+void complete_trips(Demand& demand, const std::vector<Element>& additional, LeftOut& left_out);
+
 /// Finds a route for every trip with duarouter: the fastest at free flow that the trip's type may use, over
 /// the edges of its stops. `additional` are the elements of additional files, with the stops and zones that
 /// trips name. Trips without a route are left out, as SUMO does with the option ignore-route-errors.
