@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
+#include <zlib.h>
 
 #include "roads/geography.hpp"
 #include "roads/network.hpp"
@@ -88,6 +89,30 @@ TEST_F(MapImport, pedestrians_in_a_network_without_crossings_are_refused) {
     asked.pedestrians_per_hour = 60.0;
     EXPECT_THAT(refusal(asked), HasSubstr("no crossing for pedestrians"));
     EXPECT_FALSE(std::filesystem::exists(out() / "town"));
+}
+
+/// netconvert ignores the version; osmium does not.
+TEST_F(MapImport, a_map_of_no_or_another_version_gives_the_same_network) {
+    const std::string map = town_map();
+    const std::string root = "<osm version='0.6'>";
+    const auto with_root = [&](const std::string& other) {
+        return std::string(map).replace(map.find(root), root.size(), other);
+    };
+    const auto network_of = [&](const std::string& name, const std::filesystem::path& file) {
+        EXPECT_EQ(run(request({file}, name)).car_edges, town_edges) << name;
+        const std::string text = core::read_file(out() / name / "network.net.xml");
+        return text.substr(text.find("<edge "));
+    };
+    const std::string expected = network_of("plain", write("plain.osm", map));
+    EXPECT_EQ(network_of("none", write("none.osm", with_root("<osm>"))), expected);
+    EXPECT_EQ(network_of("old", write("old.osm", with_root("<osm generator='x' version=\"0.5\">"))),
+              expected);
+    const auto packed = folder() / "none.osm.gz";
+    gzFile stream = gzopen(packed.c_str(), "wb");
+    const std::string unversioned = with_root("<osm>");
+    gzwrite(stream, unversioned.data(), static_cast<unsigned>(unversioned.size()));
+    gzclose(stream);
+    EXPECT_EQ(network_of("packed", packed), expected);
 }
 
 TEST_F(MapImport, packed_maps_give_the_same_scenario) {

@@ -2,11 +2,15 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "scenario_import/detail/packed_file.hpp"
 #include "scenario_import/detail/source.hpp"
 #include "scenario_import/detail/tool.hpp"
 #include "scenario_import/osm/original_ids.hpp"
@@ -19,6 +23,45 @@ namespace {
     throw core::InputError(core::Problem{map.string(), what, "an OpenStreetMap extract with roads", cure});
 }
 
+/// Osmium reads XML only where the root states version 0.6; netconvert ignores the version. Sets it in
+/// `piece`, the first of the map. Returns whether it was another or missing.
+bool set_version(std::string& piece) {
+    constexpr std::string_view root = "<osm";
+    constexpr std::string_view name = " version=";
+    constexpr std::string_view version = "0.6";
+    const std::size_t open = piece.find(root);
+    if (open == std::string::npos) return false;
+    const std::size_t stated = piece.substr(0, piece.find('>', open)).find(name, open);
+    if (stated == std::string::npos) {
+        piece.insert(open + root.size(), fmt::format("{}\"{}\"", name, version));
+        return true;
+    }
+    const std::size_t first = stated + name.size() + 1;
+    const std::size_t close = piece.find(piece[first - 1], first);
+    if (close == std::string::npos || piece.substr(first, close - first) == version) return false;
+    piece.replace(first, close - first, version);
+    return true;
+}
+
+/// Writes an unpacked copy of `map`, in XML, with the version that osmium requires. Returns whether `map`
+/// needs one.
+bool copy_with_version(const std::filesystem::path& map, const std::filesystem::path& copy) {
+    PackedFile stream(map);
+    std::string piece(std::size_t{1} << 16, '\0');
+    piece.resize(stream.read(piece));
+    if (!set_version(piece)) return false;
+    std::ofstream out(copy, std::ios::binary);
+    while (!piece.empty() && out) {
+        out << piece;
+        piece.resize(std::size_t{1} << 16);
+        piece.resize(stream.read(piece));
+    }
+    out.close();
+    if (!out)
+        throw core::EnvironmentError(fmt::format("{} cannot be written. Is the disk full?", copy.string()));
+    return true;
+}
+
 /// Runs osmium on maps. Osmium goes by file name extensions, so it gets symbolic links with the right ones.
 class Osmium {
   public:
@@ -26,7 +69,10 @@ class Osmium {
            const OnProgress& on_progress)
         : maps_(maps), folder_(folder), on_progress_(on_progress) {
         for (std::size_t row = 0; row < maps.size(); ++row) {
-            links_.push_back(folder / fmt::format("map-{}.{}", row, map_format(maps[row])));
+            const std::string format = map_format(maps[row]);
+            links_.push_back(folder / fmt::format("map-{}.osm", row));
+            if (format != "osm.pbf" && copy_with_version(maps[row], links_.back())) continue;
+            links_.back().replace_extension(format);
             std::filesystem::create_symlink(std::filesystem::absolute(maps[row]), links_.back());
         }
     }
