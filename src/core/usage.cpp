@@ -79,6 +79,11 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI:
     return text;
 }
 
+std::string HelpFormatter::make_option_usage(const CLI::Option* option) const {
+    const std::string words = make_option_name(option, true) + (option->get_expected_max() > 1 ? "..." : "");
+    return option->get_required() ? words : "[" + words + "]";
+}
+
 std::string usage_message(const CLI::App& command, const std::string& name, const CLI::ParseError& error,
                           const std::vector<std::string>& words) {
     std::string text = fmt::format("{}: {}", name, range_message(error.what()));

@@ -20,6 +20,8 @@ class HelpFormatter : public CLI::Formatter {
   public:
     HelpFormatter();
     std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
+    /// A positional argument in the line of usage: `folder`, `[table]`, `files...`.
+    std::string make_option_usage(const CLI::Option* option) const override;
 };
 
 }  // namespace clearway::core

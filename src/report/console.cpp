@@ -164,15 +164,23 @@ void append_wrapped(const std::string& paragraph, std::string& text) {
     }
 }
 
+/// First and last line: the last of a Python traceback is the cause.
+std::string ends_of(const std::string& lines) {
+    const std::string text = lines.substr(0, lines.find_last_not_of("\n ") + 1);
+    const std::size_t first = text.find('\n');
+    if (first == std::string::npos) return text;
+    return text.substr(0, first) + " ... " + text.substr(text.rfind('\n') + 1);
+}
+
 void append_runs(const ScenarioFacts& scenario, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
         if (condition.failed.empty()) continue;
-        append_wrapped(
-            fmt::format("Failed: {}: {} of {}; first: replication {}: {}", label(condition),
-                        counted(condition.failed.size(), "run"),
-                        condition.failed.size() + condition.complete_runs,
-                        condition.failed.front().replication, printable(condition.failed.front().cause)),
-            text);
+        append_wrapped(fmt::format("Failed: {}: {} of {}; first: replication {}: {}", label(condition),
+                                   counted(condition.failed.size(), "run"),
+                                   condition.failed.size() + condition.complete_runs,
+                                   condition.failed.front().replication,
+                                   printable(ends_of(condition.failed.front().cause))),
+                       text);
     }
 }
 

@@ -121,6 +121,12 @@ TEST_F(HelpTest, version_is_told_with_the_build_as_the_worker_does) {
     EXPECT_THAT(version.out, testing::MatchesRegex("clearway [0-9.]+\nbuild [0-9a-f]+\n"));
 }
 
+TEST_F(HelpTest, a_usage_line_marks_what_can_be_repeated_or_left_out) {
+    EXPECT_THAT(clearway({"list", "--help"}).out, HasSubstr("Usage: clearway list [OPTIONS] [what...]\n"));
+    EXPECT_THAT(clearway({"replay", "--help"}).out, HasSubstr("replay [OPTIONS] run...\n"));
+    EXPECT_THAT(clearway({"verify", "--help"}).out, HasSubstr("verify [OPTIONS] run\n"));
+}
+
 TEST_F(HelpTest, the_word_help_is_the_option) {
     EXPECT_EQ(clearway({"help"}).out, clearway({"--help"}).out);
     EXPECT_EQ(clearway({"help", "study", "status"}).out, clearway({"study", "status", "--help"}).out);

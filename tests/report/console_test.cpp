@@ -1,5 +1,6 @@
 #include "report/console.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -109,6 +110,17 @@ TEST(ConsoleTables, mark_conditions_without_safety_checks_and_failed_runs) {
     EXPECT_THAT(text, HasSubstr("Same failures, no repair (!)"));
     EXPECT_THAT(text, HasSubstr("(!): the simulator's safety checks were off"));
     EXPECT_THAT(text, HasSubstr("Failed: GraphSAGE, corrected inputs: 1 run of 21; first: replication 7"));
+}
+
+TEST(ConsoleTables, tell_the_first_and_the_last_line_of_a_traceback) {
+    StudyFacts study = tests::study({"merge"});
+    study.scenarios[0].conditions[2].failed = {
+        {7, "part: Traceback (most recent call last):\n  File \"my.py\", line 3\nValueError: no link\n"}};
+    std::string text = console_tables(study);
+    std::ranges::replace(text, '\n', ' ');
+    EXPECT_THAT(text, testing::ContainsRegex(
+                          "Traceback +.most +recent +call +last.: +[.]{3} +ValueError: +no +link"));
+    EXPECT_THAT(text, Not(HasSubstr("my.py")));
 }
 
 TEST(ConsoleTables, of_one_replication_say_that_there_is_no_interval) {
