@@ -5,6 +5,7 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/write.hpp>
 
+#include "core/json.hpp"
 #include "view/frame_encoder.hpp"
 
 namespace clearway::server::detail {
