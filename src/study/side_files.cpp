@@ -18,9 +18,8 @@ namespace {
 /// The edges with more lanes for cars than the dissertation's networks have, as read_facts expects them.
 std::string wide_edges_json(const roads::Network& network) {
     core::Json rows = core::Json::array();
-    for (const scenario::WideEdge& edge : scenario::wide_edges(network)) {
+    for (const scenario::WideEdge& edge : scenario::wide_edges(network))
         rows.push_back({{"edge", edge.id}, {"street", edge.name}, {"car_lanes", edge.car_lanes}});
-    }
     return core::to_text(rows);
 }
 
