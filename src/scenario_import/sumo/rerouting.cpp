@@ -30,7 +30,7 @@ void add_routing_devices(Demand& demand, const Rerouting& rerouting) {
         if (vehicle.is_routed_at_departure) vehicle.element.set("reroute", "true");
         if (!is_drawn) continue;
         set_parameter(vehicle.element, "has.rerouting.device", "true");
-        if (is_drawn && rerouting.period_s > 0.0)
+        if (rerouting.period_s > 0.0)
             set_parameter(vehicle.element, "device.rerouting.period",
                           fmt::format("{:g}", rerouting.period_s));
     }
