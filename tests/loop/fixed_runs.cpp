@@ -6,6 +6,7 @@
 #include <exception>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #if __has_include(<valgrind/callgrind.h>)
 #include <valgrind/callgrind.h>
@@ -14,11 +15,8 @@
 #define CALLGRIND_STOP_INSTRUMENTATION
 #endif
 
-#include "core/temporary_folder.hpp"
-#include "experiment/run_job.hpp"
+#include "loop/study_folder.hpp"
 #include "loop/unit_run.hpp"
-#include "scenario/config.hpp"
-#include "scenario/network.hpp"
 
 namespace {
 
@@ -56,25 +54,17 @@ const std::vector<FixedRun>& fixed_runs() {
 }
 
 void measure(const FixedRun& fixed) {
-    const core::TemporaryFolder folder;
-    scenario::Options options;
-    options.set("variant", fixed.variant);
-    const scenario::ScenarioConfig config = scenario::load(fixed.scenario, options);
-    scenario::store(config, folder.path());
-    scenario::build_network(config, folder.path());
-    experiment::RunJob unit;
-    unit.scenario = config.name;
-    unit.scenario_file = folder.path() / "scenario.toml";
-    unit.network_folder = folder.path();
-    unit.output = folder.path();
     experiment::ConditionSpec condition;
     condition.name = fixed.name;
     condition.failure = fixed.failure;
     condition.predictor = fixed.predictor;
     condition.policies = fixed.policies;
     condition.settings = fixed.settings;
+    scenario::Options options;
+    options.set("variant", fixed.variant);
+    const test::StudyFolder folder(fixed.scenario, options, {condition});
 
-    loop::UnitRun run(unit, folder.path() / "demand", folder.path() / "work");
+    loop::UnitRun run(folder.unit(0), folder.path() / "demand", folder.path() / "work");
     loop::ClosedLoop& loop = run.start(condition);
     const double from_s = run.first_emergency().value + lead_s;
     loop.run(core::Seconds(from_s));
