@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "campaign/study_run.hpp"
+#include "campaign/detail/abort_cure.hpp"
 #include "core/files.hpp"
 #include "experiment/conditions.hpp"
 #include "scenario/network.hpp"

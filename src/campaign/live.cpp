@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "campaign/programs.hpp"
-#include "campaign/study_run.hpp"
+#include "campaign/shown_run.hpp"
 #include "campaign/worker_jobs.hpp"
 #include "core/files.hpp"
 #include "core/interruption.hpp"

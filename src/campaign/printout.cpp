@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/progress.hpp"
+#include "core/terminal.hpp"
 
 namespace clearway::campaign {
 namespace {

@@ -2,24 +2,19 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <set>
 #include <sstream>
-#include <stdexcept>
 #include <string>
-#include <string_view>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "analysis/headline.hpp"
 #include "analysis/replications.hpp"
 #include "analysis/summary.hpp"
+#include "campaign/detail/abort_cure.hpp"
 #include "campaign/names.hpp"
 #include "campaign/programs.hpp"
-#include "campaign/worker_jobs.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
 #include "core/shipped_files.hpp"
@@ -36,36 +31,6 @@
 
 namespace clearway::campaign {
 namespace {
-
-bool is_set(const char* variable) {
-    const char* const value = std::getenv(variable);
-    return value != nullptr && !std::string_view(value).empty();
-}
-
-void require_display() {
-    if (is_set("DISPLAY")) return;
-    if (is_set("WAYLAND_DISPLAY"))
-        throw core::EnvironmentError(
-            "--gui needs an X display, and DISPLAY is not set: sumo-gui does not support Wayland. Install "
-            "Xwayland (Debian package xwayland) and restart the session, or leave --gui out");
-    throw core::EnvironmentError(
-        "--gui needs a display, and DISPLAY is not set. Run it in a graphical session, over ssh with ssh "
-        "-X, or leave --gui out");
-}
-
-/// Shows the run. Returns ok, or why it did not finish.
-core::ExitCode show(const experiment::RunJob& unit) {
-    const std::string label =
-        experiment::to_text({unit.scenario, unit.conditions.front().name, unit.replication});
-    const std::filesystem::path work = unit.output / "work" / fmt::format("window-{}", ::getpid());
-    fmt::print(stderr, "clearway: {} in sumo-gui\n", label);
-    const WorkerResult result = work_on(
-        {{.label = label, .job = unit, .file = work / "job.json", .log = work / "worker.log", .work = work}},
-        1, "shown");
-    std::error_code ignored;
-    std::filesystem::remove_all(work, ignored);
-    return result.exit_code;
-}
 
 /// Failed runs that are named one by one; more are in runs.csv.
 constexpr std::size_t named_errors = 10;
@@ -211,42 +176,6 @@ void print_shard(const study::Shard& shard, const StudyProgress& progress, const
 }
 
 }  // namespace
-
-std::string cure_of_abort(const results::RunError& error) {
-    if (error.cause != results::ErrorCause::signal) return "";
-    if (error.log_tail.find("getBidiLane") != std::string::npos)
-        return "SUMO itself aborted on multi-track rails with trains in both directions. Import the network "
-               "again: the import separates such rails. If only road traffic matters, set restrict = "
-               "\"largest_car_component\" in [network]";
-    return "SUMO itself aborted. If a teleport came before it, --time-to-teleport -1 avoids it; less traffic "
-           "(--density 0.5) may help too";
-}
-
-experiment::RunJob unit_of(const study::Plan& plan, const experiment::ConditionSpec& shown) {
-    for (const study::PlannedUnit& planned : plan.units) {
-        if (planned.unit.traffic_model != shown.traffic_model) continue;
-        experiment::RunJob unit = planned.unit;
-        unit.conditions = {shown};
-        return unit;
-    }
-    throw std::logic_error("the shown condition is not in the plan");
-}
-
-core::ExitCode show_and_print(const study::Plan& plan, const RunOptions& options,
-                              const experiment::ConditionSpec& shown, const experiment::WindowSpec& window) {
-    require_display();
-    const bool is_new = !std::filesystem::exists(options.folder / "manifest.json");
-    const results::Store store = prepare_run_folder(plan, options);
-    experiment::RunJob unit = unit_of(plan, shown);
-    unit.window = window;
-    const core::ExitCode code = show(unit);
-    if (code != core::ExitCode::ok) {
-        std::error_code ignored;
-        if (is_new) std::filesystem::remove_all(options.folder, ignored);
-        return code;
-    }
-    return complete(plan, store, options);
-}
 
 void check_seed(const study::StudyConfig& config, const std::filesystem::path& file,
                 const std::filesystem::path& folder) {

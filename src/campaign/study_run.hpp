@@ -9,19 +9,14 @@
 #include "campaign/report_replays.hpp"
 #include "campaign/workers.hpp"
 #include "core/error.hpp"
-#include "experiment/run_job.hpp"
 #include "report/console.hpp"
 #include "report/facts.hpp"
-#include "results/record.hpp"
 #include "results/store.hpp"
 #include "study/config.hpp"
 #include "study/plan.hpp"
 #include "study/shard.hpp"
 
 namespace clearway::campaign {
-
-/// What helps after SUMO itself aborted a run, by the assertion in its log; empty for other errors.
-std::string cure_of_abort(const results::RunError& error);
 
 /// How the results of a run folder are printed.
 struct PublishOptions {
@@ -90,16 +85,5 @@ core::ExitCode complete(const study::Plan& plan, const results::Store& store, co
 /// Writes the tables of a run folder, if they are not current, and its `report.html`, and prints the tables
 /// on standard output. Returns ok, runs_failed when a run failed, or incomplete when one is missing.
 core::ExitCode publish(const results::Store& store, const PublishOptions& options);
-
-/// The job that makes the first replication of the condition `shown` of the plan, and nothing else.
-experiment::RunJob unit_of(const study::Plan& plan, const experiment::ConditionSpec& shown);
-
-/// As `complete` after prepare_run_folder, but the first replication of the condition `shown` runs in a
-/// window, before the other runs. If the folder already holds this run, it is shown again and must give the
-/// same record. If the shown run does not finish, a new folder is removed. Also returns incomplete, when the
-/// window is closed early, and conflict. Throws core::EnvironmentError, with the cure, if no window can be
-/// opened.
-core::ExitCode show_and_print(const study::Plan& plan, const RunOptions& options,
-                              const experiment::ConditionSpec& shown, const experiment::WindowSpec& window);
 
 }  // namespace clearway::campaign

@@ -5,6 +5,7 @@
 
 #include "campaign/fitness.hpp"
 #include "cli/detail/common_options.hpp"
+#include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 
 namespace clearway::cli {

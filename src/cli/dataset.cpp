@@ -10,6 +10,7 @@
 #include "campaign/worker_jobs.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
+#include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
 #include "experiment/code_parts.hpp"

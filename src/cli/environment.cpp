@@ -11,6 +11,7 @@
 #include "campaign/study_run.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
+#include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/files.hpp"
 #include "experiment/conditions.hpp"

@@ -8,6 +8,7 @@
 
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
+#include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 
 namespace clearway::cli {

@@ -16,6 +16,7 @@
 #include "core/number_range.hpp"
 #include "core/process.hpp"
 #include "core/progress.hpp"
+#include "core/terminal.hpp"
 
 namespace clearway::cli {
 namespace {

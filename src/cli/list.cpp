@@ -11,7 +11,7 @@
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/reference_pages.hpp"
 #include "cli/verb.hpp"
-#include "core/progress.hpp"
+#include "core/terminal.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/settings_page.hpp"
 #include "failures/failure_config.hpp"

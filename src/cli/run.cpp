@@ -6,9 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "campaign/shown_run.hpp"
 #include "campaign/study_run.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
+#include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
 #include "experiment/conditions.hpp"

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/detail/common_options.hpp"
+#include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/json.hpp"
-#include "core/progress.hpp"
+#include "core/terminal.hpp"
 
 namespace clearway::core {
 namespace {

@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
-#include "core/progress.hpp"
+#include "core/terminal.hpp"
 
 namespace clearway::core {
 namespace {

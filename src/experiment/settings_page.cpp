@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/field_page.hpp"
-#include "core/progress.hpp"
+#include "core/terminal.hpp"
 #include "policy/policy.hpp"
 
 namespace clearway::experiment {

@@ -1,14 +1,9 @@
 #include "python/part_name.hpp"
 
-#include <sstream>
-
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/process.hpp"
-#include "core/temporary_folder.hpp"
-#include "python/interpreter.hpp"
+#include "python/sources.hpp"
 
 namespace clearway::python {
 namespace {
@@ -30,42 +25,6 @@ bool is_torch_script(std::string_view file) {
 }
 
 }  // namespace
-
-namespace fs = std::filesystem;
-
-std::vector<fs::path> sources_of(const fs::path& file, const std::string& where) {
-    if (file.extension() != ".py") return {file};
-    const core::TemporaryFolder folder;
-    const fs::path said = folder.path() / "sources";
-    const fs::path script = package_folder() / "clearway" / "_sources.py";
-    // Alone and without site packages, it starts in some 15 ms.
-    const core::Exit exit =
-        core::run({.program = interpreter(),
-                   .arguments = {"-I", "-S", "-W", "ignore", script.string(), file.string()},
-                   .output = said});
-    const std::string text = core::read_file(said);
-    if (!exit.ok())
-        throw core::InputError(
-            {where,
-             fmt::format("{}: Python ({}) ended with {} instead of reading its imports{}{}", file.string(),
-                         interpreter(), exit.describe(), text.empty() ? "" : ":\n", text),
-             "Python 3.11 or newer", "CLEARWAY_PYTHON names another Python"});
-    std::vector<fs::path> files;
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);)
-        files.emplace_back(line);
-    return files;
-}
-
-std::string hash_of(const std::vector<fs::path>& files) {
-    const std::string own = core::content_hash(core::read_file(files.front()));
-    if (files.size() == 1) return own;
-    std::string all = own;
-    for (std::size_t i = 1; i < files.size(); ++i)
-        all += fmt::format("\n{} {}", files[i].lexically_relative(files.front().parent_path()).string(),
-                           core::content_hash(core::read_file(files[i])));
-    return core::content_hash(all);
-}
 
 std::optional<PartName> part_name_from(std::string_view word) {
     PartName name;

@@ -14,6 +14,7 @@
 #include "core/json.hpp"
 #include "server/access.hpp"
 #include "server/detail/client.hpp"
+#include "server/detail/feed.hpp"
 #include "server/detail/hub.hpp"
 #include "server/pacer.hpp"
 #include "view/player.hpp"

@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "campaign/detail/abort_cure.hpp"
 #include "campaign/replay_page.hpp"
-#include "campaign/study_run.hpp"
 
 namespace clearway::campaign {
 namespace {

@@ -1,7 +1,8 @@
+#include "cli/detail/scenario_options.hpp"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "cli/detail/common_options.hpp"
 #include "core/error.hpp"
 #include "scenario/overrides.hpp"
 

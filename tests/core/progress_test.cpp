@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "core/terminal.hpp"
+
 namespace clearway::core {
 namespace {
 

@@ -5,67 +5,10 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include "cli/detail/condition_options.hpp"
 #include "core/number_range.hpp"
-#include "scenario/overrides.hpp"
 
 namespace clearway::cli {
-namespace {
-
-const char* const group_name = "Scenario (the defaults are those of the scenario)";
-
-/// `NUMBER, 0 to 86400 s [by scenario]`, or the words.
-std::string value_text(const scenario::Override& override) {
-    const core::SettingInfo& value = override.value;
-    if (!value.words.empty()) return fmt::format("{} [by scenario]", fmt::join(value.words, "|"));
-    if (!override.is_number()) return "KIND=WEIGHT,... [by scenario]";
-    return fmt::format("NUMBER, {} [by scenario]", core::range_text(value));
-}
-
-void add_override(CLI::App& app, const scenario::Override& override, scenario::Options& options) {
-    const core::SettingInfo& value = override.value;
-    if (override.is_flag) {
-        app.add_flag_callback(
-            override.option, [&options, &value] { options.set(value.name, value.words.back()); },
-            fmt::format("{} [{}]", value.doc, value.words.front()));
-        return;
-    }
-    const auto set = [&options, &value](const std::string& text) { options.set(value.name, text); };
-    CLI::Option* const option = app.add_option_function<std::string>(override.option, set, value.doc)
-                                    ->option_text(value_text(override));
-    if (!value.words.empty()) option->check(CLI::IsMember(value.words));
-    if (override.is_number()) option->check(CLI::Number);
-}
-
-}  // namespace
-
-void add_scenario_options(CLI::App& app, scenario::Options& options) {
-    const OptionGroup group(app, group_name);
-    for (const scenario::Override& override : scenario::overrides())
-        add_override(app, override, options);
-}
-
-void add_override_option(CLI::App& app, scenario::Options& options) {
-    const OptionGroup group(app, group_name);
-    app.add_option_function<std::vector<std::string>>(
-           "--override",
-           [&options](const std::vector<std::string>& assignments) {
-               for (const std::string& words : assignments) {
-                   const auto [name, value] = assignment("--override", words);
-                   options.set(name, value, name);
-               }
-           },
-           "A change to the scenario, as in [overrides] of a study file; can be repeated")
-        ->option_text("NAME=VALUE ...");
-}
-
-void add_scenario_argument(CLI::App& app, std::string& scenario) {
-    app.add_option("scenario", scenario, "Name (clearway list), folder or TOML file")
-        ->required()
-        ->option_text("SCENARIO (required)");
-}
 
 void add_json_option(CLI::App& app, Printing& printing, const std::string& what) {
     app.add_flag_callback(

@@ -12,17 +12,8 @@
 #include "experiment/loop_config.hpp"
 #include "experiment/run_job.hpp"
 #include "report/console.hpp"
-#include "scenario/config.hpp"
 
 namespace clearway::cli {
-
-/// Declares an option for each override of a scenario (`--dense`, `--density`, ...; scenario/overrides.hpp).
-/// `options` receives the values and must outlive the parsing. Ranges are checked when the scenario is
-/// loaded, together with the rest of it.
-void add_scenario_options(CLI::App& app, scenario::Options& options);
-
-/// Declares `--override NAME=VALUE` instead: all overrides by their names in study files.
-void add_override_option(CLI::App& app, scenario::Options& options);
 
 using campaign::Printing;
 
@@ -45,8 +36,6 @@ class OptionGroup {
 /// Largest number of replications that an option takes.
 inline constexpr std::uint32_t most_replications = 100000;
 
-/// Declares the scenario that a verb needs, its first word.
-void add_scenario_argument(CLI::App& app, std::string& scenario);
 /// Declares `--json`; `what` completes "Print ... as JSON".
 void add_json_option(CLI::App& app, Printing& printing, const std::string& what);
 /// Declares `--tables`: every measure is printed.

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/progress.hpp"
+#include "core/terminal.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report::detail {
