@@ -56,15 +56,50 @@ RoadLayout junction() {
     return layout;
 }
 
+// A lane that fans out into the two of edge 1, from which one way leads to edge 2 and another, at a red, to
+// edge 3.
+RoadLayout fan() {
+    RoadLayout layout;
+    layout.approach_of_lane.assign(5, RoadLayout::no_approach);
+    layout.internal_lane.assign(5, 0);
+    layout.limit_of_lane_mps.assign(5, 10.0F);
+    layout.signals = {"J"};
+    LaneChain& chain = layout.chain;
+    const SignalIndex no_signal = SignalIndex::none();
+    chain.ways = {{LaneWay{EdgeIndex{1}, LaneIndex{1}, no_signal, 0},
+                   LaneWay{EdgeIndex{1}, LaneIndex{2}, no_signal, 0}},
+                  {LaneWay{EdgeIndex{2}, LaneIndex{3}, no_signal, 0}},
+                  {LaneWay{EdgeIndex{3}, LaneIndex{4}, SignalIndex{0}, 0}},
+                  {},
+                  {}};
+    chain.edge = {EdgeIndex{0}, EdgeIndex{1}, EdgeIndex{1}, EdgeIndex{2}, EdgeIndex{3}};
+    chain.length_m = {100.0F, 20.0F, 20.0F, 100.0F, 100.0F};
+    chain.approach = chain.edge;
+    chain.edge_ids = {"street", "fan", "right", "left"};
+    chain.junctions = {"F", "J", "R", "L"};
+    chain.crossings.assign(4, {});
+    chain.foes.assign(5, {});
+    chain.prior.assign(5, {});
+    return layout;
+}
+
 class LockWatch : public testing::Test {
   protected:
     LockWatch() { watch({}); }
 
     void watch(StandingReasons reasons) { recorder_.watch(junction(), std::move(reasons)); }
+    void watch_fan() { recorder_.watch(fan(), {}); }
     /// A vehicle for the steps to come; it stands unless it has a speed.
     void put(const std::string& id, std::uint32_t lane, float position_m, float speed_mps = 0.0F,
              VehicleClass vehicle_class = VehicleClass::human) {
         rows_[core::vehicle_key(id)] = {vehicle_class, lane, position_m, speed_mps};
+    }
+    void drives(const std::string& id, const std::vector<EdgeIndex>& route) {
+        traffic::VehicleInfo info;
+        info.key = core::vehicle_key(id);
+        info.id = id;
+        info.route = roster_.add_route(route);
+        roster_.add(info);
     }
     void step(const std::string& signal) {
         truth::Snapshot snapshot;
@@ -79,7 +114,7 @@ class LockWatch : public testing::Test {
             snapshot.speed_mps[row++] = vehicle.speed_mps;
         }
         snapshot.signals.state = {signal};
-        recorder_.step(snapshot, {}, {}, {});
+        recorder_.step(snapshot, roster_, {}, {});
     }
     void stand(int seconds, const std::string& signal = "G") {
         for (int second = 0; second < seconds; ++second)
@@ -100,6 +135,7 @@ class LockWatch : public testing::Test {
     };
     std::map<core::VehicleKey, Vehicle> rows_;
     double time_s_ = 100.0;
+    traffic::Roster roster_;
     Recorder recorder_;
     support::TemporaryFolder folder_;
 };
@@ -257,6 +293,30 @@ TEST_F(LockWatch, a_lock_that_dissolves_and_comes_back_later_counts_twice) {
     EXPECT_THAT(summary.traffic.locks, ElementsAre(LockRow{"west", "J", 100.0, 69.0, 1, 0},
                                                    LockRow{"west", "J", 290.0, 69.0, 1, 0}));
     EXPECT_EQ(summary.metrics.locked_vehicles, 1U);
+}
+
+TEST_F(LockWatch, where_a_lane_fans_out_a_vehicle_waits_for_the_one_that_leads_to_its_way) {
+    const std::vector<EdgeIndex> left = {EdgeIndex{0}, EdgeIndex{1}, EdgeIndex{3}};
+    const std::vector<EdgeIndex> right = {EdgeIndex{0}, EdgeIndex{1}, EdgeIndex{2}};
+    for (const auto& [route, locked] : {std::pair(left, 0U), std::pair(right, 1U)}) {
+        watch_fan();
+        drives("a1", route);
+        put("a1", 0, 99.0F);
+        put("b1", 2, 19.0F);
+        put("b2", 2, 11.5F);  // Leaves 6.5 m: no room for another.
+        stand(100, "r");
+        EXPECT_EQ(finish().metrics.locks, locked);
+    }
+}
+
+TEST_F(LockWatch, of_lanes_that_end_the_route_a_vehicle_waits_for_the_fullest) {
+    watch_fan();
+    drives("a1", {EdgeIndex{0}, EdgeIndex{1}});
+    put("a1", 0, 99.0F);
+    put("b1", 2, 19.0F);
+    put("b2", 2, 11.5F);
+    stand(100, "r");
+    EXPECT_EQ(finish().metrics.locks, 0U);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/match_rows.hpp"
@@ -108,8 +109,36 @@ const LaneWay* LockWatch::way_of(const Look& look, std::uint32_t row, core::Lane
     const std::vector<core::EdgeIndex>& route = look.roster.route(info->route);
     const std::size_t next = look.snapshot.route_edge[row] + 1 + later;
     if (next >= route.size()) return nullptr;
-    const auto found = std::ranges::find(ways, route[next], &LaneWay::next);
-    return found == ways.end() ? nullptr : &*found;
+    // Of several lanes of the next edge, it goes to one that leads on, and waits for the fullest.
+    const LaneWay* found = nullptr;
+    bool found_leads_on = false;
+    for (const LaneWay& way : ways) {
+        if (way.next != route[next]) continue;
+        const core::LaneIndex beyond = lane_beyond(way);
+        const bool leads_on = next + 1 == route.size() ||
+                              std::ranges::find(layout_.chain.ways[beyond.value], route[next + 1],
+                                                &LaneWay::next) != layout_.chain.ways[beyond.value].end();
+        const bool is_better = found == nullptr || leads_on != found_leads_on
+                                   ? leads_on || found == nullptr
+                                   : room_on_m(look, beyond) < room_on_m(look, lane_beyond(*found));
+        if (!is_better) continue;
+        found = &way;
+        found_leads_on = leads_on;
+    }
+    return found;
+}
+
+core::LaneIndex LockWatch::lane_beyond(const LaneWay& way) const {
+    core::LaneIndex lane = way.onto;
+    while (is_inside(lane) && !layout_.chain.ways[lane.value].empty())
+        lane = layout_.chain.ways[lane.value].front().onto;
+    return lane;
+}
+
+float LockWatch::room_on_m(const Look& look, core::LaneIndex lane) const {
+    const std::uint32_t last = last_on_lane_[lane.value];
+    if (last == nothing) return std::numeric_limits<float>::max();
+    return look.snapshot.lane_position_m[order_[last]] - length_m(look, order_[last]);
 }
 
 bool LockWatch::is_inside(core::LaneIndex lane) const {
@@ -131,8 +160,7 @@ std::uint32_t LockWatch::ahead_on(const Look& look, std::uint32_t row, const Lan
         const std::uint32_t last = last_on_lane_[lane.value];
         if (last != nothing) {
             const std::uint32_t ahead = order_[last];
-            const float free_m = look.snapshot.lane_position_m[ahead] - length_m(look, ahead);
-            return is_inside(lane) || free_m <= room_m ? ahead : nothing;
+            return is_inside(lane) || room_on_m(look, lane) <= room_m ? ahead : nothing;
         }
         if (!is_inside(lane)) {
             room_m -= layout_.chain.length_m[lane.value];

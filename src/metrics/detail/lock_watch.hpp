@@ -53,6 +53,10 @@ class LockWatch {
     /// on.
     const LaneWay* way_of(const Look& look, std::uint32_t row, core::LaneIndex lane, std::size_t later) const;
     bool is_inside(core::LaneIndex lane) const;
+    /// The lane behind the junction that a way leads across.
+    core::LaneIndex lane_beyond(const LaneWay& way) const;
+    /// From the lane's beginning to the rear of the last vehicle on it; without end if it is empty.
+    float room_on_m(const Look& look, core::LaneIndex lane) const;
     bool is_red(const Look& look, const LaneWay& way) const;
     float length_m(const Look& look, std::uint32_t row) const;
     bool is_held(const Look& look, std::uint32_t row) const;
