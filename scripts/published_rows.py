@@ -10,13 +10,14 @@ FIELDS = ("study", "tree", "date", "seed", "pairs", "command", "scenario", "cond
           "lost_evs", "origin", "behaviour")
 HEADER = ",".join(FIELDS)
 NUMBER = re.compile(r"-?(\d+(\.\d+)?|\.\d+)")
-MEASURE = re.compile(r"[a-z0-9_]+(:difference|:percent)?")
+MEASURE = re.compile(r"[a-z0-9_]+(:(difference|percent|median|unlocked|replications))?")
 PATTERNS = {
     "tree": (re.compile(r"[0-9a-f]{7,40}"), "the first digits of a commit"),
     "date": (re.compile(r"\d{4}-(0[1-9]|1[0-2])-(0[1-9]|[12]\d|3[01])"), "a date like 2026-11-24"),
     "seed": (re.compile(r"\d*"), "a whole number or nothing"),
     "pairs": (re.compile(r"\d*"), "a whole number or nothing"),
-    "measure": (MEASURE, "a name like others_time_loss_s, with :difference or :percent where it is against the baseline"),
+    "measure": (MEASURE, "a name like others_time_loss_s, with :difference, :percent, :median, :unlocked or :replications "
+                "where it is against the baseline"),
     "mean": (NUMBER, "a decimal number"),
     "lost_evs": (re.compile(r"(\d+ of \d+)?"), "a text like '1 of 420' or nothing"),
     "origin": (re.compile(r"product|transcribed"), "product or transcribed"),

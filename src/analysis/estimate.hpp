@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -106,6 +107,10 @@ double half_width(double deviation, std::size_t n, double level = usual_level);
 std::size_t required_replications(double deviation, double half_width, double level = usual_level);
 /// FHWA's minimum, whatever the equation says.
 inline constexpr std::size_t fewest_replications = 10;
+/// Those required, and at least the minimum.
+inline std::size_t advised_replications(double deviation, double half_width, double level = usual_level) {
+    return std::max(fewest_replications, required_replications(deviation, half_width, level));
+}
 
 /// Two-sided p value of Wilcoxon's signed-rank test on the paired differences: zeros are left out, ties get
 /// their mean rank; exact for up to 25 differences without zeros and ties, else normal with continuity and

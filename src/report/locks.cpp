@@ -9,8 +9,7 @@ namespace {
 
 std::string needed(const MaybeEstimate& difference, double half_width) {
     if (!difference || difference->n < 2) return "unknown";
-    return grouped(std::max(analysis::fewest_replications,
-                            analysis::required_replications(difference->deviation, half_width)));
+    return grouped(analysis::advised_replications(difference->deviation, half_width));
 }
 
 }  // namespace

@@ -111,12 +111,10 @@ std::optional<Precision> precision_of(const std::optional<analysis::Comparison>&
             precision.points.push_back({n, analysis::half_width(precision.deviation_s, n, level)});
     }
     const double wanted_s = least_relevant_s > 0.0 ? least_relevant_s : usual_least_relevant_s;
-    precision.needed = std::max(analysis::fewest_replications,
-                                analysis::required_replications(precision.deviation_s, wanted_s, level));
+    precision.needed = analysis::advised_replications(precision.deviation_s, wanted_s, level);
     if (comparison->unlocked && comparison->unlocked->n >= 2)
         precision.needed_unlocked =
-            std::max(analysis::fewest_replications,
-                     analysis::required_replications(comparison->unlocked->deviation, wanted_s, level));
+            analysis::advised_replications(comparison->unlocked->deviation, wanted_s, level);
     return precision;
 }
 

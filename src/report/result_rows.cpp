@@ -75,6 +75,29 @@ ResultRow row_of(const RowSource& source) {
     return row;
 }
 
+/// What a few runs cannot decide: median of the pairs and mean of those without a lock; and the replications
+/// that the interval of the mean needs for a half width of 1.
+void append_robust(const analysis::Comparison& comparison, const std::string& unit, ResultRow row,
+                   std::vector<ResultRow>& rows) {
+    const std::string name = analysis::primary_metric;
+    row.measure = name + ":unlocked";
+    append(comparison.unlocked, unit, row, rows);
+    row.pairs = std::to_string(comparison.complete_pairs);
+    if (comparison.median) {
+        row.measure = name + ":median";
+        const analysis::Interval* const interval = shown_interval(comparison.difference);
+        put(row, unit, *comparison.median,
+            interval && comparison.median_interval ? &*comparison.median_interval : nullptr);
+        rows.push_back(row);
+    }
+    if (!comparison.difference || comparison.difference->n < 2) return;
+    row.measure = name + ":replications";
+    row.unit = "runs";
+    row.mean = std::to_string(analysis::advised_replications(comparison.difference->deviation, 1.0));
+    row.low = row.high = "";
+    rows.push_back(row);
+}
+
 void append_metric(const ConditionSummary& condition, const std::string& name, ResultRow row,
                    std::vector<ResultRow>& rows) {
     const analysis::MetricSummary& metric = condition.metric(name);
@@ -86,6 +109,7 @@ void append_metric(const ConditionSummary& condition, const std::string& name, R
     append(metric.comparison->difference, metric.metric.unit, row, rows);
     row.measure = name + ":percent";
     append(metric.comparison->relative, "%", row, rows, 100.0);
+    if (name == analysis::primary_metric) append_robust(*metric.comparison, metric.metric.unit, row, rows);
 }
 
 using Key = std::tuple<std::string, std::string, std::string, std::string>;

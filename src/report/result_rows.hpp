@@ -15,7 +15,7 @@ namespace clearway::report {
 struct ResultRow {
     std::string study, tree, date, seed, pairs, command;
     std::string scenario, condition;
-    std::string measure;  ///< A column of runs.csv; `:difference` and `:percent` are against the baseline.
+    std::string measure;  ///< A column of runs.csv; What follows a `:` is against the baseline.
     std::string unit, mean;
     std::string low, high;  ///< Of the 95 % interval; empty if too few values.
     std::string lost_evs;   ///< `1 of 420`.
@@ -46,9 +46,11 @@ struct RowSource {
     std::string behaviour;
 };
 
-/// Levels of every condition, and differences of those that have a baseline, also in percent. Where a
-/// condition loses more emergency vehicles than its baseline, means over emergency vehicles are left out but
-/// for the restricted travel time, which counts those lost.
+/// Levels of every condition, and differences of those that have a baseline, also in percent; of the primary
+/// metric also the median of the pairs (`:median`), the mean of the pairs without a lock (`:unlocked`), and
+/// the number of replications for a half width of 1 (`:replications`). Where a condition loses more emergency
+/// vehicles than its baseline, means over emergency vehicles are left out but for the restricted travel time,
+/// which counts those lost.
 std::vector<ResultRow> study_rows(const analysis::Summary& summary, const std::vector<std::string>& metrics,
                                   const RowSource& source);
 
