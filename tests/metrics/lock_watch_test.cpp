@@ -56,30 +56,32 @@ RoadLayout junction() {
     return layout;
 }
 
-// A lane that fans out into the two of edge 1, from which one way leads to edge 2 and another, at a red, to
-// edge 3.
-RoadLayout fan() {
+// Edge 0 has lanes 0 and 1, edge 1 lanes 2 and 3. Lane 1 leads to lane 3, lane 0 to lane 2 and, where it fans
+// out, to both. Lane 2 leads to edge 2, lane 3 at a red to edge 3.
+RoadLayout street(bool fans_out) {
     RoadLayout layout;
-    layout.approach_of_lane.assign(5, RoadLayout::no_approach);
-    layout.internal_lane.assign(5, 0);
-    layout.limit_of_lane_mps.assign(5, 10.0F);
+    layout.approach_of_lane.assign(6, RoadLayout::no_approach);
+    layout.internal_lane.assign(6, 0);
+    layout.limit_of_lane_mps.assign(6, 10.0F);
     layout.signals = {"J"};
     LaneChain& chain = layout.chain;
-    const SignalIndex no_signal = SignalIndex::none();
-    chain.ways = {{LaneWay{EdgeIndex{1}, LaneIndex{1}, no_signal, 0},
-                   LaneWay{EdgeIndex{1}, LaneIndex{2}, no_signal, 0}},
-                  {LaneWay{EdgeIndex{2}, LaneIndex{3}, no_signal, 0}},
-                  {LaneWay{EdgeIndex{3}, LaneIndex{4}, SignalIndex{0}, 0}},
+    const LaneWay right{EdgeIndex{1}, LaneIndex{2}, SignalIndex::none(), 0};
+    const LaneWay left{EdgeIndex{1}, LaneIndex{3}, SignalIndex::none(), 0};
+    chain.ways = {{right},
+                  {left},
+                  {{EdgeIndex{2}, LaneIndex{4}, SignalIndex::none(), 0}},
+                  {{EdgeIndex{3}, LaneIndex{5}, SignalIndex{0}, 0}},
                   {},
                   {}};
-    chain.edge = {EdgeIndex{0}, EdgeIndex{1}, EdgeIndex{1}, EdgeIndex{2}, EdgeIndex{3}};
-    chain.length_m = {100.0F, 20.0F, 20.0F, 100.0F, 100.0F};
+    if (fans_out) chain.ways[0].push_back(left);
+    chain.edge = {EdgeIndex{0}, EdgeIndex{0}, EdgeIndex{1}, EdgeIndex{1}, EdgeIndex{2}, EdgeIndex{3}};
+    chain.length_m = {100.0F, 100.0F, 20.0F, 20.0F, 100.0F, 100.0F};
     chain.approach = chain.edge;
     chain.edge_ids = {"street", "fan", "right", "left"};
     chain.junctions = {"F", "J", "R", "L"};
     chain.crossings.assign(4, {});
-    chain.foes.assign(5, {});
-    chain.prior.assign(5, {});
+    chain.foes.assign(6, {});
+    chain.prior.assign(6, {});
     return layout;
 }
 
@@ -88,7 +90,12 @@ class LockWatch : public testing::Test {
     LockWatch() { watch({}); }
 
     void watch(StandingReasons reasons) { recorder_.watch(junction(), std::move(reasons)); }
-    void watch_fan() { recorder_.watch(fan(), {}); }
+    void watch_street(bool fans_out) { recorder_.watch(street(fans_out), {}); }
+    /// A queue to the red on the left lane of edge 1 that leaves no room for another vehicle.
+    void fill_left_lane() {
+        put("b1", 3, 19.0F);
+        put("b2", 3, 11.5F);
+    }
     /// A vehicle for the steps to come; it stands unless it has a speed.
     void put(const std::string& id, std::uint32_t lane, float position_m, float speed_mps = 0.0F,
              VehicleClass vehicle_class = VehicleClass::human) {
@@ -295,28 +302,39 @@ TEST_F(LockWatch, a_lock_that_dissolves_and_comes_back_later_counts_twice) {
     EXPECT_EQ(summary.metrics.locked_vehicles, 1U);
 }
 
+const std::vector<EdgeIndex> to_the_left = {EdgeIndex{0}, EdgeIndex{1}, EdgeIndex{3}};
+const std::vector<EdgeIndex> to_the_right = {EdgeIndex{0}, EdgeIndex{1}, EdgeIndex{2}};
+
 TEST_F(LockWatch, where_a_lane_fans_out_a_vehicle_waits_for_the_one_that_leads_to_its_way) {
-    const std::vector<EdgeIndex> left = {EdgeIndex{0}, EdgeIndex{1}, EdgeIndex{3}};
-    const std::vector<EdgeIndex> right = {EdgeIndex{0}, EdgeIndex{1}, EdgeIndex{2}};
-    for (const auto& [route, locked] : {std::pair(left, 0U), std::pair(right, 1U)}) {
-        watch_fan();
+    for (const auto& [route, locked] : {std::pair(to_the_left, 0U), std::pair(to_the_right, 1U)}) {
+        watch_street(true);
         drives("a1", route);
         put("a1", 0, 99.0F);
-        put("b1", 2, 19.0F);
-        put("b2", 2, 11.5F);  // Leaves 6.5 m: no room for another.
+        fill_left_lane();
         stand(100, "r");
         EXPECT_EQ(finish().metrics.locks, locked);
     }
 }
 
 TEST_F(LockWatch, of_lanes_that_end_the_route_a_vehicle_waits_for_the_fullest) {
-    watch_fan();
+    watch_street(true);
     drives("a1", {EdgeIndex{0}, EdgeIndex{1}});
     put("a1", 0, 99.0F);
-    put("b1", 2, 19.0F);
-    put("b2", 2, 11.5F);
+    fill_left_lane();
     stand(100, "r");
     EXPECT_EQ(finish().metrics.locks, 0U);
+}
+
+TEST_F(LockWatch, one_that_has_to_change_lanes_waits_for_the_queue_beside_it) {
+    for (const bool is_beside : {false, true}) {
+        watch_street(false);
+        drives("a1", to_the_left);
+        put("a1", 0, 99.0F);
+        if (is_beside) put("b3", 1, 99.0F);
+        fill_left_lane();
+        stand(100, "r");
+        EXPECT_EQ(finish().metrics.locks, is_beside ? 0U : 1U);
+    }
 }
 
 }  // namespace

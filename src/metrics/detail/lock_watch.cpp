@@ -111,21 +111,23 @@ const LaneWay* LockWatch::way_of(const Look& look, std::uint32_t row, core::Lane
     if (next >= route.size()) return nullptr;
     // Of several lanes of the next edge, it goes to one that leads on, and waits for the fullest.
     const LaneWay* found = nullptr;
-    bool found_leads_on = false;
     for (const LaneWay& way : ways) {
         if (way.next != route[next]) continue;
-        const core::LaneIndex beyond = lane_beyond(way);
-        const bool leads_on = next + 1 == route.size() ||
-                              std::ranges::find(layout_.chain.ways[beyond.value], route[next + 1],
-                                                &LaneWay::next) != layout_.chain.ways[beyond.value].end();
-        const bool is_better = found == nullptr || leads_on != found_leads_on
-                                   ? leads_on || found == nullptr
-                                   : room_on_m(look, beyond) < room_on_m(look, lane_beyond(*found));
-        if (!is_better) continue;
-        found = &way;
-        found_leads_on = leads_on;
+        const bool is_better =
+            found == nullptr ||
+            (leads_on(way, route, next) != leads_on(*found, route, next)
+                 ? leads_on(way, route, next)
+                 : room_on_m(look, lane_beyond(way)) < room_on_m(look, lane_beyond(*found)));
+        if (is_better) found = &way;
     }
     return found;
+}
+
+bool LockWatch::leads_on(const LaneWay& way, const std::vector<core::EdgeIndex>& route,
+                         std::size_t next) const {
+    const std::vector<LaneWay>& beyond = layout_.chain.ways[lane_beyond(way).value];
+    return next + 1 == route.size() ||
+           std::ranges::find(beyond, route[next + 1], &LaneWay::next) != beyond.end();
 }
 
 core::LaneIndex LockWatch::lane_beyond(const LaneWay& way) const {
@@ -181,23 +183,30 @@ std::uint32_t LockWatch::ahead_of(const Look& look, std::uint32_t row) const {
         if (gap_m <= queue_gap_m) return leader;
     }
     const LaneWay* const way = way_of(look, row, lane, 0);
-    if (way == nullptr) {  // It has to change lanes: what holds the lanes beside it holds it, too.
-        const auto& edge = layout_.chain.edge;
-        const auto holds = [&](std::uint32_t beside) {
-            return first_on_lane_[beside] != nothing &&
-                   way_of(look, row, core::LaneIndex{beside}, 0) != nullptr;
-        };
-        for (std::uint32_t beside = lane.value; beside-- > 0 && edge[beside] == edge[lane.value];)
-            if (holds(beside)) return order_[first_on_lane_[beside]];
-        for (std::uint32_t beside = lane.value + 1; beside < edge.size() && edge[beside] == edge[lane.value];
-             ++beside)
-            if (holds(beside)) return order_[first_on_lane_[beside]];
-        return nothing;
-    }
+    if (way == nullptr) return beside(look, row, lane);
     if (is_red(look, *way)) return excused;
     const bool at_end = layout_.chain.length_m[lane.value] - position_m <= queue_gap_m;
     const std::uint32_t ahead = at_end ? ahead_on(look, row, way) : nothing;
-    return ahead != nothing ? ahead : across(look, is_inside(lane) ? lane : way->onto, row);
+    if (ahead != nothing) return ahead;
+    const std::uint32_t crossing = across(look, is_inside(lane) ? lane : way->onto, row);
+    if (crossing != nothing || is_inside(lane)) return crossing;
+    const traffic::VehicleInfo* const info = look.roster.find(look.snapshot.key[row]);
+    const bool in_its_lane = info == nullptr || leads_on(*way, look.roster.route(info->route),
+                                                         look.snapshot.route_edge[row] + std::size_t{1});
+    return in_its_lane ? nothing : beside(look, row, lane);
+}
+
+std::uint32_t LockWatch::beside(const Look& look, std::uint32_t row, core::LaneIndex lane) const {
+    const auto& edge = layout_.chain.edge;
+    const auto holds = [&](std::uint32_t other) {
+        return first_on_lane_[other] != nothing && way_of(look, row, core::LaneIndex{other}, 0) != nullptr;
+    };
+    for (std::uint32_t other = lane.value; other-- > 0 && edge[other] == edge[lane.value];)
+        if (holds(other)) return order_[first_on_lane_[other]];
+    for (std::uint32_t other = lane.value + 1; other < edge.size() && edge[other] == edge[lane.value];
+         ++other)
+        if (holds(other)) return order_[first_on_lane_[other]];
+    return nothing;
 }
 
 std::uint32_t LockWatch::across(const Look& look, core::LaneIndex inside, std::uint32_t row) const {

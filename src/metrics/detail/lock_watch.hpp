@@ -53,6 +53,10 @@ class LockWatch {
     /// on.
     const LaneWay* way_of(const Look& look, std::uint32_t row, core::LaneIndex lane, std::size_t later) const;
     bool is_inside(core::LaneIndex lane) const;
+    /// Who holds the lanes beside one from which a vehicle has to change, or `nothing`.
+    std::uint32_t beside(const Look& look, std::uint32_t row, core::LaneIndex lane) const;
+    /// Whether the lane behind a way onto edge `next` of a route leads to the edge after it.
+    bool leads_on(const LaneWay& way, const std::vector<core::EdgeIndex>& route, std::size_t next) const;
     /// The lane behind the junction that a way leads across.
     core::LaneIndex lane_beyond(const LaneWay& way) const;
     /// From the lane's beginning to the rear of the last vehicle on it; without end if it is empty.
