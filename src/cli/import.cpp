@@ -119,6 +119,14 @@ Action configure_import(CLI::App& app) {
            "For a SUMO scenario's vehicles: their own model, or IDM")
         ->check(CLI::IsMember(models))
         ->option_text("own|idm [own]");
+    static const std::map<std::string, scenario_import::OwnEmergency> roles = {
+        {"traffic", scenario_import::OwnEmergency::traffic},
+        {"measure", scenario_import::OwnEmergency::measure}};
+    app.add_option_function<std::string>(
+           "--own-emergency", [&request](const std::string& role) { request.own_emergency = roles.at(role); },
+           "For a SUMO scenario: its emergency vehicles are traffic beside ours, or those measured")
+        ->check(CLI::IsMember(roles))
+        ->option_text("traffic|measure [traffic]");
     app.add_option("--begin", request.begin_s,
                    "For a SUMO scenario: the time in it at which the new scenario begins, s")
         ->option_text("SECONDS [its begin; after two hours of demand the busiest time]");

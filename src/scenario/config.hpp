@@ -386,6 +386,7 @@ struct Flow {
 struct EmergencyTrip {
     std::string from;
     std::string to;
+    std::string edges;
     double depart_s = 0.0;
     std::string kind = "ambulance";
 
@@ -394,6 +395,11 @@ struct EmergencyTrip {
         return std::make_tuple(
             core::Field{"from", "", &S::from, 0, 0, "First edge.", "scenario"},
             core::Field{"to", "", &S::to, 0, 0, "Last edge.", "scenario"},
+            core::Field{
+                "edges", "", &S::edges, 0, 0,
+                "Its whole route, edges with blanks between, instead of from and to, between which it takes "
+                "the fastest.",
+                "none"},
             core::Field{"depart_s", "s", &S::depart_s, 0.0, 604800.0,
                         "Departure, not before the end of the warm-up.", "scenario"},
             core::Field{"kind", "", &S::kind, 0, 0, "ambulance, fire_engine or police_car.", "ambulance"});

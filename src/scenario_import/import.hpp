@@ -19,6 +19,9 @@ enum class DrivingSide : std::uint8_t { by_country, right, left };
 /// edge, edges that do not join, an edge that is closed to pedestrians.
 enum class BadVehicles : std::uint8_t { refuse, leave_out };
 
+/// What the emergency vehicles of a SUMO scenario are: ordinary traffic beside Clearway's, or those measured.
+enum class OwnEmergency : std::uint8_t { traffic, measure };
+
 struct ImportRequest {
     /// One map (.osm, .osm.gz, .osm.bz2, .osm.pbf; several are merged), one network (.net.xml or .net.xml.gz)
     /// with any number of route and additional files, or one configuration (.sumocfg).
@@ -26,6 +29,7 @@ struct ImportRequest {
     std::filesystem::path folder;  ///< Of the scenario, which gets its name. Must not exist.
     DrivingSide side = DrivingSide::by_country;
     BadVehicles bad_vehicles = BadVehicles::refuse;
+    OwnEmergency own_emergency = OwnEmergency::traffic;
     double automated_share = 0.35;                                       ///< 0 to 1.
     scenario::CarFollowing car_following = scenario::CarFollowing::own;  ///< Of vehicles with own types.
     /// At each crossing; 0 to 2000. Above 0, the roads of a map get sidewalks and crossings; networks keep

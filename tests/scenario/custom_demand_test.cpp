@@ -58,6 +58,28 @@ TEST_F(CustomDemand, emergency_trip_takes_its_own_route_and_departure) {
     EXPECT_EQ(demand.emergency[0].type, "emergency_fire_engine");
 }
 
+TEST_F(CustomDemand, emergency_trip_may_have_a_route_of_its_own) {
+    const std::string flow = "[[flow]]\nfrom = \"first\"\nto = \"second\"\n";
+    const auto file = [&](const std::string& trip) {
+        return write("scenario.toml", line_head + flow + "[[emergency_trip]]\n" + trip).string();
+    };
+    const Prepared demand = prepared(file("edges = \"side second\"\ndepart_s = 75.5\n"));
+    ASSERT_EQ(demand.emergency.size(), 1U);
+    EXPECT_EQ(demand.emergency[0].edges, (std::vector<std::string>{"side", "second"}));
+
+    const auto refused = [&](const std::string& trip) {
+        const auto found = problems_of([&] { prepared(file(trip)); });
+        return found.empty() ? std::string() : found[0].where + ": " + found[0].what;
+    };
+    EXPECT_THAT(refused("edges = \"side sekond\"\ndepart_s = 75.5\n"),
+                HasSubstr("emergency_trip[0].edges: the network has no edge \"sekond\""));
+    EXPECT_THAT(refused("edges = \"second first\"\ndepart_s = 75.5\n"),
+                HasSubstr("is no way for an emergency"));
+    EXPECT_THAT(refused("edges = \"side second\"\nfrom = \"side\"\ndepart_s = 75.5\n"),
+                HasSubstr("has edges, and from or to besides"));
+    EXPECT_THAT(refused("from = \"side\"\ndepart_s = 75.5\n"), HasSubstr("has no from or no to"));
+}
+
 TEST_F(CustomDemand, trips_longer_than_the_network_are_refused) {
     init(folder() / "far", "city");
     const std::filesystem::path file = folder() / "far" / "scenario.toml";

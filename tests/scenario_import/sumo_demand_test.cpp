@@ -206,6 +206,56 @@ TEST_F(SumoDemand, vehicles_with_the_ids_of_emergency_vehicles_are_renamed) {
     EXPECT_EQ(prepared().human + prepared().automated, 10);
 }
 
+/// An ambulance, a fire engine that is known by its shape alone, and cars.
+std::string with_own_emergency(const std::string& cars) {
+    return "<vType id='ambulance' vClass='emergency'/><vType id='red' guiShape='firebrigade'/>"
+           "<vehicle id='rescue' type='ambulance' depart='12.5'><route edges='first second'/></vehicle>"
+           "<trip id='fire' type='red' depart='40' from='first' to='second'/>" +
+           cars;
+}
+
+TEST_F(SumoDemand, own_emergency_vehicles_that_stay_traffic_are_named_first) {
+    const Findings findings = run(line_with(with_own_emergency(cars(20))));
+    EXPECT_THAT(findings.changes.front(),
+                AllOf(HasSubstr("2 emergency vehicles of the scenario drive as ordinary"),
+                      HasSubstr("--own-emergency measure")));
+    EXPECT_EQ(prepared().emergency.size(), 6U);
+}
+
+TEST_F(SumoDemand, own_emergency_vehicles_are_measured_as_their_author_wrote_them) {
+    ImportRequest request = line_with(with_own_emergency(cars(20)));
+    request.own_emergency = OwnEmergency::measure;
+    const Findings findings = run(request);
+    EXPECT_THAT(findings.changes.front(),
+                HasSubstr("2 emergency vehicles of the scenario are the ones that"));
+    EXPECT_EQ(findings.vehicles.at("car"), 20);
+    EXPECT_THAT(traffic_file(), AllOf(Not(HasSubstr("rescue")), Not(HasSubstr("fire"))));
+    const scenario::Prepared demand = prepared();
+    ASSERT_EQ(demand.emergency.size(), 2U);
+    EXPECT_EQ(demand.emergency[0].depart.value, 12.5);
+    EXPECT_EQ(demand.emergency[0].type, "emergency_ambulance");
+    EXPECT_EQ(demand.emergency[0].edges, (std::vector<std::string>{"first", "second"}));
+    EXPECT_EQ(demand.emergency[1].depart.value, 40.0);
+    EXPECT_EQ(demand.emergency[1].type, "emergency_fire_engine");
+}
+
+TEST_F(SumoDemand, a_scenario_without_own_emergency_vehicles_cannot_measure_them) {
+    ImportRequest request = line_with(cars(20));
+    request.own_emergency = OwnEmergency::measure;
+    EXPECT_THAT(refusal(request),
+                AllOf(HasSubstr("has no emergency vehicle of its own"), HasSubstr("--own-emergency")));
+    request = line_with(cars(20) +
+                        "<vType id='ambulance' vClass='emergency'/><vehicle id='rescue' "
+                        "type='ambulance' depart='5000'><route edges='first second'/></vehicle>");
+    request.own_emergency = OwnEmergency::measure;
+    EXPECT_THAT(refusal(request), AllOf(HasSubstr("the first departs at 5000 s"), HasSubstr("--begin 4700")));
+    request = line_with(
+        "<vType id='ambulance' vClass='emergency'/><vehicle id='rescue' type='ambulance' "
+        "depart='12.5'><route edges='first second'/></vehicle>");
+    request.own_emergency = OwnEmergency::measure;
+    EXPECT_THAT(refusal(request), HasSubstr("no vehicle besides its emergency vehicles"));
+}
+
 TEST_F(SumoDemand, types_of_newer_classes_get_an_older_one) {
     const Findings findings = run(line_with(
         "<vType id='u' vClass='subway'/><vType id='unused' vClass='drone'/><vehicle id='v' type='u' "

@@ -103,8 +103,12 @@ void check_emergency_trips(const ScenarioConfig& config, Problems& problems) {
         if (!known)
             problems.push_back({config.where(key + ".kind"), fmt::format("\"{}\" is not known", trip.kind),
                                 "ambulance, fire_engine, police_car", ""});
-        if (trip.from.empty() || trip.to.empty())
-            problems.push_back({config.where(key), "has no from or no to", "ids of edges", "set both"});
+        const bool has_ends = !trip.from.empty() && !trip.to.empty();
+        if (trip.edges.empty() ? !has_ends : !trip.from.empty() || !trip.to.empty())
+            problems.push_back(
+                {config.where(key),
+                 trip.edges.empty() ? "has no from or no to" : "has edges, and from or to besides",
+                 "from and to, or edges", "give one of the two"});
     }
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <sstream>
 
 #include <boost/math/distributions/normal.hpp>
 #include <fmt/format.h>
@@ -66,25 +67,25 @@ double departure_s(const DemandContext& context, Purpose purpose, const std::str
     return rounded(from_s + uniform * (to_s - from_s), 0.01);
 }
 
+/// An edge outside junctions; nothing after adding a problem.
+std::optional<core::EdgeIndex> edge_of(const DemandContext& context, const std::string& key,
+                                       const std::string& id, std::vector<core::Problem>& problems) {
+    const auto found = context.network.find_edge(id);
+    if (found && !context.network.edge(*found).internal) return found;
+    std::vector<std::string> known;
+    for (const roads::Edge& row : context.network.edges())
+        if (!row.internal) known.push_back(row.id);
+    problems.push_back({context.config.where(key), fmt::format("the network has no edge \"{}\"", id),
+                        "id of an edge outside junctions", core::did_you_mean(id, known)});
+    return std::nullopt;
+}
+
 /// The fastest route by car between two edges given by id; nothing after adding problems to `problems`.
 std::optional<RouteEdges> route_between(const DemandContext& context, const std::string& key,
                                         const std::string& from, const std::string& to,
                                         std::vector<core::Problem>& problems) {
-    const auto edge = [&](const char* end, const std::string& id) {
-        const auto found = context.network.find_edge(id);
-        if (!found || context.network.edge(*found).internal) {
-            std::vector<std::string> known;
-            for (const roads::Edge& row : context.network.edges())
-                if (!row.internal) known.push_back(row.id);
-            problems.push_back({context.config.where(key + "." + end),
-                                fmt::format("the network has no edge \"{}\"", id),
-                                "id of an edge outside junctions", core::did_you_mean(id, known)});
-            return std::optional<core::EdgeIndex>();
-        }
-        return found;
-    };
-    const auto origin = edge("from", from);
-    const auto destination = edge("to", to);
+    const auto origin = edge_of(context, key + ".from", from, problems);
+    const auto destination = edge_of(context, key + ".to", to, problems);
     if (!origin || !destination) return std::nullopt;
     auto route = roads::fastest_route(context.network, *origin, *destination);
     if (!route)
@@ -246,12 +247,28 @@ PlannedDemand generate(const DemandContext& context) {
     return demand;
 }
 
+/// The route of an emergency vehicle as its trip gives it; nothing after adding problems to `problems`.
+std::optional<RouteEdges> route_of(const DemandContext& context, const std::string& key,
+                                   const EmergencyTrip& trip, std::vector<core::Problem>& problems) {
+    if (trip.edges.empty()) return route_between(context, key, trip.from, trip.to, problems);
+    RouteEdges route;
+    std::istringstream ids(trip.edges);
+    for (std::string id; ids >> id;) {
+        const auto edge = edge_of(context, key + ".edges", id, problems);
+        if (!edge) return std::nullopt;
+        route.push_back(*edge);
+    }
+    if (open_to_emergency(context.network, route)) return route;
+    problems.push_back({context.config.where(key + ".edges"), "is no way for an emergency vehicle",
+                        "edges that join, all open to class emergency", "correct the edges"});
+    return std::nullopt;
+}
+
 void add_emergency_trips(const DemandContext& context, PlannedDemand& demand) {
     std::vector<core::Problem> problems;
     for (std::size_t row = 0; row < context.config.emergency_trips.size(); ++row) {
         const EmergencyTrip& trip = context.config.emergency_trips[row];
-        const auto route =
-            route_between(context, fmt::format("emergency_trip[{}]", row), trip.from, trip.to, problems);
+        const auto route = route_of(context, fmt::format("emergency_trip[{}]", row), trip, problems);
         if (!route) continue;
         demand.emergency.push_back(plan_emergency(context, fmt::format("emergency.trip.{}", row),
                                                   *core::value_from<traffic::VehicleKind>(trip.kind),

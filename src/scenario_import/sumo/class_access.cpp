@@ -49,4 +49,13 @@ bool ClassAccess::joins(core::EdgeIndex from, core::EdgeIndex to, const std::str
     return false;
 }
 
+bool ClassAccess::opens_way(const std::vector<core::EdgeIndex>& route,
+                            const std::string& vehicle_class) const {
+    for (std::size_t row = 0; row < route.size(); ++row)
+        if (!opens(route[row], vehicle_class) ||
+            (row > 0 && !joins(route[row - 1], route[row], vehicle_class)))
+            return false;
+    return true;
+}
+
 }  // namespace clearway::scenario_import::detail

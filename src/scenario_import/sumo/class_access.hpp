@@ -23,6 +23,8 @@ class ClassAccess {
     bool opens(core::EdgeIndex edge, const std::string& vehicle_class) const;
     /// Whether it can drive from one edge directly to the next.
     bool joins(core::EdgeIndex from, core::EdgeIndex to, const std::string& vehicle_class) const;
+    /// Whether it can drive a whole route.
+    bool opens_way(const std::vector<core::EdgeIndex>& route, const std::string& vehicle_class) const;
 
   private:
     /// Attributes allow and disallow of a lane.

@@ -13,6 +13,7 @@
 #include "scenario/network_document.hpp"
 #include "scenario_import/sumo/additional.hpp"
 #include "scenario_import/sumo/class_access.hpp"
+#include "scenario_import/sumo/own_emergency.hpp"
 #include "scenario_import/sumo/persons.hpp"
 #include "scenario_import/sumo/plan_check.hpp"
 #include "scenario_import/sumo/stop.hpp"
@@ -101,15 +102,6 @@ bool is_car(const Demand& demand, const RoadUser& vehicle) {
     return kind_of_class(demand.types.at(vehicle.type).text("vClass")) == std::string_view("car");
 }
 
-bool opens_to_emergency(const std::vector<core::EdgeIndex>& route, const ClassAccess& access) {
-    const std::string emergency = "emergency";
-    for (std::size_t row = 0; row < route.size(); ++row)
-        if (!access.opens(route[row], emergency) ||
-            (row > 0 && !access.joins(route[row - 1], route[row], emergency)))
-            return false;
-    return true;
-}
-
 /// Minimum length of the routes that emergency vehicles take: 1 km if at least five are that long, else the
 /// length of the fifth longest. They take routes of cars, or of any vehicles if no car has one that is open
 /// to them.
@@ -125,7 +117,7 @@ double emergency_length_m(const Demand& demand, const roads::Network& network, c
         std::vector<core::EdgeIndex> route;
         for (const std::string& id : vehicle.edges)
             route.push_back(*network.find_edge(id));
-        if (opens_to_emergency(route, access))
+        if (access.opens_way(route, "emergency"))
             (car ? of_cars_m : of_others_m).push_back(roads::route_length(network, route).value);
     }
     std::vector<double>& lengths_m = of_cars_m.empty() ? of_others_m : of_cars_m;
@@ -241,17 +233,8 @@ void describe_ways(const Demand& demand, Findings& findings) {
 }
 
 void describe_vehicles(const Import& import, const Demand& demand, const Window& window, Findings& findings) {
-    std::size_t with_blue_lights = 0;
-    for (const RoadUser& vehicle : demand.vehicles) {
-        const Element& type = demand.types.at(vehicle.type);
-        ++findings.vehicles[kind_of_class(type.text("vClass"))];
-        with_blue_lights += has_blue_lights(type) || has_blue_lights(vehicle.element) ? 1U : 0U;
-    }
-    if (with_blue_lights > 0)
-        findings.changes.push_back(
-            fmt::format("{} emergency vehicles of the scenario drive as ordinary traffic; only Clearway's "
-                        "own are measured",
-                        with_blue_lights));
+    for (const RoadUser& vehicle : demand.vehicles)
+        ++findings.vehicles[kind_of_class(demand.types.at(vehicle.type).text("vClass"))];
     findings.vehicles_per_hour = static_cast<double>(demand.vehicles.size()) * 3600.0 / window.length_s;
     describe_ways(demand, findings);
     findings.demand =
@@ -341,7 +324,12 @@ bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Networ
     }
 
     const Window window = choose_window(demand.vehicles, files, import);
+    check_own_emergency(import, demand, window);
     keep_window(window, demand, findings, all);
+    set_times(window, config);
+    config.demand = {};
+    config.demand.emergency = 6;
+    take_own_emergency(import, demand, network, access, window.begin_s, config);
     describe_vehicles(import, demand, window, findings);
     add_routing_devices(demand, files.rerouting);
     config.measured = describe_types(import, demand);
@@ -351,10 +339,7 @@ bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Networ
     config.limits.human_kmh = config.limits.automated_kmh = no_limit_kmh;
     add_additional(import, others, demand, window.begin_s, config);
     begin_programs_at(window.begin_s, network_file);
-    set_times(window, config);
     add_persons(import, demand, network, window, config);
-    config.demand = {};
-    config.demand.emergency = 6;
     std::string routes;
     for (RoadUser& vehicle : demand.vehicles)
         routes += vehicle_xml(vehicle, window.begin_s, import.left_out);

@@ -78,7 +78,10 @@ std::string_view older_class(std::string_view vehicle_class) {
 }
 
 bool has_blue_lights(const Element& element) {
-    if (element.text("vClass") == "emergency") return true;
+    constexpr std::array<std::string_view, 3> shapes = {"emergency", "firebrigade", "police"};
+    if (element.text("vClass") == "emergency" ||
+        std::ranges::find(shapes, element.text("guiShape")) != shapes.end())
+        return true;
     return std::ranges::any_of(element.children, [](const Element& child) {
         return child.name == "param" && child.text("key") == "has.bluelight.device" &&
                is_true(child.text("value"));

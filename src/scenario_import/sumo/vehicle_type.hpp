@@ -13,7 +13,8 @@ const char* kind_of_class(std::string_view vehicle_class);
 /// The class of SUMO 1.15 that is nearest to one that only newer releases have; empty for any other class.
 std::string_view older_class(std::string_view vehicle_class);
 
-/// Whether a `<vType>` or `<vehicle>` has blue lights: class emergency, or SUMO's device for them.
+/// Whether a `<vType>` or `<vehicle>` has blue lights: class emergency, the shape of an emergency vehicle, or
+/// SUMO's device for them.
 bool has_blue_lights(const Element& element);
 
 /// Removes devices from a `<vType>` or `<vehicle>` that would write files into the user's current folder,
