@@ -215,14 +215,14 @@ std::string equipment_curve(const EquipmentFacts& facts) {
         if (!gain) continue;
         const auto equipped = static_cast<double>(rank + 1);
         points.emplace_back(equipped, gain->mean);
-        if (gain->interval) plot.whisker(equipped, {gain->interval->low, gain->interval->high}, 0);
+        if (gain->interval) plot.whisker(equipped, {gain->interval->low, gain->interval->high}, {1});
     }
-    plot.line(points, 0);
+    plot.line(points, {1, detail::Series::Weight::lead});
     std::vector<detail::LegendEntry> legend = {
-        detail::line_entry(0, "the first signals, with 95 % intervals")};
+        detail::line_entry({1, detail::Series::Weight::lead}, "the first signals, with 95 % intervals")};
     if (facts.all_gain) {
-        plot.line({{numbers.low, facts.all_gain->mean}, {numbers.high, facts.all_gain->mean}}, 1);
-        legend.push_back(detail::line_entry(1, fmt::format("all of {}", counted(facts.signals, "signal"))));
+        plot.line({{numbers.low, facts.all_gain->mean}, {numbers.high, facts.all_gain->mean}}, {2});
+        legend.push_back(detail::line_entry({2}, fmt::format("all of {}", counted(facts.signals, "signal"))));
     }
     plot.legend(legend);
     return detail::standalone(plot.finish());

@@ -53,7 +53,7 @@ std::vector<const LinkResult*> pooled(const LinkFacts& facts, links::Exits exits
     return found;
 }
 
-/// Line style of each drawn predictor: the best by mean AP, as many as there are styles.
+/// Line style of each drawn predictor: the best by mean AP, as many as can be told apart.
 std::map<std::string, std::size_t> series_of(const LinkFacts& facts) {
     std::map<std::string, double> sums;
     for (const LinkResult& result : facts.results) {
@@ -62,10 +62,11 @@ std::map<std::string, std::size_t> series_of(const LinkFacts& facts) {
     }
     std::vector<std::string> names = facts.predictors;
     std::ranges::stable_sort(names, std::greater{}, [&](const std::string& name) { return sums[name]; });
-    if (names.size() > detail::palette_size) names.resize(detail::palette_size);
+    constexpr std::size_t most_drawn = 7;  // more lines hide each other
+    if (names.size() > most_drawn) names.resize(most_drawn);
     std::map<std::string, std::size_t> series;
     for (const std::string& name : facts.predictors) {
-        if (std::ranges::find(names, name) != names.end()) series.emplace(name, series.size());
+        if (std::ranges::find(names, name) != names.end()) series.emplace(name, series.size() + 1);
     }
     return series;
 }

@@ -102,17 +102,18 @@ void Plot::grid_y() {
     if (!y_.label.empty()) text(2.0, std::min(y_.from, y_.to) - 10.0, y_.label, Anchor::start, "axis");
 }
 
-void Plot::line(const Points& points, std::size_t series) {
-    polyline("line", points, series);
+void Plot::line(const Points& points, const Series& series) {
+    polyline(line_style(series), points);
+    marks(points, series);
 }
 
-void Plot::hair(const Points& points, std::size_t series) {
-    polyline("hair", points, series);
+void Plot::hair(const Points& points, const Series& series) {
+    polyline("hair " + colour_of(series), points);
 }
 
-void Plot::band(const std::vector<std::array<double, 3>>& bounds, std::size_t series) {
+void Plot::band(const std::vector<std::array<double, 3>>& bounds, const Series& series) {
     const auto svg = out();
-    fmt::format_to(svg, "<polygon class=\"band s{}\" points=\"", series % palette_size);
+    fmt::format_to(svg, "<polygon class=\"band {}\" points=\"", colour_of(series));
     for (const auto& [x, low, high] : bounds)
         fmt::format_to(svg, "{:.1f},{:.1f} ", x_.place(x), y_.place(high));
     for (std::size_t at = bounds.size(); at > 0; --at) {
@@ -122,40 +123,65 @@ void Plot::band(const std::vector<std::array<double, 3>>& bounds, std::size_t se
     fmt::format_to(svg, "\"/>\n");
 }
 
-void Plot::polyline(const char* style, const Points& points, std::size_t series) {
+void Plot::polyline(const std::string& style, const Points& points) {
     const auto svg = out();
-    fmt::format_to(svg, "<polyline class=\"{} s{}\" points=\"", style, series % palette_size);
+    fmt::format_to(svg, "<polyline class=\"{}\" points=\"", style);
     for (const auto& [x, y] : points) {
         fmt::format_to(svg, "{:.1f},{:.1f} ", x_.place(x), y_.place(y));
     }
     fmt::format_to(svg, "\"/>\n");
 }
 
-void Plot::interval(std::pair<double, double> bounds, double mean, double y, std::size_t series) {
-    fmt::format_to(out(), "<path class=\"bar s{0}\" d=\"M{1:.1f} {2:.1f}v8m0 -4H{3:.1f}m0 -4v8\"/>",
-                   series % palette_size, x_.place(bounds.first), y - 4.0, x_.place(bounds.second));
+void Plot::marks(const Points& points, const Series& series) {
+    constexpr double apart = 66.0;
+    constexpr double shift =
+        23.0;  // from one series to the next, so that lines on each other show both marks
+    if (points.size() < 2) return;
+    double length = 0.0;
+    const auto from = [&](std::size_t at) {
+        return std::hypot(x_.place(points[at].first) - x_.place(points[at - 1].first),
+                          y_.place(points[at].second) - y_.place(points[at - 1].second));
+    };
+    for (std::size_t at = 1; at < points.size(); ++at)
+        length += from(at);
+    double next = std::min(0.5 * length, 8.0 + std::fmod(shift * static_cast<double>(series.number), apart));
+    double passed = 0.0;
+    for (std::size_t at = 1; at < points.size(); ++at) {
+        const double piece = from(at);
+        for (; piece > 0.0 && next <= passed + piece; next += apart) {
+            const double share = (next - passed) / piece;
+            const auto between = [&](double a, double b) { return a + share * (b - a); };
+            add(mark_of(series, between(x_.place(points[at - 1].first), x_.place(points[at].first)),
+                        between(y_.place(points[at - 1].second), y_.place(points[at].second)), 3.6));
+        }
+        passed += piece;
+    }
+}
+
+void Plot::interval(std::pair<double, double> bounds, double mean, double y, const Series& series) {
+    fmt::format_to(out(), "<path class=\"bar {0}\" d=\"M{1:.1f} {2:.1f}v8m0 -4H{3:.1f}m0 -4v8\"/>",
+                   colour_of(series), x_.place(bounds.first), y - 4.0, x_.place(bounds.second));
     point(mean, y, series);
 }
 
-void Plot::point(double value, double y, std::size_t series) {
-    fmt::format_to(out(), "<circle class=\"dot s{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\"/>\n",
-                   series % palette_size, x_.place(value), y);
+void Plot::point(double value, double y, const Series& series) {
+    add(mark_of(series, x_.place(value), y, 4.5) + "\n");
 }
 
 void Plot::estimate(const MaybeEstimate& value, const analysis::Interval* interval, double y,
-                    std::size_t series) {
+                    const Series& series) {
     if (interval != nullptr)
         this->interval({interval->low, interval->high}, value->mean, y, series);
     else if (value)
         point(value->mean, y, series);
 }
 
-void Plot::beam(std::pair<double, double> bounds, double y, std::size_t series) {
+void Plot::beam(std::pair<double, double> bounds, double y, const Series& series) {
     constexpr double half_height = 5.0;
     const auto [low, high] = std::minmax({x_.place(bounds.first), x_.place(bounds.second)});
     fmt::format_to(out(),
-                   "<rect class=\"beam s{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>",
-                   series % palette_size, low, y - half_height, high - low, 2.0 * half_height);
+                   "<rect class=\"beam {}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>",
+                   colour_of(series), low, y - half_height, high - low, 2.0 * half_height);
 }
 
 void Plot::stripe(std::pair<double, double> bounds, double value, const char* style) {
@@ -178,9 +204,9 @@ void Plot::horizontal(double value) {
                    x_.to);
 }
 
-void Plot::whisker(double x, std::pair<double, double> bounds, std::size_t series) {
-    fmt::format_to(out(), "<path class=\"bar s{}\" d=\"M{:.1f} {:.1f}h6m-3 0V{:.1f}m-3 0h6\"/>\n",
-                   series % palette_size, x_.place(x) - 3.0, y_.place(bounds.first), y_.place(bounds.second));
+void Plot::whisker(double x, std::pair<double, double> bounds, const Series& series) {
+    fmt::format_to(out(), "<path class=\"bar {}\" d=\"M{:.1f} {:.1f}h6m-3 0V{:.1f}m-3 0h6\"/>\n",
+                   colour_of(series), x_.place(x) - 3.0, y_.place(bounds.first), y_.place(bounds.second));
 }
 
 Chart::Chart(const std::string& title, double height, Axis x, Axis y)

@@ -83,34 +83,35 @@ class Plot : public Canvas {
 
     void grid_x();
     void grid_y();
-    /// A polyline in the style of `series`, an index of the palette.
-    void line(const Points& points, std::size_t series);
+    /// A polyline in the style of `series`, with its marks.
+    void line(const Points& points, const Series& series);
     /// A horizontal interval with its mean, at height `y` in figure units.
-    void interval(std::pair<double, double> bounds, double mean, double y, std::size_t series);
-    void point(double value, double y, std::size_t series);
+    void interval(std::pair<double, double> bounds, double mean, double y, const Series& series);
+    void point(double value, double y, const Series& series);
     /// The two above: a point if there is no interval to draw, and nothing without an estimate.
     void estimate(const MaybeEstimate& value, const analysis::Interval* interval, double y,
-                  std::size_t series);
+                  const Series& series);
     /// A filled bar between two values of x, at height `y` in figure units.
-    void beam(std::pair<double, double> bounds, double y, std::size_t series);
+    void beam(std::pair<double, double> bounds, double y, const Series& series);
     /// A horizontal line between two values of x at a value of y, with the CSS class `style`.
     void stripe(std::pair<double, double> bounds, double value, const char* style);
     void vertical(double value);
     /// Hides what was drawn between two heights, in figure units, so that a line of text is not crossed.
     void blank(double top, double bottom);
     /// A vertical interval at `x`.
-    void whisker(double x, std::pair<double, double> bounds, std::size_t series);
+    void whisker(double x, std::pair<double, double> bounds, const Series& series);
     /// A horizontal line across the figure at a value of y.
     void horizontal(double value);
     /// A thin polyline, for figures with many lines.
-    void hair(const Points& points, std::size_t series);
+    void hair(const Points& points, const Series& series);
     /// The area between two bounds of y over x: (x, low, high).
-    void band(const std::vector<std::array<double, 3>>& bounds, std::size_t series);
+    void band(const std::vector<std::array<double, 3>>& bounds, const Series& series);
     /// Continues with other axes: the next panel of the drawing.
     void turn_to(Axis x, Axis y);
 
   private:
-    void polyline(const char* style, const Points& points, std::size_t series);
+    void polyline(const std::string& style, const Points& points);
+    void marks(const Points& points, const Series& series);
 
     Axis x_;
     Axis y_;

@@ -1,5 +1,7 @@
 #include "report/detail/canvas.hpp"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "core/terminal.hpp"
@@ -13,11 +15,35 @@ constexpr double legend_row = 18.0;
 constexpr double legend_mark = 34.0;  // the mark and the gap behind it
 constexpr std::size_t longest_entry = 56;
 
-std::string class_of(std::size_t series) {
-    return fmt::format("s{}", series % palette_size);
-}
+// Without common divisors in pairs, so that all of their combinations occur before the first one returns.
+constexpr std::size_t colours = 6;
+constexpr std::size_t dashes = 5;
+constexpr std::size_t marks = 4;
 
 }  // namespace
+
+std::string colour_of(const Series& series) {
+    return series.number == 0 ? "s0" : fmt::format("s{}", (series.number - 1) % colours + 1);
+}
+
+std::string line_style(const Series& series) {
+    return fmt::format("line {}{}{}", colour_of(series),
+                       series.number == 0 ? "" : fmt::format(" d{}", (series.number - 1) % dashes),
+                       series.weight == Series::Weight::lead ? " lead" : "");
+}
+
+std::string mark_of(const Series& series, double x, double y, double radius) {
+    if (series.number == 0) return {};
+    // Circle, square, triangle, diamond.
+    constexpr std::array<const char*, marks> shapes = {
+        "m{0:.1f} 0a{1:.1f} {1:.1f} 0 1 0 -{2:.1f} 0a{1:.1f} {1:.1f} 0 1 0 {2:.1f} 0z",
+        "m-{1:.1f} -{1:.1f}h{2:.1f}v{2:.1f}h-{2:.1f}z", "m0 -{1:.1f}l{1:.1f} {2:.1f}h-{2:.1f}z",
+        "m0 -{1:.1f}l{1:.1f} {1:.1f}l-{1:.1f} {1:.1f}l-{1:.1f} -{1:.1f}z"};
+    const std::size_t shape = (series.number - 1) % marks;
+    const double size = shape == 1 ? 0.87 * radius : shape == 3 ? 1.2 * radius : radius;
+    return fmt::format("<path class=\"dot {}\" d=\"M{:.1f} {:.1f}{}\"/>", colour_of(series), x, y,
+                       fmt::format(fmt::runtime(shapes[shape]), size, size, 2.0 * size));
+}
 
 std::string shortened(const std::string& text, std::size_t longest) {
     if (text.size() <= longest) return text;
@@ -27,8 +53,10 @@ std::string shortened(const std::string& text, std::size_t longest) {
     return text.substr(0, end) + "\u2026";
 }
 
-LegendEntry line_entry(std::size_t series, std::string words) {
-    return {fmt::format("<path class=\"line {}\" d=\"M1 5H27\"/>", class_of(series)), std::move(words)};
+LegendEntry line_entry(const Series& series, std::string words) {
+    return {fmt::format("<path class=\"{}\" d=\"M1 5H27\"/>{}", line_style(series),
+                        mark_of(series, 14.0, 5.0, 3.6)),
+            std::move(words), series.weight};
 }
 
 LegendEntry stripe_entry(const char* style, std::string words) {
@@ -39,12 +67,12 @@ LegendEntry dot_entry(const std::string& style, std::string words) {
     return {fmt::format("<circle class=\"{}\" cx=\"20\" cy=\"5\" r=\"4.5\"/>", style), std::move(words)};
 }
 
-LegendEntry number_entry(std::size_t series, std::string words) {
+LegendEntry number_entry(const Series& series, std::string words) {
     return {fmt::format(
                 "<circle class=\"dot {}\" cx=\"20\" cy=\"5\" r=\"8\"/><text class=\"onDot\" x=\"20\" y=\"9\" "
                 "text-anchor=\"middle\">{}</text>",
-                class_of(series), series),
-            std::move(words)};
+                colour_of(series), series.number),
+            std::move(words), series.weight};
 }
 
 Canvas::Canvas(std::string title, double height) : title_(std::move(title)), height_(height) {}
@@ -82,7 +110,8 @@ void Canvas::legend(const std::vector<LegendEntry>& entries) {
         }
         fmt::format_to(std::back_inserter(svg_), "<g transform=\"translate({:.1f} {:.1f})\">{}</g>", x,
                        height_ - 14.0, entry.mark);
-        text(x + legend_mark, height_ - 5.0, words, Anchor::start, "legend");
+        text(x + legend_mark, height_ - 5.0, words, Anchor::start,
+             entry.weight == Series::Weight::lead ? "legend lead" : "legend");
         x += entry_width;
     }
 }

@@ -7,8 +7,13 @@
 
 namespace clearway::report::detail {
 
-/// Number of line styles; further series reuse them.
-inline constexpr std::size_t palette_size = 7;
+/// How a line or a point looks. Number 0 is the baseline's: solid, without marks, in the colour of the text;
+/// no other number looks so. The next 20 differ in dash and mark, also without colour; the first 60 in
+/// colour, dash and mark; those after them repeat the 60.
+struct Series {
+    std::size_t number = 0;
+    enum class Weight { usual, lead } weight = Weight::usual;  ///< One line leads: the headline's condition.
+};
 
 /// The start of a long text, cut between characters, with an ellipsis.
 std::string shortened(const std::string& text, std::size_t longest);
@@ -17,15 +22,23 @@ std::string shortened(const std::string& text, std::size_t longest);
 struct LegendEntry {
     std::string mark;
     std::string words;
+    Series::Weight weight = Series::Weight::usual;
 };
-/// A piece of line in the style of `series`, an index of the palette.
-LegendEntry line_entry(std::size_t series, std::string words);
+/// CSS class of the colour of a series.
+std::string colour_of(const Series& series);
+/// CSS classes of the colour, dash and weight of a line.
+std::string line_style(const Series& series);
+/// The mark of a series around a place, as markup; empty for number 0.
+std::string mark_of(const Series& series, double x, double y, double radius);
+
+/// A piece of line in the style of `series`.
+LegendEntry line_entry(const Series& series, std::string words);
 /// A piece of line with the CSS class `style`.
 LegendEntry stripe_entry(const char* style, std::string words);
 /// A small circle with the CSS class `style`.
 LegendEntry dot_entry(const std::string& style, std::string words);
 /// A dot in the style of `series` that holds its number.
-LegendEntry number_entry(std::size_t series, std::string words);
+LegendEntry number_entry(const Series& series, std::string words);
 
 /// A drawing of the report: an `<svg>` element. All drawings share one width, set of styles and legend. Text
 /// has the size of the page's small text when 400 units are 400 px, and is still legible at 320 px. All text

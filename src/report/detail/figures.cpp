@@ -1,11 +1,14 @@
 #include "report/detail/figures.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "report/detail/style.hpp"
+#include "report/overview.hpp"
 
 namespace clearway::report::detail {
 namespace {
@@ -42,12 +45,29 @@ std::string standalone(const std::string& drawing) {
         drawing.substr(inside + 1));
 }
 
+Looks looks_of(const StudyFacts& study, const ScenarioFacts& scenario) {
+    const ConditionFacts* const featured = featured_condition(study, scenario);
+    Looks looks;
+    for (const ConditionFacts& condition : scenario.conditions)
+        looks.push_back(
+            {looks.size(), &condition == featured ? Series::Weight::lead : Series::Weight::usual});
+    return looks;
+}
+
+std::vector<std::size_t> drawing_order(const Looks& looks) {
+    std::vector<std::size_t> places(looks.size());
+    std::iota(places.begin(), places.end(), std::size_t{0});
+    std::stable_partition(places.begin(), places.end(),
+                          [&](std::size_t place) { return looks[place].weight == Series::Weight::usual; });
+    return places;
+}
+
 std::vector<Figure> figures_of(const StudyFacts& study,
-                               const std::function<Figure(const ScenarioFacts&)>& figure) {
+                               const std::function<Figure(const ScenarioFacts&, const Looks&)>& figure) {
     std::vector<Figure> figures;
     figures.reserve(study.scenarios.size());
     for (const ScenarioFacts& scenario : study.scenarios)
-        figures.push_back(figure(scenario));
+        figures.push_back(figure(scenario, looks_of(study, scenario)));
     return figures;
 }
 

@@ -48,8 +48,15 @@ inline std::string estimate_or_nothing(const MaybeEstimate& difference, NumberSt
     return difference ? estimate(difference, style, factor) : std::string();
 }
 
+/// How each condition of a scenario looks, by its place: numbers are places, and the condition that the
+/// headline speaks of leads.
+using Looks = std::vector<Series>;
+Looks looks_of(const StudyFacts& study, const ScenarioFacts& scenario);
+/// The places of conditions in the order in which they are drawn: what leads comes last, on top.
+std::vector<std::size_t> drawing_order(const Looks& looks);
+
 /// One figure per scenario.
 std::vector<Figure> figures_of(const StudyFacts& study,
-                               const std::function<Figure(const ScenarioFacts&)>& figure);
+                               const std::function<Figure(const ScenarioFacts&, const Looks&)>& figure);
 
 }  // namespace clearway::report::detail

@@ -24,7 +24,7 @@ std::string decimal(double value, int decimals) {
 std::vector<LegendEntry> legend_of(const std::vector<DrawnResult>& drawn) {
     std::vector<LegendEntry> entries;
     for (const DrawnResult& one : drawn)
-        entries.push_back(line_entry(one.series, one.result->predictor));
+        entries.push_back(line_entry({one.series}, one.result->predictor));
     return entries;
 }
 
@@ -82,7 +82,7 @@ std::string precision_recall_figure(const std::vector<DrawnResult>& drawn) {
                 points.emplace_back(point.recall, point.precision);
         }
         any = any || !curve.empty();
-        if (!points.empty()) plot.line(thinned(points, plot.x(), plot.y()), one.series);
+        if (!points.empty()) plot.line(thinned(points, plot.x(), plot.y()), {one.series});
         const auto& ap = one.result->of(links::LinkSubset::all).ap.value;
         std::vector<std::string> row = {one.result->predictor, number_or_dash(ap, typeset(4))};
         for (const double recall : {0.80, 0.90, 0.95, 0.98, 0.99})
@@ -109,7 +109,7 @@ std::string reliability_figure(const std::vector<DrawnResult>& drawn) {
                "share of true links minus stated probability");
     DataTable data{{"Predictor", "stated", "share of true links minus it"}, {}};
     for (std::size_t i = 0; i < drawn.size(); ++i) {
-        if (!curves[i].empty()) plot.line(curves[i], drawn[i].series);
+        if (!curves[i].empty()) plot.line(curves[i], {drawn[i].series});
         for (const auto& [stated, gap] : curves[i])
             data.rows.push_back({drawn[i].result->predictor, decimal(stated, 3), decimal(gap, 3)});
     }
@@ -155,7 +155,7 @@ std::string age_figure(const std::vector<DrawnResult>& drawn) {
     plot.text((left_edge + right_edge) / 2.0, height - label_space + 34.0, plot.x().label,
               Plot::Anchor::middle, "axis");
     for (std::size_t i = 0; i < drawn.size(); ++i) {
-        if (!curves[i].empty()) plot.line(curves[i], drawn[i].series);
+        if (!curves[i].empty()) plot.line(curves[i], {drawn[i].series});
     }
     plot.legend(legend_of(drawn));
     return to_html(Figure{"", "Average precision by age", plot.finish(), "Pairs by classes of age.", data});

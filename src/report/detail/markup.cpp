@@ -1,22 +1,61 @@
 #include "report/detail/markup.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+
+#include "core/terminal.hpp"
 
 namespace clearway::report::detail {
 namespace {
 
+/// Width of the longest piece that a line cannot break, px.
+double unbroken_px(const std::string& cell) {
+    constexpr double letter_px = 8.0;  // of a digit of .88rem, rounded up
+    std::size_t longest = 0;
+    for (std::size_t from = 0; from < cell.size();) {
+        const std::size_t to = std::min(cell.find(' ', from), cell.size());
+        longest = std::max(longest, core::characters_in(cell.substr(from, to - from)));
+        from = to + 1;
+    }
+    return letter_px * static_cast<double>(longest);
+}
+
+/// The class of a table whose narrowest form needs more than a phone, a tablet or a desk has; else empty.
+const char* width_class(const DataTable& table) {
+    constexpr double padding_px = 21.0;
+    constexpr double names_px = 120.0;  // the first column, whose words may be broken
+    double needed_px = names_px;
+    for (std::size_t column = 1; column < table.head.size(); ++column) {
+        double column_px = unbroken_px(table.head[column]);
+        for (const auto& row : table.rows)
+            column_px = std::max(column_px, column < row.size() ? unbroken_px(row[column]) : 0.0);
+        const bool breaks = table.cells == DataTable::Cells::words;
+        needed_px += padding_px + (breaks ? std::min(column_px, names_px) : column_px);
+    }
+    constexpr double phone_px = 328.0;  // 360 px without margins
+    if (needed_px <= phone_px) return "";
+    for (const TableWidth& width : table_widths)
+        if (&width == &table_widths.back() || needed_px <= width.room_px) return width.name;
+    return "";
+}
+
 std::string table_element(const DataTable& table, const char* more) {
-    std::string html = fmt::format("<table class=\"data{}\"{}><thead><tr>",
-                                   table.cells == DataTable::Cells::words ? " words" : "", more);
+    const std::string width = width_class(table);
+    std::string html = fmt::format("<table class=\"data{}{}\"{}><thead><tr>",
+                                   table.cells == DataTable::Cells::words ? " words" : "",
+                                   width.empty() ? "" : " " + width, more);
     for (const std::string& cell : table.head) {
         html += fmt::format("<th scope=\"col\">{}</th>", escaped(cell));
     }
     html += "</tr></thead><tbody>\n";
     for (const auto& row : table.rows) {
-        html += "<tr>";
-        for (std::size_t column = 0; column < row.size(); ++column) {
-            const char* const tag = column == 0 ? "th scope=\"row\"" : "td";
-            html += fmt::format("<{}>{}</{}>", tag, escaped(row[column]), column == 0 ? "th" : "td");
+        html += fmt::format("<tr><th scope=\"row\">{}</th>", escaped(row.front()));
+        for (std::size_t column = 1; column < row.size(); ++column) {
+            html += width.empty() || *more != '\0'
+                        ? fmt::format("<td>{}</td>", escaped(row[column]))
+                        : fmt::format("<td data-label=\"{}\">{}</td>", escaped(table.head[column]),
+                                      escaped(row[column]));
         }
         html += "</tr>\n";
     }

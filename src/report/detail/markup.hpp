@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,15 @@ struct DataTable {
     enum class Cells { numbers, words } cells = Cells::numbers;
 };
 std::string to_html(const DataTable& table);
+
+/// CSS classes of tables that become lists, a line for each cell, and the width in px up to which they do.
+/// Cells of such tables carry the words of their column in `data-label`.
+struct TableWidth {
+    const char* name;
+    int room_px;
+};
+inline constexpr std::array<TableWidth, 4> table_widths = {
+    {{"wide", 560}, {"wider", 880}, {"widest", 1180}, {"list", 10000}}};
 
 /// A table of its own, not the data of a figure.
 struct Table {

@@ -4,14 +4,16 @@
 
 #include <fmt/format.h>
 
+#include "report/detail/markup.hpp"
+
 namespace clearway::report::detail {
 namespace {
 
 /// A colour by name. One colour means one thing on the whole page: `better` and `worse` what their names say,
 /// `s1` to `s6` conditions, `go`, `wait` and `stop` what a signal shows. Better and worse are the blue and
-/// the vermillion of Okabe and Ito, "Color Universal Design", 2008; conditions are from Paul Tol's "muted"
-/// scheme (technical note SRON/EPS/TN/09-002, 2021), without its blues and reds. Both are made for readers
-/// with colour deficiency.
+/// the vermillion of Okabe and Ito, "Color Universal Design", 2008. Colours of conditions were sought for a
+/// difference of at least 15 (CIE 1976) from each other, ink, better and worse, with full colour vision and
+/// without one kind of cone (Machado, Oliveira and Fernandes 2009).
 struct Colour {
     const char* name;
     const char* light;
@@ -24,12 +26,12 @@ constexpr std::array<Colour, 17> colours = {{{"paper", "#fff", "#14181c"},
                                              {"panel", "#f5f7f8", "#1c2227"},
                                              {"better", "#005f94", "#6cbcf0"},
                                              {"worse", "#b04300", "#ff9a57"},
-                                             {"s1", "#117733", "#4fc27a"},
-                                             {"s2", "#aa4499", "#e08ad0"},
-                                             {"s3", "#8a8a1e", "#cfcf5c"},
-                                             {"s4", "#2f8f80", "#63d0bf"},
-                                             {"s5", "#882255", "#d979a8"},
-                                             {"s6", "#7a6a58", "#bfae99"},
+                                             {"s1", "#26873f", "#608c58"},
+                                             {"s2", "#9833cc", "#a467df"},
+                                             {"s3", "#b38e08", "#f8e04b"},
+                                             {"s4", "#0fa4af", "#5cfdad"},
+                                             {"s5", "#90035c", "#b55b9f"},
+                                             {"s6", "#c45081", "#cc97ad"},
                                              {"go", "#7fae8d", "#5f8f6d"},
                                              {"wait", "#c9a400", "#d9bd3a"},
                                              {"stop", "#7d0a1e", "#c4475c"},
@@ -72,28 +74,30 @@ text-decoration-color:var(--muted)}
 .card dl{margin:0}.card dt{font-weight:600;margin-top:.7rem;font-size:.95rem}.card dd{margin:.1rem 0 0;font-size:.92rem}
 .effect{font-weight:600}.better{color:var(--better)}.worse{color:var(--worse)}
 .tile.better,.tile.worse{color:inherit}
-.scroll{overflow-x:auto;margin:.5rem 0 1rem;-webkit-overflow-scrolling:touch}
+.scroll{overflow-x:auto;margin:.5rem 0 1rem;-webkit-overflow-scrolling:touch;container-type:inline-size}
 table{border-collapse:collapse;font-size:.88rem;line-height:1.4;font-variant-numeric:tabular-nums lining-nums;min-width:100%}
-table[hidden]{display:none}
-th,td{padding:.42rem .65rem;text-align:right;vertical-align:top;white-space:nowrap;border-bottom:1px solid var(--rule)}
+table[hidden]{display:none!important}
+th,td{padding:.42rem .65rem;text-align:right;vertical-align:top;border-bottom:1px solid var(--rule)}
 thead th{vertical-align:bottom;font-weight:600;border-bottom:2px solid var(--muted)}
 thead tr.group th{border-bottom:0;padding-bottom:0}
 thead tr.sub th{font-weight:400;color:var(--muted);font-size:.8rem;padding-top:0}
 th:first-child{text-align:left;padding-left:0!important;font-weight:600}
-tbody th{min-width:9.5rem;white-space:normal;max-width:17rem}
+tbody th{min-width:7.5rem;max-width:17rem;overflow-wrap:anywhere}
+td .mean,td .range,td .delta{white-space:nowrap}
 td .mean{font-weight:600}td .range{color:var(--muted);margin-left:.3em}
 td .delta{display:block;font-size:.8rem;color:var(--muted)}td .delta.better,td .delta.worse{font-weight:600}
 td .delta.better{color:var(--better)}td .delta.worse{color:var(--worse)}
 td.published{color:var(--muted);font-style:italic;border-left:1px dotted var(--rule);background:var(--panel)}
-table.data{min-width:0}table.words td,table.words thead th{text-align:left;white-space:normal}
-table.data th,table.data td{padding:.22rem .65rem}table.data td{white-space:nowrap}
+table.data{min-width:0}table.words td,table.words thead th{text-align:left;overflow-wrap:anywhere}
+table.data th,table.data td{padding:.22rem .65rem}
 .unsafe{display:inline-block;font-size:.75rem;font-weight:600;border:1px solid var(--worse);color:var(--worse);
 border-radius:4px;padding:0 .35em}
 .figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,350px),1fr));gap:28px 32px;margin:1rem 0}
 .figures.one{grid-template-columns:1fr}
 .figures.pair{grid-template-columns:repeat(auto-fit,minmax(min(100%,440px),1fr))}
 figure{margin:0;min-width:0;container-type:inline-size}
-.figures.one figure{max-width:760px}
+.figures.one figure{max-width:760px}figure:has(details[open]){grid-column:1/-1;max-width:none!important}
+figure:has(details[open])>svg{max-width:760px!important}
 figcaption{font-weight:600;margin-bottom:.3rem;display:flex;flex-wrap:wrap;gap:0 .8rem;justify-content:space-between;align-items:baseline}
 .save{font-weight:400;font-size:.78rem;white-space:nowrap}
 .save button{font:inherit;color:var(--muted);background:none;border:0;padding:.2rem .35rem;cursor:pointer;text-decoration:underline;
@@ -104,7 +108,6 @@ figure svg.network{background:var(--panel);border-radius:8px;max-height:420px}.n
 @container (min-width:480px){.plot text{font-size:10.5px}.plot .heading{font-size:11.5px}}
 @container (min-width:640px){.plot text{font-size:9px}.plot .heading{font-size:10px}}
 details{margin:.4rem 0;font-size:.9rem}summary{cursor:pointer;color:var(--muted);padding:.2rem 0}
-details .scroll{max-height:24rem;overflow:auto}
 details.section{font-size:1rem;border-top:1px solid var(--rule);margin:0}
 details.section>summary{padding:.55rem 0;color:var(--ink)}
 details.section>summary h2{display:inline;border:0;padding:0;margin:0;font-size:1.1rem}
@@ -115,14 +118,14 @@ dl.facts{display:grid;grid-template-columns:minmax(8rem,auto) 1fr;gap:.25rem 1.2
 dl.facts dt{color:var(--muted)}dl.facts dd{margin:0;overflow-wrap:anywhere}
 footer{padding-top:2rem;padding-bottom:3rem;color:var(--muted);font-size:.85rem}
 @media(max-width:560px){dl.facts{grid-template-columns:1fr}dl.facts dt{margin-top:.5rem}.tiles{grid-template-columns:1fr;gap:8px}
-.tile{padding:.5rem .8rem}tbody th{min-width:7.5rem}th,td{padding:.4rem .5rem}
+.tile{padding:.5rem .8rem}th,td{padding:.4rem .5rem}
 nav{white-space:nowrap;overflow-x:auto;margin-right:-16px;padding-bottom:.3rem}}
 @media(min-width:561px){.scroll table.paired tbody th,.scroll table.paired thead th:first-child{position:sticky;left:0;
 background:var(--paper)}}
 @media print{:root{color-scheme:light}body{font-size:10.5pt}nav,.save{display:none}h2{break-after:avoid}
-figure,.card,.tile,tr{break-inside:avoid}.scroll,details .scroll{overflow:visible;max-height:none}table{font-size:7.5pt}
-th,td,table.data th,table.data td{padding:.2rem .3rem}thead th{white-space:normal}tbody th{min-width:0}
-table.data td,table.data th{white-space:normal}td .range{display:block;margin-left:0}td .delta{white-space:normal}details:not([open]){display:none}
+figure,.card,.tile,tr{break-inside:avoid}.scroll{overflow:visible}table{font-size:7.5pt}
+th,td,table.data th,table.data td{padding:.2rem .3rem}tbody th{min-width:0}
+td .range{display:block;margin-left:0}td .delta{white-space:normal}details:not([open]){display:none}
 details.fold:not([open]){display:block}details.fold::details-content{display:block;content-visibility:visible}
 .figures,.figures.pair{grid-template-columns:1fr 1fr}}
 )css";
@@ -135,7 +138,9 @@ constexpr const char* drawing_rules = R"css(
 stroke-width:4px;stroke-linejoin:round}
 .plot .grid{stroke:var(--rule);stroke-width:1;fill:none}.plot .zero{stroke:var(--ink);stroke-width:1.3}
 .plot .blank{fill:var(--paper)}
-.plot .line,.plot .bar{fill:none;stroke-width:2;stroke-linejoin:round;stroke:currentColor}.plot .bar{stroke-width:2.4}
+.plot .line,.plot .bar,.plot .leader,.plot .ring{fill:none;stroke-width:1.8;stroke-linejoin:round;stroke:currentColor}
+.plot .bar{stroke-width:2.4}.plot .leader{stroke-width:1}.plot .ring{stroke-width:2}
+.plot .line.lead{stroke-width:3.8}.plot text.lead{font-weight:700;fill:var(--ink)}
 .plot .s0{color:var(--ink)}.plot .s1{color:var(--s1)}.plot .s2{color:var(--s2)}.plot .s3{color:var(--s3)}
 .plot .s4{color:var(--s4)}.plot .s5{color:var(--s5)}.plot .s6{color:var(--s6)}
 .plot .better{color:var(--better)}.plot .worse{color:var(--worse)}
@@ -157,9 +162,27 @@ stroke-width:4px;stroke-linejoin:round}
 .plot .held{fill:none;stroke:var(--ink);stroke-width:1.5}.plot .losing{fill:var(--worse);stroke:var(--paper);stroke-width:.8}
 .plot .lock{fill:none;stroke:var(--worse);stroke-width:1.6}.plot .lock.before{opacity:.45}
 .plot .station{fill:var(--paper);stroke:var(--ink);stroke-width:1.8}
-.plot .line.s2{stroke-dasharray:7 3}.plot .line.s3{stroke-dasharray:2 3}.plot .line.s4{stroke-dasharray:9 3 2 3}
-.plot .line.s5{stroke-dasharray:4 2}.plot .line.s6{stroke-dasharray:1 4}
+.plot .d1{stroke-dasharray:8 3}.plot .d2{stroke-dasharray:3 2}.plot .d3{stroke-dasharray:10 3 2 3}
+.plot .d4{stroke-dasharray:6 2 2 2 2 2}
 )css";
+
+/// Tables that need more room than they have become lists: a block for each row, a line for each cell.
+/// Written for each class that says how wide a table is (report/detail/markup.cpp).
+constexpr const char* list_rules = R"css(
+{0}{{display:block;min-width:0}}{0}>thead{{display:none}}{0}>tbody,{0}>tbody>tr{{display:block}}
+{0}>tbody>tr>*{{display:flow-root;text-align:right;padding:.2rem 0!important;border-bottom:1px dotted var(--rule)}}
+{0}>tbody>tr>th{{text-align:left;max-width:none;margin-top:.7rem;border-bottom:1px solid var(--muted);position:static!important}}
+{0}>tbody>tr>td:empty{{display:none}}
+{0}>tbody>tr>td::before{{content:attr(data-label);float:left;max-width:46%;margin-right:.5rem;text-align:left;color:var(--muted);font-style:normal}}
+)css";
+
+std::string lists() {
+    std::string css = "@media screen{";
+    for (const auto& [name, room_px] : table_widths)
+        css += fmt::format("@container (max-width:{}px){{{}}}", room_px,
+                           fmt::format(fmt::runtime(list_rules), fmt::format("table.{}", name)));
+    return css + "}";
+}
 
 std::string custom_properties(bool dark) {
     std::string text = ":root{";
@@ -173,7 +196,7 @@ std::string custom_properties(bool dark) {
 std::string page_style() {
     return "\n:root{color-scheme:light dark}" + custom_properties(false) +
            "\n@media screen and (prefers-color-scheme:dark){" + custom_properties(true) + "}" +
-           drawing_rules + page_rules;
+           drawing_rules + page_rules + lists();
 }
 
 std::string drawing_style() {

@@ -76,8 +76,8 @@ Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& con
                times, "time since departure, s", distances, "distance along the route, m");
     draw_signals(plot, *without, -offset);
     draw_signals(plot, *with, offset);
-    const std::size_t baseline_series = scenario.place_of(condition.baseline);
-    const std::size_t series = scenario.place_of(condition.name());
+    const Series baseline_series{scenario.place_of(condition.baseline)};
+    const Series series{scenario.place_of(condition.name()), Series::Weight::lead};
     plot.line(way_of(*without), baseline_series);
     plot.line(way_of(*with), series);
     std::vector<LegendEntry> legend = {line_entry(baseline_series, baseline->label()),

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -17,6 +19,7 @@ struct Point {
     std::size_t number = 0;  ///< Of the condition in its scenario.
     const ConditionFacts* condition = nullptr;
     bool turned_alone = false;  ///< A setting of another condition: drawn small, without a number.
+    Series series = {};         ///< Its number is `number`.
 
     MaybeEstimate gained() const {
         MaybeEstimate time = condition->difference(gain);
@@ -28,11 +31,13 @@ struct Point {
     const MaybeEstimate& lost() const { return condition->difference(cost); }
 };
 
+/// In the order in which they are drawn.
 std::vector<Point> points_of(const StudyFacts& study, const ScenarioFacts& scenario) {
     std::vector<Point> points;
-    for (std::size_t number = 0; number < scenario.conditions.size(); ++number) {
+    const Looks looks = looks_of(study, scenario);
+    for (const std::size_t number : drawing_order(looks)) {
         const ConditionFacts& condition = scenario.conditions[number];
-        Point point{number, &condition, reference_of(study, scenario, condition) != nullptr};
+        Point point{number, &condition, reference_of(study, scenario, condition) != nullptr, looks[number]};
         if (condition.is_compared() && point.gained() && point.lost()) points.push_back(point);
     }
     // The small ones first, so that none hides a number.
@@ -41,29 +46,85 @@ std::vector<Point> points_of(const StudyFacts& study, const ScenarioFacts& scena
     return points;
 }
 
-void draw(Plot& plot, const Point& point) {
-    const MaybeEstimate gained = point.gained();
-    const double x = plot.x().place(point.lost()->mean);
-    const double y = plot.y().place(gained->mean);
-    const std::string series = fmt::format("s{}", point.number % palette_size);
-    if (point.turned_alone) {
-        plot.circle(x, y, 3.0, "dot small " + series);
-        return;
+using Place = std::pair<double, double>;
+constexpr double badge_radius = 8.0;
+
+double distance(const Place& a, const Place& b) {
+    return std::hypot(a.first - b.first, a.second - b.second);
+}
+
+/// Where the number of a point stands: at the point, or as near as is free of the numbers in `taken`.
+Place free_place(const Place& point, const std::vector<Place>& taken, const Plot& plot) {
+    constexpr double apart = 2.0 * badge_radius + 1.5;
+    constexpr int directions = 16;
+    const auto is_free = [&](const Place& place) {
+        const auto [x, y] = place;
+        return x > left_edge + badge_radius && x < right_edge - badge_radius &&
+               y > plot.y().to + badge_radius && y < plot.y().from - badge_radius &&
+               std::ranges::none_of(taken,
+                                    [&](const Place& other) { return distance(place, other) < apart; });
+    };
+    for (double away = 0.0; away <= 6.0 * apart; away += 0.5 * apart) {
+        for (int step = 0; step < directions; ++step) {
+            const double angle = 2.0 * std::numbers::pi * step / directions;
+            const Place place{point.first + away * std::cos(angle), point.second + away * std::sin(angle)};
+            if (is_free(place)) return place;
+        }
     }
+    return point;
+}
+
+void draw_intervals(Plot& plot, const Point& point, const Place& place) {
+    const std::string style = "bar thin " + colour_of(point.series);
+    const auto [x, y] = place;
     if (const analysis::Interval* const across = shown_interval(point.lost()))
-        plot.path({{plot.x().place(across->low), y}, {plot.x().place(across->high), y}},
-                  "bar thin " + series);
+        plot.path({{plot.x().place(across->low), y}, {plot.x().place(across->high), y}}, style);
+    const MaybeEstimate gained = point.gained();
     if (const analysis::Interval* const up = shown_interval(gained))
-        plot.path({{x, plot.y().place(up->low)}, {x, plot.y().place(up->high)}}, "bar thin " + series);
-    plot.circle(x, y, 8.0, "dot " + series);
-    plot.text(x, y + 4.0, std::to_string(point.number), Plot::Anchor::middle, "onDot");
+        plot.path({{x, plot.y().place(up->low)}, {x, plot.y().place(up->high)}}, style);
+}
+
+void draw_number(Plot& plot, const Point& point, const Place& place, const Place& at) {
+    const std::string colour = colour_of(point.series);
+    if (at != place) {
+        plot.circle(place.first, place.second, 2.6, "dot " + colour);
+        plot.path({place, at}, "leader " + colour);
+    }
+    const bool leads = point.series.weight == Series::Weight::lead;
+    if (leads) plot.circle(at.first, at.second, badge_radius + 2.5, "ring " + colour);
+    plot.circle(at.first, at.second, badge_radius, "dot " + colour);
+    plot.text(at.first, at.second + 4.0, std::to_string(point.number), Plot::Anchor::middle, "onDot");
+}
+
+/// Intervals first, then small dots, then numbers, none of which hides another.
+void draw(Plot& plot, const std::vector<Point>& points) {
+    std::vector<Place> places;
+    for (const Point& point : points) {
+        places.emplace_back(plot.x().place(point.lost()->mean), plot.y().place(point.gained()->mean));
+        if (point.turned_alone)
+            plot.circle(places.back().first, places.back().second, 3.0,
+                        "dot small " + colour_of(point.series));
+        else
+            draw_intervals(plot, point, places.back());
+    }
+    std::vector<Place> taken;
+    for (std::size_t at = points.size(); at-- > 0;) {  // The one that leads is placed first: at its point.
+        if (points[at].turned_alone) continue;
+        taken.push_back(free_place(places[at], taken, plot));
+        draw_number(plot, points[at], places[at], taken.back());
+    }
+}
+
+std::vector<Point> by_number(std::vector<Point> points) {
+    std::ranges::sort(points, {}, &Point::number);
+    return points;
 }
 
 DataTable data_of(const std::vector<Point>& points) {
     DataTable table{{"Condition", "number", "gain of EVs, s [95 %]", "cost to the others, s each [95 %]",
                      "pairs", "objection"},
                     {}};
-    for (const Point& point : points) {
+    for (const Point& point : by_number(points)) {
         const MaybeEstimate gained = point.gained();
         table.rows.push_back({point.condition->label(), std::to_string(point.number),
                               estimate(gained, typeset(2)), estimate(point.lost(), typeset(2)),
@@ -75,11 +136,11 @@ DataTable data_of(const std::vector<Point>& points) {
 
 std::vector<LegendEntry> entries_of(const std::vector<Point>& points) {
     std::vector<LegendEntry> entries;
-    for (const Point& point : points) {
+    for (const Point& point : by_number(points)) {
         if (point.turned_alone) continue;
         const std::string objection = analysis::emergency_objection_word(point.condition->objections);
         entries.push_back(number_entry(
-            point.number, point.condition->label() + (objection.empty() ? "" : " (" + objection + ")")));
+            point.series, point.condition->label() + (objection.empty() ? "" : " (" + objection + ")")));
     }
     return entries;
 }
@@ -108,8 +169,7 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
                    "uncounted");
     plot.horizontal(0.0);
     plot.vertical(0.0);
-    for (const Point& point : points)
-        draw(plot, point);
+    draw(plot, points);
     plot.legend(entries_of(points));
     std::string note = fmt::format(
         "Up is better for emergency vehicles, left is better for the others. Bars are 95 % intervals. In the "

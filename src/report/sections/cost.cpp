@@ -70,7 +70,7 @@ GridCell cost_cell(const ConditionFacts& condition, const std::string& edge) {
 }
 
 /// Time lost on each approach against the baseline: a row an approach, a column a condition.
-Figure approach_figure(const ScenarioFacts& scenario) {
+Figure approach_figure(const ScenarioFacts& scenario, const Looks& looks) {
     const std::vector<const ApproachCost*> approaches = largest_approaches(scenario);
     if (approaches.empty()) return {};
     const std::size_t shown = std::min(approaches.size(), drawn_approaches);
@@ -82,7 +82,7 @@ Figure approach_figure(const ScenarioFacts& scenario) {
         const ConditionFacts& condition = scenario.conditions[number];
         if (condition.approaches.empty()) continue;
         grid.columns.push_back(std::to_string(number));
-        entries.push_back(number_entry(number, condition.label()));
+        entries.push_back(number_entry(looks[number], condition.label()));
         for (std::size_t row = 0; row < shown; ++row)
             grid.rows[row].cells.push_back(cost_cell(condition, approaches[row]->edge));
     }
@@ -98,7 +98,7 @@ Figure approach_figure(const ScenarioFacts& scenario) {
     return {"cost-" + scenario.name, scenario.name, canvas.finish(), note, approach_data(scenario)};
 }
 
-void draw_recovery(Plot& plot, const ConditionFacts& condition, std::size_t series) {
+void draw_recovery(Plot& plot, const ConditionFacts& condition, const Series& series) {
     plot.horizontal(0.0);
     plot.vertical(0.0);
     Points means;
@@ -119,7 +119,7 @@ void draw_recovery(Plot& plot, const ConditionFacts& condition, std::size_t seri
               Plot::Anchor::start, "label");
 }
 
-Figure recovery_figure(const ScenarioFacts& scenario) {
+Figure recovery_figure(const ScenarioFacts& scenario, const Looks& looks) {
     Range offsets;
     Range halted;
     halted.include(0.0);
@@ -142,7 +142,7 @@ Figure recovery_figure(const ScenarioFacts& scenario) {
                    "halted vehicles above the baseline; across: s after an EV", numbers.size(), offsets,
                    padded(halted, 0.06),
                    [&](Plot& plot, std::size_t panel) {
-                       draw_recovery(plot, scenario.conditions[numbers[panel]], numbers[panel]);
+                       draw_recovery(plot, scenario.conditions[numbers[panel]], looks[numbers[panel]]);
                    }),
             "Halted vehicles on the signal's other approaches around each passage of an EV, compared with "
             "the passages of the baseline, with 95 % intervals. Recovered: from then on no interval lies "

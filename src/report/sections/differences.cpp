@@ -27,8 +27,9 @@ Range forest_range(const ScenarioFacts& scenario) {
 }
 
 void draw_forest_row(Plot& plot, const ConditionFacts& condition, const MaybeEstimate& difference, double top,
-                     std::size_t series) {
-    plot.text(10.0, top + 11.0, condition.label(), Plot::Anchor::start, "label");
+                     const Series& series) {
+    plot.text(10.0, top + 11.0, condition.label(), Plot::Anchor::start,
+              series.weight == Series::Weight::lead ? "label lead" : "label");
     plot.text(right_edge, top + 26.0, estimate(difference, typeset(1, Sign::always)), Plot::Anchor::end,
               "value");
     plot.estimate(difference, shown_interval(difference), top + 22.0, series);
@@ -53,7 +54,7 @@ DataTable forest_data(const ScenarioFacts& scenario) {
     return table;
 }
 
-Figure forest_figure(const ScenarioFacts& scenario) {
+Figure forest_figure(const ScenarioFacts& scenario, const Looks& looks) {
     const auto compared = std::ranges::count_if(scenario.conditions, &ConditionFacts::is_compared);
     if (compared == 0) return {};
     const double height =
@@ -71,7 +72,7 @@ Figure forest_figure(const ScenarioFacts& scenario) {
         for (std::size_t row = 0; row < scenario.conditions.size(); ++row) {
             const ConditionFacts& condition = scenario.conditions[row];
             if (!condition.is_compared()) continue;
-            draw_forest_row(plot, condition, condition.difference(measure), top, row);
+            draw_forest_row(plot, condition, condition.difference(measure), top, looks[row]);
             top += row_height;
         }
     }

@@ -23,7 +23,7 @@ std::string replications_needed(const ConditionFacts& condition) {
            (unlocked ? fmt::format(" ({} without locks)", words(*unlocked)) : "");
 }
 
-Figure precision_figure(const ScenarioFacts& scenario) {
+Figure precision_figure(const ScenarioFacts& scenario, const Looks& looks) {
     Range replications;
     Range widths;
     widths.include(0.0);
@@ -45,7 +45,7 @@ Figure precision_figure(const ScenarioFacts& scenario) {
     if (scenario.least_relevant_s > 0.0) plot.horizontal(scenario.least_relevant_s);
     std::vector<LegendEntry> entries;
     DataTable data{{"Condition, replications", "half width, s"}, {}};
-    for (std::size_t row = 0; row < scenario.conditions.size(); ++row) {
+    for (const std::size_t row : drawing_order(looks)) {
         const ConditionFacts& condition = scenario.conditions[row];
         if (!condition.precision || condition.precision->points.empty()) continue;
         Points points;
@@ -54,8 +54,8 @@ Figure precision_figure(const ScenarioFacts& scenario) {
             data.rows.push_back({fmt::format("{}, {}", condition.label(), point.replications),
                                  number(point.half_width_s, typeset(2))});
         }
-        plot.line(points, row);
-        entries.push_back(line_entry(row, condition.label()));
+        plot.line(points, looks[row]);
+        entries.push_back(line_entry(looks[row], condition.label()));
     }
     const std::string note = fmt::format("The level line is the smallest difference that counts, {} s.",
                                          number(scenario.least_relevant_s, typeset(1)));

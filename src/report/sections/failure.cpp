@@ -41,13 +41,13 @@ void draw_panel(Plot& plot, const FailureCurve& curve, const FailureLine& own, M
     if (member == &FailurePoint::travel_time) plot.horizontal(0.0);
     plot.text(plot.x().from, plot.y().to - 6.0, shortened(own.repair, 15), Plot::Anchor::start, "heading");
     for (const FailureLine& line : curve.lines)
-        plot.hair(means_of(line, member), 0);
+        plot.hair(means_of(line, member), {0});
     for (const FailurePoint& point : own.points) {
         if (!(point.*member) || !(point.*member)->interval) continue;
         const analysis::Interval& interval = *(point.*member)->interval;
-        plot.whisker(percent * point.dark_share, {interval.low, interval.high}, 1);
+        plot.whisker(percent * point.dark_share, {interval.low, interval.high}, {1});
     }
-    plot.line(means_of(own, member), 1);
+    plot.line(means_of(own, member), {1, Series::Weight::lead});
 }
 
 /// One estimate over the share of time dark: a panel for each repair, with the others thin behind it. All

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -23,37 +24,43 @@ DataTable journey_data(const JourneyFacts& journey) {
     return table;
 }
 
-Figure journey_figure(const ScenarioFacts& scenario, const JourneyFacts& journey, Range times,
-                      Range distances) {
+Figure journey_figure(const ScenarioFacts& scenario, const JourneyFacts& journey, const Series& series,
+                      Range times, Range distances) {
     const std::string title = fmt::format("{}: {}", scenario.name, journey.condition);
     Chart plot(
         fmt::format("{}: time and distance of {} with the signals on its route", title, journey.vehicle),
         340.0, times, "time since departure, s", distances, "distance along the route, m");
     for (const SignalSpan& span : journey.signals)
         plot.stripe({span.from_s, span.to_s}, span.distance_m, ("signal-" + span.state).c_str());
-    plot.line(way_of(journey), 0);
+    plot.line(way_of(journey), series);
     const std::string note = fmt::format(
         "Replication {}, vehicle {}. Level lines are the stop lines on its route, in the state that is "
         "shown to it.",
         journey.replication, journey.vehicle);
-    std::vector<LegendEntry> entries = {line_entry(0, "emergency vehicle")};
+    std::vector<LegendEntry> entries = {line_entry(series, "emergency vehicle")};
     for (const char* const state : signal_states)
-        entries.push_back(
-            stripe_entry(fmt::format("signal-{}", state).c_str(), fmt::format("signal {}", state)));
+        if (std::ranges::find(journey.signals, state, &SignalSpan::state) != journey.signals.end())
+            entries.push_back(
+                stripe_entry(fmt::format("signal-{}", state).c_str(), fmt::format("signal {}", state)));
     plot.legend(entries);
     return {fmt::format("journey-{}-{}", scenario.name, journey.condition), title, plot.finish(), note,
             journey_data(journey)};
 }
 
-std::vector<Figure> journey_figures(const ScenarioFacts& scenario) {
+std::vector<Figure> journey_figures(const ScenarioFacts& scenario, const Looks& looks) {
     Range times;
     Range distances;
     for (const JourneyFacts& journey : scenario.journeys)
         include(journey, times, distances);
     if (times.empty() || times.high <= times.low || distances.high <= distances.low) return {};
     std::vector<Figure> figures;
-    for (const JourneyFacts& journey : scenario.journeys)
-        figures.push_back(journey_figure(scenario, journey, times, distances));
+    for (const JourneyFacts& journey : scenario.journeys) {
+        const auto condition =
+            std::ranges::find(scenario.conditions, journey.condition, &ConditionFacts::label);
+        const auto place = static_cast<std::size_t>(condition - scenario.conditions.begin());
+        const Series series = place < looks.size() ? looks[place] : Series{place};
+        figures.push_back(journey_figure(scenario, journey, series, times, distances));
+    }
     return figures;
 }
 
@@ -65,7 +72,7 @@ void journeys_section(const StudyFacts& study, Writer& writer) {
         "most. The slope of the vehicle\u2019s line is its speed, and a level piece is a stop. One run "
         "shows how a policy works; for how much it gains see the tables.</p>\n");
     for (const ScenarioFacts& scenario : study.scenarios)
-        writer.figures(journey_figures(scenario));
+        writer.figures(journey_figures(scenario, looks_of(study, scenario)));
 }
 
 }  // namespace clearway::report::detail

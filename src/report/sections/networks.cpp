@@ -37,7 +37,7 @@ DataTable edges_of(const ScenarioFacts& scenario) {
     return table;
 }
 
-Figure network_figure(const ScenarioFacts& scenario) {
+Figure network_figure(const ScenarioFacts& scenario, const Looks& /*looks*/) {
     if (scenario.network_svg.empty()) return {};
     std::string note = wide_edges_sentence(scenario);
     if (!note.empty() && !scenario.attribution.empty()) note += ' ';

@@ -28,8 +28,8 @@ void draw(Plot& plot, const SensitivityRow& row, const SensitivityLevel& level, 
     plot.text(right_edge, y + 4.0, estimate(level.*member, signed_tenths), Plot::Anchor::end, "value");
     const MaybeEstimate& difference = level.*member;
     if (!difference) return;
-    plot.beam({0.0, difference->mean}, y, 1);
-    plot.estimate(difference, difference->interval ? &*difference->interval : nullptr, y, 1);
+    plot.beam({0.0, difference->mean}, y, {1});
+    plot.estimate(difference, difference->interval ? &*difference->interval : nullptr, y, {1});
 }
 
 /// Of all rows, so that the charts above and below the fold have one scale.

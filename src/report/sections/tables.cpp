@@ -23,7 +23,7 @@ std::string cell(const ScenarioFacts& scenario, const ConditionFacts& condition,
     const MaybeEstimate& difference = condition.difference(measure.measure);
     const int decimals = decimals_of(scenario, measure.measure);
     std::string html = fmt::format(
-        "<td><span class=\"mean\">{}</span>",
+        "<td data-label=\"{}, {}\"><span class=\"mean\">{}</span>", measure.title, measure.unit,
         value ? number(value->mean * measure.printed_factor, typeset(decimals)) : missing(Script::typeset));
     if (const analysis::Interval* const interval = shown_interval(value))
         html += fmt::format("<span class=\"range\">{}</span>",
@@ -38,7 +38,8 @@ std::string cell(const ScenarioFacts& scenario, const ConditionFacts& condition,
 
 std::string published_cell(const ScenarioFacts& scenario, const ConditionFacts& condition, Measure measure) {
     const auto value = published_value(scenario.published_as, condition.name(), measure);
-    return fmt::format("<td class=\"published\">{}</td>", value ? number(*value, typeset(1)) : "");
+    return fmt::format("<td class=\"published\" data-label=\"published\">{}</td>",
+                       value ? number(*value, typeset(1)) : "");
 }
 
 /// Rows are conditions and columns are measures, with a column of published numbers after each measure that
@@ -52,7 +53,7 @@ std::string measure_table(const ScenarioFacts& scenario, std::span<const Measure
                               with_published ? " colspan=\"2\"" : "", info(measure).title);
         units += fmt::format("<th>{}</th>{}", info(measure).unit, with_published ? "<th>published</th>" : "");
     }
-    std::string html = "<div class=\"scroll\" tabindex=\"0\"><table class=\"paired\"><thead>" + titles +
+    std::string html = "<div class=\"scroll\" tabindex=\"0\"><table class=\"paired wider\"><thead>" + titles +
                        "</tr>" + units + "</tr></thead><tbody>\n";
     for (const ConditionFacts& condition : scenario.conditions) {
         html += fmt::format("<tr><th scope=\"row\">{}</th>", condition_label(condition));

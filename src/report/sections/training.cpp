@@ -56,13 +56,13 @@ Figure loss_figure(const LossCurve& curve) {
     if (epochs.high <= epochs.low) epochs = padded(epochs, 0.0);
     Chart plot(fmt::format("Train and test loss: {}", curve.title), 270.0, {epochs, "epoch"},
                loss_axis(curve));
-    std::vector<LegendEntry> entries = {line_entry(1, "train"), line_entry(2, curve.held_out)};
+    std::vector<LegendEntry> entries = {line_entry({1}, "train"), line_entry({2}, curve.held_out)};
     if (curve.constant_loss) {
-        plot.line({{epochs.low, *curve.constant_loss}, {epochs.high, *curve.constant_loss}}, 3);
-        entries.push_back(line_entry(3, "best constant answer"));
+        plot.line({{epochs.low, *curve.constant_loss}, {epochs.high, *curve.constant_loss}}, {3});
+        entries.push_back(line_entry({3}, "best constant answer"));
     }
-    plot.line(zipped(curve.epoch, curve.train), 1);
-    plot.line(zipped(curve.epoch, curve.test), 2);
+    plot.line(zipped(curve.epoch, curve.train), {1});
+    plot.line(zipped(curve.epoch, curve.test), {2});
     DataTable data{{"epoch", "train loss", curve.held_out + " loss"}, {}};
     for (std::size_t row = 0; row < curve.epoch.size(); ++row) {
         data.rows.push_back({number(curve.epoch[row], typeset(0)), number(curve.train[row], typeset(4)),

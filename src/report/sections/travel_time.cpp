@@ -111,7 +111,7 @@ DataTable slopes_data(const ScenarioFacts& scenario) {
     return table;
 }
 
-Figure distribution_figure(const ScenarioFacts& scenario) {
+Figure distribution_figure(const ScenarioFacts& scenario, const Looks& looks) {
     Range range;
     for (const ConditionFacts& condition : scenario.conditions) {
         for (const SharePoint& point : condition.distribution.points) {
@@ -122,19 +122,18 @@ Figure distribution_figure(const ScenarioFacts& scenario) {
     Chart plot(fmt::format("{}: distribution of EV travel time", scenario.name), 300.0, padded(range, 0.04),
                "EV travel time, s", Range(0.0, 1.0), "share of EVs that arrived within");
     std::vector<LegendEntry> entries;
-    for (std::size_t row = 0; row < scenario.conditions.size(); ++row) {
-        const ConditionFacts& condition = scenario.conditions[row];
-        entries.push_back(line_entry(row, condition.label()));
-        if (!condition.distribution.points.empty()) {
-            plot.line(steps(condition.distribution, plot.x().values.high), row);
-        }
+    for (std::size_t row = 0; row < scenario.conditions.size(); ++row)
+        entries.push_back(line_entry(looks[row], scenario.conditions[row].label()));
+    for (const std::size_t row : drawing_order(looks)) {
+        const Distribution& distribution = scenario.conditions[row].distribution;
+        if (!distribution.points.empty()) plot.line(steps(distribution, plot.x().values.high), looks[row]);
     }
     plot.legend(entries);
     return {"travel-time-" + scenario.name, scenario.name, plot.finish(), distribution_note(scenario),
             distribution_data(scenario)};
 }
 
-Figure slopes_figure(const ScenarioFacts& scenario) {
+Figure slopes_figure(const ScenarioFacts& scenario, const Looks& looks) {
     Range seconds;
     std::size_t most = 0;
     std::vector<std::pair<std::size_t, std::vector<Pair>>> drawn;  // Place of the condition, its pairs.
@@ -159,10 +158,10 @@ Figure slopes_figure(const ScenarioFacts& scenario) {
     double from = 0.5 * (1.0 - panel);
     for (const auto& [row, pairs] : drawn) {
         for (const Pair& pair : thinned(pairs))
-            plot.hair({{from, pair.baseline_s}, {from + panel, pair.condition_s}}, row);
+            plot.hair({{from, pair.baseline_s}, {from + panel, pair.condition_s}}, looks[row]);
         const Pair mean = mean_pair(pairs);
-        plot.line({{from, mean.baseline_s}, {from + panel, mean.condition_s}}, row);
-        entries.push_back(line_entry(row, scenario.conditions[row].label()));
+        plot.line({{from, mean.baseline_s}, {from + panel, mean.condition_s}}, looks[row]);
+        entries.push_back(line_entry(looks[row], scenario.conditions[row].label()));
         from += 1.0;
     }
     std::string note =

@@ -1,0 +1,201 @@
+// How conditions look: told apart by colour, dash and mark, by every reader, and none hidden behind another.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <regex>
+#include <set>
+
+#include <gmock/gmock.h>
+
+#include "report/detail/figures.hpp"
+#include "report/detail/style.hpp"
+#include "report/page.hpp"
+#include "report/sample.hpp"
+
+namespace clearway::report::detail {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Triple = std::array<double, 3>;
+
+/// The shape of a mark, without its place and colour.
+std::string shape_of(std::size_t number) {
+    const std::string mark = mark_of({number}, 0.0, 0.0, 4.0);
+    return mark.substr(std::min(mark.size(), mark.find(" d=")));
+}
+
+std::string dash_of(std::size_t number) {
+    const std::string style = line_style({number});
+    return style.substr(std::min(style.size(), style.find(" d")));
+}
+
+TEST(Looks, of_twenty_conditions_differ_without_colour_and_of_sixty_with_it) {
+    std::set<std::string> grey;
+    std::set<std::string> coloured;
+    for (std::size_t number = 1; number <= 60; ++number) {
+        if (number <= 20) grey.insert(dash_of(number) + shape_of(number));
+        coloured.insert(line_style({number}) + shape_of(number));
+    }
+    EXPECT_EQ(grey.size(), 20u);
+    EXPECT_EQ(coloured.size(), 60u);
+}
+
+TEST(Looks, of_the_baseline_is_no_other_conditions) {
+    EXPECT_EQ(line_style({0}), "line s0");
+    EXPECT_EQ(mark_of({0}, 1.0, 1.0, 4.0), "");
+    for (std::size_t number = 1; number <= 200; ++number) {
+        EXPECT_NE(colour_of({number}), "s0") << number;
+        EXPECT_NE(mark_of({number}, 1.0, 1.0, 4.0), "") << number;
+    }
+}
+
+/// Linear RGB of `#rgb` or `#rrggbb`.
+Triple linear(const std::string& hex) {
+    Triple rgb;
+    const std::size_t digits = hex.size() == 4 ? 1 : 2;
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::string part = hex.substr(1 + digits * i, digits);
+        if (digits == 1) part += part;
+        const double value = std::stoi(part, nullptr, 16) / 255.0;
+        rgb[i] = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+    }
+    return rgb;
+}
+
+/// CIE L*a*b*, white of D65.
+Triple lab(const Triple& rgb) {
+    const double x = (0.4124 * rgb[0] + 0.3576 * rgb[1] + 0.1805 * rgb[2]) / 0.95047;
+    const double y = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+    const double z = (0.0193 * rgb[0] + 0.1192 * rgb[1] + 0.9505 * rgb[2]) / 1.08883;
+    const auto f = [](double t) { return t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116.0; };
+    return {116.0 * f(y) - 16.0, 500.0 * (f(x) - f(y)), 200.0 * (f(y) - f(z))};
+}
+
+/// Full colour vision, and without one kind of cone: Machado, Oliveira and Fernandes, 2009, severity 1.
+constexpr std::array<std::array<Triple, 3>, 4> visions = {
+    {{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}},
+     {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}},
+     {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}},
+     {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}}}};
+
+Triple seen(const Triple& rgb, const std::array<Triple, 3>& vision) {
+    Triple result;
+    for (std::size_t i = 0; i < 3; ++i)
+        result[i] =
+            std::clamp(vision[i][0] * rgb[0] + vision[i][1] * rgb[1] + vision[i][2] * rgb[2], 0.0, 1.0);
+    return result;
+}
+
+/// The colours that the page gives to lines, text and what is better or worse: light, then dark.
+std::array<std::map<std::string, Triple>, 2> colours_of_page() {
+    std::array<std::map<std::string, Triple>, 2> schemes;
+    const std::string style = page_style();
+    const std::regex pattern("--(ink|better|worse|s[0-9]):(#[0-9a-f]+)");
+    for (std::sregex_iterator at(style.begin(), style.end(), pattern); at != std::sregex_iterator(); ++at) {
+        auto& scheme = schemes[0].contains((*at)[1]) ? schemes[1] : schemes[0];
+        scheme[(*at)[1]] = linear((*at)[2]);
+    }
+    return schemes;
+}
+
+TEST(Looks, are_told_apart_by_readers_without_one_kind_of_cone) {
+    for (const auto& scheme : colours_of_page()) {
+        ASSERT_EQ(scheme.size(), 9u);
+        for (const auto& vision : visions) {
+            for (auto one = scheme.begin(); one != scheme.end(); ++one) {
+                for (auto other = std::next(one); other != scheme.end(); ++other) {
+                    const Triple a = lab(seen(one->second, vision));
+                    const Triple b = lab(seen(other->second, vision));
+                    EXPECT_GT(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]), 15.0)
+                        << one->first << " and " << other->first;
+                }
+            }
+        }
+    }
+}
+
+/// A scenario with `count` conditions beside the baseline, all at one place.
+StudyFacts crowd(std::size_t count) {
+    StudyFacts study = tests::study({"merge"});
+    ScenarioFacts& scenario = study.scenarios[0];
+    const ConditionFacts one = scenario.conditions[1];
+    scenario.conditions.resize(1);
+    for (std::size_t number = 1; number <= count; ++number) {
+        scenario.conditions.push_back(one);
+        scenario.conditions.back().condition.name = scenario.conditions.back().title =
+            "policy" + std::to_string(number);
+    }
+    return study;
+}
+
+std::size_t count_of(const std::string& text, const std::string& word) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+        ++count;
+    return count;
+}
+
+std::string figure_of(const std::string& page, const std::string& id) {
+    const std::size_t begin = page.find("<figure id=\"" + id + "\"");
+    return page.substr(begin, page.find("</svg>", begin) - begin);
+}
+
+TEST(Looks, of_a_page_with_sixteen_policies_give_the_baselines_to_it_alone) {
+    const std::string page = tests::page_of(crowd(16));
+    for (const char* const id : {"travel-time-merge", "precision-merge", "pairs-merge"}) {
+        const std::string figure = figure_of(page, id);
+        EXPECT_LE(count_of(figure, "<polyline class=\"line s0"), 1u) << id;
+        EXPECT_EQ(count_of(figure, "<polyline class=\"line "), std::string(id)[0] == 't' ? 17u : 16u) << id;
+    }
+}
+
+TEST(Looks, make_the_condition_of_the_headline_the_most_prominent) {
+    const StudyFacts study = tests::study({"merge"});
+    const std::string page = tests::page_of(study);
+    ASSERT_THAT(page, HasSubstr("class=\"headline\">Graph made by simulation attributes saves"));
+    for (const char* const id : {"travel-time-merge", "precision-merge", "pairs-merge", "trip-merge"}) {
+        const std::string figure = figure_of(page, id);
+        EXPECT_EQ(count_of(figure, "<polyline class=\"line s1 d0 lead\""), 1u) << id;
+        EXPECT_EQ(count_of(figure, " lead\" points"), 1u) << id;
+    }
+    const std::string trade = figure_of(page, "tradeoff-merge");
+    EXPECT_EQ(count_of(trade, "class=\"ring s1\""), 1u);
+    EXPECT_EQ(count_of(trade, "class=\"ring"), 1u);
+    EXPECT_EQ(count_of(figure_of(page, "differences-merge"), "label lead"), 3u) << "once for each measure";
+}
+
+TEST(TradeOff, moves_numbers_so_that_none_hides_another) {
+    const std::string figure = figure_of(tests::page_of(crowd(12)), "tradeoff-merge");
+    std::vector<std::pair<double, double>> places;
+    const std::regex number("<circle class=\"dot s[0-9]\" cx=\"([0-9.]+)\" cy=\"([0-9.]+)\" r=\"8.0\"");
+    const std::string drawing = figure.substr(0, figure.find("<g transform"));
+    for (std::sregex_iterator at(drawing.begin(), drawing.end(), number); at != std::sregex_iterator(); ++at)
+        places.emplace_back(std::stod((*at)[1]), std::stod((*at)[2]));
+    ASSERT_EQ(places.size(), 12u);
+    for (std::size_t one = 0; one < places.size(); ++one) {
+        for (std::size_t other = 0; other < one; ++other)
+            EXPECT_GE(std::hypot(places[one].first - places[other].first,
+                                 places[one].second - places[other].second),
+                      16.0);
+    }
+    EXPECT_EQ(count_of(drawing, "class=\"leader "), 11u)
+        << "a line leads from each moved number to its point";
+}
+
+TEST(DataTables, become_lists_where_their_cells_need_more_room_than_there_is) {
+    const DataTable narrow{{"Name", "a", "b"}, {{"one", "1.0", "2.0"}}};
+    EXPECT_THAT(to_html(narrow), Not(HasSubstr("data-label")));
+    DataTable wide{{"Name"}, {{"one"}}};
+    for (int column = 0; column < 6; ++column) {
+        wide.head.push_back("column <" + std::to_string(column) + ">");
+        wide.rows[0].emplace_back("\u22121,234.56 [\u22121,300.00, \u22121,100.00]");
+    }
+    EXPECT_THAT(to_html(wide), HasSubstr("<table class=\"data wider\">"));
+    EXPECT_THAT(to_html(wide), HasSubstr("<td data-label=\"column &lt;0&gt;\">"));
+    EXPECT_THAT(page_style(), HasSubstr("@container (max-width:880px){\ntable.wider{display:block"));
+}
+
+}  // namespace
+}  // namespace clearway::report::detail
