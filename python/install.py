@@ -1,17 +1,47 @@
-"""Installs the package `clearway` for one Python: `./clearway python` calls it. Copies the package; downloads nothing."""
+"""Installs the package `clearway` for one Python: `./clearway python` calls it. Copies the package; downloads nothing.
+
+It is also the build backend of pyproject.toml, so that `pip install ./python` and `pip wheel ./python` need no other package.
+"""
 from __future__ import annotations
 
 import argparse
+import base64
+import hashlib
 import importlib.util
 import json
 import os
+import re
 import shutil
 import site
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 EXIT_BAD_INPUT, EXIT_ENVIRONMENT = 3, 4
+HERE = Path(__file__).resolve().parent
+ENTRY_POINTS = "[gymnasium.envs]\nClearway = clearway._spec:register\n"
+
+
+def metadata(version: str) -> str:
+    """What pip shows and resolves. Extras are what parts of the package import when they are used."""
+    return (f"Metadata-Version: 2.1\nName: clearway\nVersion: {version}\n"
+            "Summary: How much time an emergency vehicle gains in mixed traffic, and at what cost to the others\n"
+            "Author: The Clearway maintainers\nLicense: Apache-2.0\n"
+            "Keywords: emergency vehicles,traffic simulation,SUMO,signal priority,reinforcement learning\n"
+            "Classifier: License :: OSI Approved :: Apache Software License\n"
+            "Classifier: Operating System :: POSIX :: Linux\n"
+            "Classifier: Programming Language :: Python :: 3.11\n"
+            "Classifier: Topic :: Scientific/Engineering\n"
+            "Classifier: Typing :: Typed\n"
+            "Requires-Python: >=3.11\nRequires-Dist: numpy\n"
+            "Provides-Extra: tables\nRequires-Dist: pandas; extra == 'tables'\n"
+            "Provides-Extra: recordings\nRequires-Dist: h5py; extra == 'recordings'\n"
+            "Provides-Extra: learning\nRequires-Dist: gymnasium; extra == 'learning'\n"
+            "Requires-Dist: pettingzoo; extra == 'learning'\n"
+            "Description-Content-Type: text/markdown\n\n"
+            "Runs and reads studies of Clearway, and lets you write policies, predictors and agents for them. It needs Clearway's\n"
+            "programs: build them with `./clearway` in the source tree, or set `CLEARWAY_PROGRAMS` to their folder.\n")
 
 
 def fail(code: int, message: str) -> None:
@@ -53,12 +83,34 @@ def install(source: Path, programs: Path, target: Path, version: str) -> None:
         shutil.rmtree(info)
     info = target / f"clearway-{version}.dist-info"
     info.mkdir()
-    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: clearway\nVersion: {version}\nRequires-Python: >=3.11\n"
-                                   "Requires-Dist: numpy\n")
-    (info / "entry_points.txt").write_text("[gymnasium.envs]\nClearway = clearway._spec:register\n")
+    (info / "METADATA").write_text(metadata(version))
+    (info / "entry_points.txt").write_text(ENTRY_POINTS)
     (info / "INSTALLER").write_text("clearway\n")
     files = sorted(file.relative_to(target).as_posix() for folder in (package, info) for file in folder.rglob("*"))
     (info / "RECORD").write_text("".join(f"{file},,\n" for file in files) + f"{info.name}/RECORD,,\n")
+
+
+def build_wheel(wheel_directory: str, config_settings: dict | None = None, metadata_directory: str | None = None) -> str:
+    """PEP 517: writes the wheel and returns its name. Its programs are CLEARWAY_PROGRAMS, else those that this tree builds."""
+    found = re.search(r'^__version__ = "(.+)"$', (HERE / "clearway" / "__init__.py").read_text(encoding="utf-8"), re.MULTILINE)
+    assert found is not None
+    version = found.group(1)
+    programs = os.environ.get("CLEARWAY_PROGRAMS") or str(HERE.parent / "build" / "release" / "bin")
+    info = f"clearway-{version}.dist-info"
+    content = {f"clearway/{file.relative_to(HERE / 'clearway').as_posix()}": file.read_bytes()
+               for file in sorted((HERE / "clearway").rglob("*")) if file.is_file() and "__pycache__" not in file.parts}
+    texts = {"clearway/_installed.json": json.dumps({"programs": programs}) + "\n", f"{info}/METADATA": metadata(version),
+             f"{info}/WHEEL": "Wheel-Version: 1.0\nGenerator: clearway\nRoot-Is-Purelib: true\nTag: py3-none-any\n",
+             f"{info}/entry_points.txt": ENTRY_POINTS}
+    content.update((name, text.encode()) for name, text in texts.items())
+    digests = {name: base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode() for name, data in content.items()}
+    record = "".join(f"{name},sha256={digests[name]},{len(data)}\n" for name, data in content.items())
+    content[f"{info}/RECORD"] = f"{record}{info}/RECORD,,\n".encode()
+    wheel = f"clearway-{version}-py3-none-any.whl"
+    with zipfile.ZipFile(Path(wheel_directory) / wheel, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in content.items():
+            archive.writestr(zipfile.ZipInfo(name), data)
+    return wheel
 
 
 def main() -> None:
@@ -73,7 +125,7 @@ def main() -> None:
         fail(EXIT_ENVIRONMENT, f"{sys.executable} has no numpy. Install it: apt-get install python3-numpy")
     target = target_of(arguments)
     try:
-        install(Path(__file__).resolve().parent / "clearway", Path(arguments.programs).resolve(), target, arguments.version)
+        install(HERE / "clearway", Path(arguments.programs).resolve(), target, arguments.version)
     except OSError as error:
         fail(EXIT_ENVIRONMENT, f"{target}: cannot be written: {error}")
     print(f"clearway {arguments.version} is installed in {target}")

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import collections
+import difflib
 import json
 import os
 import shutil
@@ -9,7 +10,7 @@ import subprocess
 import sys
 import threading
 from pathlib import Path
-from typing import IO, Any, Sequence
+from typing import IO, Any, Iterable, Sequence
 
 
 class ClearwayError(Exception):
@@ -57,6 +58,17 @@ def require_first_load(call_name: str) -> None:
 _ERROR_OF = {2: InputError, 3: InputError, 4: EnvironmentFault}
 #: The study went on, and what failed is in its tables (1: runs failed, 5: incomplete).
 RUNS_FAILED, INCOMPLETE = 1, 5
+
+
+def counted(count: int, noun: str) -> str:
+    """``1 run``, ``2 runs``."""
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def did_you_mean(word: Any, known: Iterable[str]) -> str:
+    """``. Did you mean 'WORD'?`` with the nearest of the known words, as the programs ask; empty if none is near."""
+    near = difflib.get_close_matches(str(word), list(known), 1)
+    return f". Did you mean {near[0]!r}?" if near else ""
 
 
 def error_of(exit_code: int, message: str) -> ClearwayError:

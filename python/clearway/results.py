@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 #: Rows of a table in a notebook.
 SHOWN_ROWS = 10
+#: What verdicts judge.
+PRIMARY_METRIC = "emergency_restricted_travel_time_s"
 
 
 class Table(Mapping[str, np.ndarray]):
@@ -37,7 +39,8 @@ class Table(Mapping[str, np.ndarray]):
         try:
             return self._columns[column]
         except KeyError:
-            raise _program.InputError(f"there is no column {column!r}; columns are {', '.join(self._columns)}") from None
+            raise _program.InputError(f"there is no column {column!r}; columns are {', '.join(self._columns)}"
+                                      f"{_program.did_you_mean(column, self._columns)}") from None
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
@@ -72,7 +75,7 @@ class Table(Mapping[str, np.ndarray]):
         return Table({name: array[:count] for name, array in self._columns.items()})
 
     def __repr__(self) -> str:
-        return f"<Table of {self.row_count} rows: {', '.join(self._columns)}>"
+        return f"<Table of {_program.counted(self.row_count, 'row')}: {', '.join(self._columns)}>"
 
     def _repr_html_(self) -> str:
         """What a notebook shows: the first rows, all columns."""
@@ -81,7 +84,7 @@ class Table(Mapping[str, np.ndarray]):
         shown = self.head(SHOWN_ROWS)
         rows = zip(*([_cell(value) for value in array] for array in shown.values()))
         return (f"<table><thead>{row('th', self)}</thead><tbody>{''.join(row('td', one) for one in rows)}</tbody></table>"
-                f"<p>{self.row_count} rows, {len(self)} columns"
+                f"<p>{_program.counted(self.row_count, 'row')}, {_program.counted(len(self), 'column')}"
                 f"{f'; the first {SHOWN_ROWS} rows are shown' if self.row_count > SHOWN_ROWS else ''}</p>")
 
 
@@ -130,7 +133,7 @@ class Difference:
             return f"{self.scenario}: {self.condition} - {self.compared_with}, {self.metric}: no complete pair"
         interval = "too few seeds" if self.interval_95 is None else "[{:+.2f}, {:+.2f}]".format(*self.interval_95)
         text = (f"{self.scenario}: {self.condition} - {self.compared_with}, {self.metric}: {self.difference:+.2f} {interval} "
-                f"({self.complete_pairs} pairs)")
+                f"({_program.counted(self.complete_pairs, 'pair')})")
         return text + (f"; {self.objections}" if self.objections else "")
 
 
@@ -150,7 +153,8 @@ class Results:
     def table(self, name: str) -> Table:
         """A table by name; ``tables`` lists them, docs/reference/columns.md says what the columns mean."""
         if name not in self.tables:
-            raise _program.InputError(f"{self.folder} has no table {name!r}; it has {', '.join(self.tables)}")
+            raise _program.InputError(f"{self.folder} has no table {name!r}; it has {', '.join(self.tables)}"
+                                      f"{_program.did_you_mean(name, self.tables)}")
         if name not in self._read:
             database = self.folder / "results.sqlite"
             try:
@@ -228,6 +232,11 @@ class Results:
 
     def __repr__(self) -> str:
         return f"<Results in {self.folder}: {', '.join(self.tables)}>"
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the paired differences of the primary measure, then the runs."""
+        differences = "".join(f"<li>{html.escape(str(one))}</li>" for one in self.paired_differences(PRIMARY_METRIC))
+        return f"<p>{html.escape(str(self.folder))}</p><ul>{differences}</ul>{self.runs._repr_html_()}"
 
 
 def open(folder: str | Path) -> Results:

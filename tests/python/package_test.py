@@ -1,4 +1,5 @@
 """Import, installation and what is said when something is missing."""
+import importlib.util
 import json
 import subprocess
 import sys
@@ -66,6 +67,22 @@ class InstallTest(FolderCase):
         self.assertEqual(ended.stdout.split(), [str(self.folder / "packages/clearway/__init__.py"), str(PROGRAMS)], ended.stderr)
         self.assertEqual(sorted(file.name for file in (self.folder / "packages").iterdir()),
                          ["clearway", f"clearway-{clearway.__version__}.dist-info"])
+
+    def test_pip_installs_it_without_a_network(self) -> None:
+        if importlib.util.find_spec("pip") is None:
+            self.skipTest("no pip (Debian: python3-pip)")
+        pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--no-cache-dir"]
+        made = subprocess.run([*pip, "wheel", "--no-index", "--no-deps", "--wheel-dir", "wheels", str(SOURCE / "python")],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
+        ended = subprocess.run([*pip, "install", "--no-index", "--no-deps", "--target", "packages",
+                                f"wheels/clearway-{clearway.__version__}-py3-none-any.whl"], capture_output=True, text=True, check=False)
+        self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
+        packages = str(self.folder / "packages")
+        ended = python(self.code, PYTHONPATH=packages, CLEARWAY_PROGRAMS="")
+        self.assertEqual(ended.stdout.split(), [f"{packages}/clearway/__init__.py", str(PROGRAMS)], ended.stderr)
+        told = "import importlib.metadata as m; one = m.metadata('clearway'); print(one['License'], one.get_all('Provides-Extra'))"
+        self.assertEqual(python(told, PYTHONPATH=packages).stdout, "Apache-2.0 ['tables', 'recordings', 'learning']\n")
 
     def test_gymnasium_is_told_a_name_for_each_scenario(self) -> None:
         program("python", "--to", "packages")

@@ -85,7 +85,17 @@ class ResultsTest(FolderCase):
         table = clearway.Table({"a<b": np.array(["<x>", "y"]), "n": np.array([1.0 / 3.0, math.nan])})
         self.assertIn("<tr><th>a&lt;b</th><th>n</th></tr>", table._repr_html_())
         self.assertIn("<tr><td>&lt;x&gt;</td><td>0.333333</td></tr><tr><td>y</td><td></td></tr>", table._repr_html_())
+        self.assertEqual(repr(runs.head(1))[:17], "<Table of 1 row: ")
         self.assertIn("<p>0 rows, 0 columns</p>", clearway.Table({})._repr_html_())
+        whole = self.results._repr_html_()
+        self.assertIn("<li>intersection: corridor - baseline, emergency_restricted_travel_time_s: ", whole)
+        self.assertIn(runs._repr_html_(), whole)
+
+    def test_what_is_misspelt_names_the_nearest(self) -> None:
+        for call, meant in ((lambda: self.results.runs["emergency_travel_time"], "emergency_travel_time_s"),
+                            (lambda: self.results.table("vehicle"), "vehicles"),
+                            (lambda: self.results.paired_difference("emergency_travel_time", "corridor"), "emergency_travel_time_s")):
+            self.assertIn(f"Did you mean '{meant}'?", self.message_of(clearway.InputError, call))
 
     def test_where_and_pandas(self) -> None:
         corridor = self.results.runs.where(condition="corridor", replication=2)
