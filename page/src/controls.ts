@@ -1,5 +1,6 @@
 // Small pieces of the page: buttons, switches, a list of what is in force.
 
+import { actionText, reasonText } from "./asked";
 import type { FrameState, Lease } from "./stream";
 import type { Track } from "./track";
 
@@ -49,23 +50,14 @@ export function choice(
 }
 
 /** Alternatives of traffic::Action, in their order. */
-const actions = [
+export const actions = [
   "drive at", "change to lane", "hold lane", "pull aside", "give way at the stop line", "hold green", "adjust green",
   "pass red",
 ];
 
 function leaseText(lease: Lease, track: Track, signalId: (signal: number) => string): string {
-  const vehicle = (slot: number) => track.names.vehicles[slot]?.id ?? "?";
-  const target = lease.onSignal ? `signal ${signalId(lease.target)}` : vehicle(lease.target);
-  const amounts: Record<number, string> = {
-    0: ` ${((lease.amount / 10) * 3.6).toFixed(0)} km/h`,
-    1: ` ${lease.amount}`,
-    3: lease.amount === 0 ? " to the right" : " to the left",
-    5: ` on ${lease.amount} links`,
-  };
-  const served = lease.beneficiary >= 0 ? ` for ${vehicle(lease.beneficiary)}` : "";
-  const text = (number: number) => track.names.texts[number] ?? "";
-  return `${target}: ${actions[lease.action] ?? "?"}${amounts[lease.action] ?? ""}${served}: ${text(lease.reason)} (${text(lease.policy)})`;
+  const target = lease.onSignal ? `signal ${signalId(lease.target)}` : (track.names.vehicles[lease.target]?.id ?? "?");
+  return `${target}: ${actionText(lease)}${reasonText(lease, track)}`;
 }
 
 const mostListed = 12;
@@ -106,6 +98,7 @@ export function legend(): HTMLElement {
     ["dark-vehicle", "hollow: its last report did not arrive"],
     ["ghost", "where it is believed to be, with one sigma"],
     ["lease", "a lease acts here"],
+    ["chosen", "chosen: what it was asked is below"],
     ["true-link", "true link"],
     ["observed-link", "observed link"],
     ["believed-link", "believed link"],

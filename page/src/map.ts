@@ -1,6 +1,7 @@
 // Draws one or two panes into one canvas with deck.gl.
 
 import { Deck, type Layer, OrthographicView, type OrthographicViewState } from "@deck.gl/core";
+import type { Thing } from "./asked";
 import type { Drawing } from "./drawing";
 import type { Pane, Shown } from "./pane";
 import { RoadLayer } from "./road_layer";
@@ -27,6 +28,7 @@ export class MapCanvas {
   private readonly deck: Deck<OrthographicView[]>;
   private theme: Theme = light;
   private stacked = false;
+  private cameras: Camera[] = [];
 
   constructor(
     private readonly place: HTMLElement,
@@ -62,6 +64,19 @@ export class MapCanvas {
     this.place.style.background = `rgb(${this.theme.background.slice(0, 3).join(",")})`;
   }
 
+  /** What a click at a place of the map, in CSS pixels from its upper left corner, is meant for. */
+  thingAt(left: number, top: number): Thing | undefined {
+    const reach_px = 18;
+    const [width, height] = this.paneSize();
+    const index = Math.min(this.panes.length - 1, Math.floor(this.stacked ? top / height : left / width));
+    const camera = this.cameras[index];
+    if (camera === undefined) return undefined;
+    const scale = 2 ** camera.zoom;
+    const x = camera.x + (left - (this.stacked ? 0 : index * width) - width / 2) / scale;
+    const y = camera.y - (top - (this.stacked ? index * height : 0) - height / 2) / scale;
+    return (this.panes[index] as Pane).nearest(x, y, reach_px / scale);
+  }
+
   /** Pane size in CSS pixels. */
   paneSize(): [number, number] {
     const { clientWidth, clientHeight } = this.place;
@@ -78,6 +93,7 @@ export class MapCanvas {
   }
 
   draw(moments: Moment[], cameras: Camera[], shown: Shown): void {
+    this.cameras = cameras;
     const metresPerPixel = 2 ** -(cameras[0] as Camera).zoom;
     const { lanes } = this.drawing;
     const layers: Layer[] = [new RoadLayer({ id: "roads", lanes, colours: this.theme.lanes, metresPerPixel })];

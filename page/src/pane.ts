@@ -2,6 +2,7 @@
 
 import { type Layer } from "@deck.gl/core";
 import { ScatterplotLayer } from "@deck.gl/layers";
+import type { Thing } from "./asked";
 import { Boxes, BoxLayer, hollow } from "./box_layer";
 import type { Drawing } from "./drawing";
 import { type FrameState, type Ghost, linkFactor } from "./stream";
@@ -12,6 +13,7 @@ export interface Shown {
   links: [boolean, boolean, boolean];
   ghosts: boolean;
   leases: boolean;
+  chosen?: Thing;
 }
 
 const steps = 256;
@@ -22,6 +24,7 @@ const markLasts_s = 3;
 
 export class Pane {
   private places = new Float32Array(0);
+  private slots: Uint32Array = new Uint32Array(0);
   private rows = 0;
   private readonly boxes = new Map<string, Boxes>();
   private ghosts = new Map<number, Ghost>();
@@ -49,7 +52,32 @@ export class Pane {
     layers.push(this.vehicleLayer(moment.now, theme, metresPerPixel));
     if (shown.leases) layers.push(...this.leaseLayers(moment, theme));
     layers.push(this.alarmLayer(moment, theme));
+    if (shown.chosen?.pane === this.index) layers.push(this.chosenLayer(shown.chosen, moment, theme));
     return layers;
+  }
+
+  /** What lies nearest to a place (m) and not farther than `reach_m`: a vehicle, else a signal. */
+  nearest(x: number, y: number, reach_m: number): Thing | undefined {
+    const thing = (onSignal: boolean, number: number | undefined) =>
+      number === undefined ? undefined : { pane: this.index, onSignal, number };
+    let best: number | undefined;
+    let best_m = reach_m;
+    for (let row = 0; row < this.rows; ++row) {
+      const away_m = Math.hypot((this.places[3 * row] as number) - x, (this.places[3 * row + 1] as number) - y);
+      if (away_m > best_m) continue;
+      best_m = away_m;
+      best = this.slots[row];
+    }
+    if (best !== undefined) return thing(false, best);
+    this.drawing.signals.forEach((signal, number) => {
+      for (const { middle } of signal.stopLines) {
+        const away_m = Math.hypot(middle[0] - x, middle[1] - y);
+        if (away_m > best_m) continue;
+        best_m = away_m;
+        best = number;
+      }
+    });
+    return thing(true, best);
   }
 
   private id(name: string): string {
@@ -85,6 +113,7 @@ export class Pane {
       this.places[3 * row + 2] = ((heading + turn) * 2 * Math.PI) / steps;
     }
     this.rows = now.count;
+    this.slots = now.slot;
   }
 
   private grow(rows: number): void {
@@ -181,6 +210,12 @@ export class Pane {
       if (ring !== undefined) rings.push(ring);
     }
     return [this.rings("leases", rings, theme.lease)];
+  }
+
+  private chosenLayer(chosen: Thing, moment: Moment, theme: Theme): Layer {
+    const at = chosen.onSignal ? undefined : this.placeOf(chosen.number, moment);
+    const ring = chosen.onSignal ? this.ringAround(chosen.number) : at && { at, radius_m: 6 };
+    return this.rings("chosen", ring === undefined ? [] : [{ ...ring, radius_m: ring.radius_m + 2 }], theme.chosen);
   }
 
   private ringAround(signal: number): { at: [number, number]; radius_m: number } | undefined {

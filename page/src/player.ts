@@ -1,5 +1,6 @@
 // One play: its map, its clock and what one can do with them.
 
+import { AskedPanel, type Thing } from "./asked";
 import { button, choice, element, LeaseList, legend, toggle } from "./controls";
 import { Curves } from "./curves";
 import type { Drawing } from "./drawing";
@@ -50,6 +51,10 @@ export class Player {
   private readonly calm = matchMedia("(prefers-reduced-motion: reduce)");
   private readonly shown: Shown = { links: [false, false, true], ghosts: true, leases: true };
   private readonly followBox: HTMLInputElement;
+  private readonly askedPanel: AskedPanel;
+  /** Id of the emergency vehicle to follow; empty for one that is on the road, whichever it is. */
+  private wanted = "";
+  private readonly wantedChoice: HTMLSelectElement;
   private followed: (number | undefined)[] = [];
   private camera: Camera = { x: 0, y: 0, zoom: 0 };
   private time_s: number;
@@ -82,12 +87,18 @@ export class Player {
     this.curves = new Curves((time_s) => this.show(time_s));
     this.leaseLists = tracks.map((track) => new LeaseList(track, (signal) => drawing.signals[signal]?.id ?? "?"));
     this.captions = tracks.map(() => element("div", "caption"));
+    this.askedPanel = new AskedPanel(tracks, drawing);
+    this.wanted = options.followed;
+    const wanted = choice("Emergency vehicle", [{ text: "any on the road", value: "" }], "", (id) => this.want(id));
+    this.wantedChoice = wanted.querySelector("select") as HTMLSelectElement;
+    this.wantedChoice.setAttribute("aria-label", "Emergency vehicle to follow");
+    this.listEmergency();
     this.playButton = button("▶", "Play or pause (space)", () => this.togglePlay());
     const speed = choice("Speed", speedTexts(), String(this.speed), (value) => this.setSpeed(Number(value)));
     this.speedChoice = speed.querySelector("select") as HTMLSelectElement;
     const follow = toggle("follow the emergency vehicle", true, (on) => this.setFollowing(on));
     this.followBox = follow.querySelector("input") as HTMLInputElement;
-    const place = this.build(speed, follow);
+    const place = this.build(speed, follow, wanted);
     this.map = new MapCanvas(place, drawing, tracks.map((track, i) => new Pane(i, track, drawing)), {
       moved: (camera) => this.moveTo(camera),
       drawn: () => {
@@ -124,7 +135,6 @@ export class Player {
   arrived(): void {
     if (this.live === undefined || !this.newest || this.playing) return;
     this.time_s = this.newest_s;
-    this.chooseFollowed();
     this.draw();
   }
 
@@ -186,18 +196,19 @@ export class Player {
     return Math.min(Math.max(time_s, this.begin_s), this.end_s);
   }
 
-  private build(speed: HTMLElement, follow: HTMLElement): HTMLElement {
+  private build(speed: HTMLElement, follow: HTMLElement, wanted: HTMLElement): HTMLElement {
     const panes = element("div", `panes of-${this.tracks.length}`);
     const place = element("div", "map");
     place.tabIndex = 0;
     place.setAttribute("role", "application");
     place.setAttribute(
       "aria-label",
-      "Map of the run. Space plays, arrows move the time, plus and minus zoom, F follows the emergency vehicle.",
+      "Map of the run. Space plays, arrows move the time, plus and minus zoom, F follows the emergency vehicle, " +
+        "N goes to the next one, C to the next vehicle or signal that is asked something.",
     );
     panes.append(place, ...this.captions);
-    this.element.append(panes, this.controls(speed, follow), this.timeLine.element, this.layerSwitches());
-    this.element.append(this.curves.element);
+    this.element.append(panes, this.controls(speed, follow, wanted), this.timeLine.element, this.layerSwitches());
+    this.element.append(this.askedPanel.element, this.curves.element);
     const leases = element("div", "lease-lists");
     leases.append(...this.leaseLists.map((list) => list.element));
     this.element.append(leases, legend());
@@ -205,14 +216,14 @@ export class Player {
     return place;
   }
 
-  private controls(speed: HTMLElement, follow: HTMLElement): HTMLElement {
+  private controls(speed: HTMLElement, follow: HTMLElement, wanted: HTMLElement): HTMLElement {
     const row = element("div", "controls");
     const { live } = this.options;
     row.append(this.playButton);
     row.append(button("‹", "One frame back (comma)", () => this.step(-1)));
     row.append(button("›", "One frame on (full stop)", () => this.step(1)));
     if (live === undefined || live.allowed) row.append(speed);
-    row.append(this.clock, follow);
+    row.append(this.clock, wanted, follow);
     row.append(button("+", "Nearer (plus)", () => this.zoom(0.5)), button("−", "Farther (minus)", () => this.zoom(-0.5)));
     row.append(button("whole", "The whole network (W)", () => this.look(this.map.whole())));
     if (live !== undefined && !live.allowed)
@@ -248,6 +259,9 @@ export class Player {
       this.ends.push(() => target.removeEventListener(name, act, options));
     };
     on(place, "keydown", (event) => this.key(event as KeyboardEvent));
+    let pressed: [number, number] = [0, 0];
+    on(place, "pointerdown", (event) => (pressed = spotOf(event as PointerEvent)), { capture: true });
+    on(place, "click", (event) => this.click(spotOf(event as MouseEvent), pressed, place));
     on(place, "wheel", (event) => this.wheel(event as WheelEvent), { passive: false });
     const again = () => {
       this.map.recolour();
@@ -280,6 +294,10 @@ export class Player {
       "-": () => this.zoom(-0.5),
       f: () => this.setFollowing(!this.following),
       w: () => this.look(this.map.whole()),
+      n: () => this.wantNext(1),
+      N: () => this.wantNext(-1),
+      c: () => this.chooseNext(),
+      Escape: () => this.choose(undefined),
     };
     const act = event.ctrlKey || event.metaKey || event.altKey ? undefined : acts[event.key];
     if (act === undefined) return;
@@ -292,6 +310,75 @@ export class Player {
     if (!event.ctrlKey && document.activeElement !== event.currentTarget) return;
     event.preventDefault();
     this.zoom(event.deltaY < 0 ? 0.25 : -0.25);
+  }
+
+  /** A click that moved the map chooses nothing. */
+  private click(at: [number, number], pressed: [number, number], place: HTMLElement): void {
+    if (Math.hypot(at[0] - pressed[0], at[1] - pressed[1]) > 5) return;
+    const box = place.getBoundingClientRect();
+    this.choose(this.map.thingAt(at[0] - box.left - place.clientLeft, at[1] - box.top - place.clientTop));
+  }
+
+  private choose(thing: Thing | undefined): void {
+    if (thing === undefined) delete this.shown.chosen;
+    else this.shown.chosen = thing;
+    this.draw();
+  }
+
+  /** The next of those that something is asked of now, over all runs. */
+  private chooseNext(): void {
+    const things = this.tracks.flatMap((track, pane) => {
+      const targets = track.at(this.time_s).now.leases.map(({ onSignal, target }) => ({ pane, onSignal, number: target }));
+      return targets.filter((one, i) => targets.findIndex((other) => same(one, other)) === i);
+    });
+    if (things.length === 0) return;
+    const { chosen } = this.shown;
+    const last = chosen === undefined ? -1 : things.findIndex((thing) => same(thing, chosen));
+    this.choose(things[(last + 1) % things.length]);
+  }
+
+  /** The emergency vehicles of all runs by id, with the time at which each first enters. */
+  private emergency(): Map<string, number> {
+    const entries = new Map<string, number>();
+    for (const track of this.tracks) {
+      for (const slot of track.emergency) {
+        const id = track.names.vehicles[slot]?.id ?? "?";
+        const from_s = track.journey(slot).time_s[0] ?? track.begin_s;
+        entries.set(id, Math.min(entries.get(id) ?? from_s, from_s));
+      }
+    }
+    return entries;
+  }
+
+  /** In a live run vehicles come. */
+  private listEmergency(): void {
+    const entries = this.emergency();
+    if (this.wantedChoice.length === entries.size + 1) return;
+    for (const [id, from_s] of [...entries].slice(this.wantedChoice.length - 1))
+      this.wantedChoice.add(new Option(`${id}, from ${from_s.toFixed(0)} s`, id));
+    this.wantedChoice.value = this.wanted;
+  }
+
+  /** Follows an emergency vehicle, in a replay from its departure on if it is not on the road now. */
+  private want(id: string): void {
+    this.wanted = id;
+    this.wantedChoice.value = id;
+    const isHere = (track: Track) => track.emergency.some(
+      (slot) => track.names.vehicles[slot]?.id === id && track.at(this.time_s).now.rowOf(slot) >= 0,
+    );
+    const from_s = this.emergency().get(id);
+    if (from_s !== undefined && !this.tracks.some(isHere)) this.show(from_s);
+    this.setFollowing(true);
+    this.comeNear();
+    this.draw();
+  }
+
+  private wantNext(by: 1 | -1): void {
+    const ids = [...this.emergency()].sort((one, other) => one[1] - other[1]).map(([id]) => id);
+    if (ids.length === 0) return;
+    const slot = this.followed[0];
+    const now = this.wanted !== "" ? this.wanted : slot === undefined ? "" : (this.tracks[0]?.names.vehicles[slot]?.id ?? "");
+    this.want(ids[(ids.indexOf(now) + by + ids.length) % ids.length] as string);
   }
 
   private comeNear(): void {
@@ -377,7 +464,6 @@ export class Player {
     const passed_s = ((now_ms - this.last_ms) / 1000) * this.speed;
     if (this.live !== undefined) {
       this.time_s = this.newest_s;
-      this.chooseFollowed();
       this.refreshCurves(false);
       this.last_ms = now_ms;
       this.draw();
@@ -391,14 +477,18 @@ export class Player {
     this.pending = requestAnimationFrame(() => this.tick());
   }
 
-  /** The named vehicle, or the first emergency vehicle that is on the road. */
+  /** The wanted vehicle; without one that which is followed already, or another that is on the road. */
   private chooseFollowed(): void {
+    const before = this.followed;
     this.followed = this.tracks.map((track, i) => {
-      const named = track.emergency.find((slot) => track.names.vehicles[slot]?.id === this.options.followed);
+      const named = track.emergency.find((slot) => track.names.vehicles[slot]?.id === this.wanted);
       if (named !== undefined) return named;
-      const present = track.emergency.find((slot) => track.at(this.time_s).now.rowOf(slot) >= 0);
-      return present ?? this.followed[i] ?? track.emergency[0];
+      const { now } = track.at(this.time_s);
+      const isHere = (slot: number | undefined) => slot !== undefined && now.rowOf(slot) >= 0;
+      return isHere(before[i]) ? before[i] : (track.emergency.find(isHere) ?? before[i] ?? track.emergency[0]);
     });
+    this.listEmergency();
+    if (this.followed.some((slot, i) => slot !== before[i])) this.refreshCurves(true);
   }
 
   /** In a live run the curves grow: they are drawn anew every five seconds of it. */
@@ -409,6 +499,7 @@ export class Player {
   }
 
   private draw(): void {
+    this.chooseFollowed();
     const moments = this.tracks.map((track) => track.at(this.time_s));
     if (this.calm.matches) moments.forEach((moment) => (moment.share = 0));
     this.comeNearWho(moments);
@@ -416,6 +507,7 @@ export class Player {
     this.map.draw(moments, this.cameras(moments), this.shown);
     this.timeLine.show(this.time_s, this.begin_s, this.end_s, this.tracks);
     this.curves.at(this.time_s);
+    this.askedPanel.show(this.shown.chosen, moments);
     this.clock.value = `${this.time_s.toFixed(2)} s`;
     this.tracks.forEach((track, i) => this.captionOf(track, i, moments[i] as Moment));
     this.element.dataset.time = this.time_s.toFixed(3);
@@ -451,8 +543,8 @@ export class Player {
     const slot = this.followed[i];
     const row = slot === undefined ? -1 : now.rowOf(slot);
     const speed = row < 0 ? "" : `, ${(((now.speed[row] as number) / 10) * 3.6).toFixed(0)} km/h`;
-    const state = row >= 0 ? "" : now.time_s >= track.end_s - 1e-6 ? ", run over" : ", not on the road";
-    const id = slot === undefined ? "no emergency vehicle" : (track.names.vehicles[slot]?.id ?? "?");
+    const state = row >= 0 ? "" : `, ${this.absence(track, slot, now.time_s)}`;
+    const id = slot === undefined ? "no emergency vehicle yet" : (track.names.vehicles[slot]?.id ?? "?");
     const caption = this.captions[i] as HTMLElement;
     const text = `${track.about.condition}: ${id}${speed}${state}; ${now.count} vehicles`;
     if (caption.textContent !== text) caption.textContent = text;
@@ -460,10 +552,27 @@ export class Player {
     (this.leaseLists[i] as LeaseList).show(now);
   }
 
+  /** Why a vehicle is not on the road. Of a live run the newest frame is not the end, unless the others went on. */
+  private absence(track: Track, slot: number | undefined, time_s: number): string {
+    const isOver = this.live === undefined ? time_s >= track.end_s - 1e-6 : track.end_s < this.end_s - inStep_s;
+    if (isOver) return "run over";
+    const from_s = slot === undefined ? undefined : track.journey(slot).time_s[0];
+    if (from_s === undefined) return "the run goes on";
+    return time_s < from_s ? `enters at ${from_s.toFixed(0)} s` : "not on the road any more";
+  }
+
   private fail(why: string): void {
     if (this.element.querySelector(".failure") !== null) return;
     this.element.prepend(element("p", "failure", `The map cannot be drawn: ${why}. It needs WebGL 2.`));
   }
+}
+
+function spotOf(event: MouseEvent): [number, number] {
+  return [event.clientX, event.clientY];
+}
+
+function same(one: Thing, other: Thing): boolean {
+  return one.pane === other.pane && one.onSignal === other.onSignal && one.number === other.number;
 }
 
 /** `#time=61.5&x=120&y=40&zoom=3`: a moment and a place (m from the lower left corner). */

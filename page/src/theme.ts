@@ -13,6 +13,7 @@ export interface Theme {
   sigma: Rgba;
   lease: Rgba;
   alarm: Rgba;
+  chosen: Rgba;
   signals: { go: Rgba; yield: Rgba; wait: Rgba; stop: Rgba; off: Rgba };
 }
 
@@ -44,6 +45,7 @@ export const light: Theme = {
   ],
   ghost: [110, 60, 160, 255],
   sigma: [110, 60, 160, 50],
+  chosen: [28, 31, 36, 255],
 };
 
 export const dark: Theme = {
@@ -57,6 +59,7 @@ export const dark: Theme = {
   ],
   ghost: [190, 150, 235, 255],
   sigma: [190, 150, 235, 60],
+  chosen: [255, 255, 255, 255],
 };
 
 /** The colour of SUMO's letter for a link of a signal. */

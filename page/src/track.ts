@@ -1,5 +1,6 @@
 // One run that can be shown at any moment: recorded, or as far as it has happened.
 
+import { AskedLog } from "./asked";
 import { BlockKind, blocksOf, ByteReader, FrameState, type Mark, Names } from "./stream";
 
 export interface About {
@@ -75,6 +76,8 @@ export class Track {
   readonly emergency: number[] = [];
   /** JSON texts of the stream, newest last: what a server says, how a run ended. */
   readonly messages: string[] = [];
+  /** What was asked of vehicles and signals. */
+  readonly asked = new AskedLog();
   private readonly frames: CodedFrame[] = [];
   private readonly journeys = new Map<number, Journey>();
   private readonly pass: FrameState;
@@ -136,6 +139,7 @@ export class Track {
     this.pass.apply(kind, new ByteReader(bytes));
     this.frames.push({ time_s: this.pass.time_s, kind, bytes });
     this.marks.push(...this.pass.marks);
+    this.asked.take(this.pass.time_s, this.pass.leases);
     this.follow();
     this.kept += bytes.length;
     if (this.kept > mostKept) this.forgetOldest();

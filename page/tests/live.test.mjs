@@ -185,7 +185,10 @@ test("the view comes near the emergency vehicle when it enters, but for who has 
   const whole = await zoomOf(waits);
   const chosen = await zoomOf(chose);
   assert.ok(whole < 2.2 && chosen < whole, `${whole}, ${chosen}`);
-  for (const one of [waits, chose]) assert.match(await captionOf(one), /: no emergency vehicle/);
+  for (const one of [waits, chose]) {
+    assert.match(await captionOf(one), /: no emergency vehicle yet, the run goes on; /);
+    assert.doesNotMatch(await captionOf(one), /run over/);
+  }
   await waits.page.getByLabel("Speed").selectOption("30");
   for (const one of [waits, chose]) await until("one enters", async () => / km\/h; /.test(await captionOf(one)));
   assert.equal(await zoomOf(waits), 2.2);

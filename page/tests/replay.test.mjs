@@ -160,6 +160,96 @@ test("the keyboard alone does everything", options, async () => {
   await close();
 });
 
+/** Time and id of every emergency vehicle of the run when it enters, in that order. */
+function entries() {
+  const snapshot = rows(clearway("replay", run, "--csv", "snapshot")).filter((row) => row.class === "emergency");
+  return [...grouped(snapshot, "vehicle")].map(([id, seen]) => ({ id, from_s: Number(seen[0].time_s), to_s: Number(seen.at(-1).time_s) }));
+}
+
+test("the emergency vehicle is one that is on the road, or the one that is chosen with the list or a key", options, async () => {
+  const { page, faults, close } = await openPage(browser, address(single));
+  const vehicles = entries();
+  assert.ok(vehicles.length >= 3);
+  const caption = () => page.locator(".caption").textContent();
+  const time = async () => Number(await page.locator(".play").getAttribute("data-time"));
+  const go = (time_s) => page.evaluate((wanted) => (location.hash = `time=${wanted}`), time_s);
+  for (const { from_s, to_s } of vehicles) {
+    await go((from_s + to_s) / 2);
+    await settled(page);
+    const here = vehicles.filter((one) => one.from_s <= (from_s + to_s) / 2 && one.to_s >= (from_s + to_s) / 2);
+    const text = await caption();
+    assert.ok(here.some(({ id }) => text.startsWith(`corridor: ${id}, `)) && / km\/h; /.test(text), text);
+  }
+  const list = page.getByLabel("Emergency vehicle to follow");
+  assert.equal(await list.locator("option").count(), vehicles.length + 1);
+  const last = vehicles.at(-1);
+  await go(vehicles[0].from_s);
+  await list.selectOption(last.id);
+  assert.ok(Math.abs((await time()) - last.from_s) < 0.3, "it is shown from its departure on");
+  assert.match(await caption(), new RegExp(`^corridor: ${last.id}, \\d+ km/h; `));
+  await page.locator(".map").focus();
+  await page.keyboard.press("Shift+N");
+  assert.equal(await list.inputValue(), vehicles.at(-2).id);
+  await page.keyboard.press("n");
+  assert.equal(await list.inputValue(), last.id);
+  assert.ok(last.from_s > vehicles[0].from_s + 1);
+  await go(vehicles[0].from_s + 0.5);
+  await settled(page);
+  assert.match(await caption(), / enters at \d+ s; /);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("a click or a key on a signal or a vehicle tells what it was asked, by which part, for whom and why", options, async () => {
+  const { origin, stopLines } = readNetwork(join(folder, "runs/mine/scenarios/city/network/network.net.xml"));
+  const leases = rows(clearway("replay", run, "--csv", "leases"));
+  const snapshot = grouped(rows(clearway("replay", run, "--csv", "snapshot")), "time_s");
+  const { page, faults, close } = await openPage(browser, address(single));
+  const title = () => page.locator(".asked h4").textContent();
+  const lines = () => page.locator(".asked li").allTextContents();
+  assert.match(await title(), /^Click a vehicle or a signal/);
+  const clickAt = async (time_s, [x, y]) => {
+    await page.evaluate((hash) => (location.hash = hash), `time=${time_s}&x=${x - origin[0]}&y=${y - origin[1]}&zoom=3`);
+    await settled(page);
+    const box = await page.locator(".map").boundingBox();
+    await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  };
+  // A signal at a stop line that no vehicle is near.
+  const places = (time_s) => snapshot.get(time_s).map((row) => [Number(row.x_m), Number(row.y_m)]);
+  const isFree = (time_s, [x, y]) => places(time_s).every(([a, b]) => Math.hypot(a - x, b - y) > 12);
+  const held = leases.filter((row) => row.signal !== "" && row.action === "hold_green" && row.beneficiary !== "").flatMap((row) => {
+    const line = stopLines.find(({ signal, at }) => signal === row.signal && isFree(row.time_s, at));
+    return line === undefined ? [] : [{ ...row, at: line.at }];
+  })[0];
+  assert.ok(held !== undefined);
+  await clickAt(held.time_s, held.at);
+  assert.ok((await title()).startsWith(`corridor, signal ${held.signal}: shows `), await title());
+  const about = (row) => (line) => line.includes(` for ${row.beneficiary}: `) && line.includes(`(${row.policy})`);
+  assert.ok((await lines()).some(about(held)), `${held.policy} for ${held.beneficiary} in: ${await lines()}`);
+  assert.ok((await lines()).some((line) => line.includes(`green requested for ${held.beneficiary} at signal ${held.signal}`)), String(await lines()));
+  // A vehicle that nothing is near.
+  const driven = leases.filter((row) => row.vehicle !== "" && row.beneficiary !== "").flatMap((row) => {
+    const present = snapshot.get(row.time_s).find(({ vehicle }) => vehicle === row.vehicle);
+    const near = places(row.time_s).filter(([x, y]) => present && Math.hypot(x - present.x_m, y - present.y_m) < 8);
+    return near.length === 1 ? [{ ...row, at: near[0] }] : [];
+  })[0];
+  assert.ok(driven !== undefined);
+  await clickAt(driven.time_s, driven.at);
+  assert.ok((await title()).startsWith(`corridor, vehicle ${driven.vehicle}: `), await title());
+  assert.ok((await lines()).some(about(driven)), `${driven.policy} for ${driven.beneficiary} in: ${await lines()}`);
+  await keepPicture(page, "replay-chosen");
+  await page.keyboard.press("Escape");
+  assert.match(await title(), /^Click a vehicle or a signal/);
+  await page.keyboard.press("c");
+  assert.match(await title(), /^corridor, (signal|vehicle) /);
+  const first = await title();
+  await page.keyboard.press("c");
+  const targets = new Set(leases.filter((row) => row.time_s === driven.time_s).map((row) => row.vehicle + row.signal));
+  if (targets.size > 1) assert.notEqual(await title(), first);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
 test("both runs show the same moment, and the marks are those of the recording", options, async () => {
   const { page, close } = await openPage(browser, address(pair));
   const events = rows(clearway("replay", run, "--csv", "events"));
