@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace clearway::analysis {
 namespace {
@@ -9,26 +10,24 @@ namespace {
 /// A signal that is not chosen yet.
 struct Candidate {
     std::size_t number = 0;
-    std::size_t measured_in = 0;  ///< Round of `gain`, from 1; 0: never.
+    std::size_t measured_in = 0;  ///< Place of `gain`, from 1; 0: never.
+    bool left_race = false;       ///< Of that place.
     Values values;
     MaybeEstimate gain;
 
-    /// Without a measurement it may gain anything; measured without a pair, nothing is known in its favour.
-    double last_gain() const {
+    /// What it may gain at `place`, s.
+    double promise(std::size_t place) const {
         constexpr double infinite = std::numeric_limits<double>::infinity();
         if (measured_in == 0) return infinite;
+        if (measured_in == place && left_race) return -infinite;
         return gain ? gain->mean : -infinite;
     }
 };
 
-bool has_effect(const MaybeEstimate& gain) {
-    return gain && gain->interval && gain->interval->low > 0.0;
-}
-
 class Greedy {
   public:
-    Greedy(const Values& none, const EquipConfig& config, const MeasureSets& measure)
-        : none_(none), present_(none), config_(config), measure_(measure), open_(config.candidates) {
+    Greedy(const EquipConfig& config, const MeasureSets& measure)
+        : config_(config), measure_(measure), open_(config.candidates) {
         for (std::size_t number = 0; number < open_.size(); ++number)
             open_[number].number = number;
     }
@@ -40,74 +39,104 @@ class Greedy {
                 return plan_;
             }
             const std::size_t best = next();
-            const EquipStep step{open_[best].number, open_[best].gain, gain_over(none_, open_[best].values)};
-            if (!has_effect(step.gain)) {
-                plan_.end = EquipEnd::no_effect;
+            const EquipStep step{open_[best].number, open_[best].gain};
+            if (!step.gain || step.gain->mean <= 0.0) {
+                plan_.end = EquipEnd::no_gain;
                 plan_.next = step;
                 return plan_;
             }
-            choose(best, step);
+            chosen_.push_back(step.candidate);
+            open_.erase(open_.begin() + static_cast<std::ptrdiff_t>(best));
+            plan_.steps.push_back(step);
         }
         plan_.end = EquipEnd::budget;
         return plan_;
     }
 
   private:
-    std::size_t round() const { return plan_.steps.size() + 1; }
+    std::size_t place() const { return plan_.steps.size() + 1; }
 
-    MaybeEstimate gain_over(const Values& before, const Values& after) const {
-        return estimate_paired(before, after, MetricKind::quantity, config_.level);
+    MaybeEstimate gain_of(const Values& values, double level) const {
+        return estimate_paired(present_, values, MetricKind::quantity, level);
     }
 
-    /// Place of the candidate with the greatest last gain; of equal ones the first.
+    /// Index of the candidate that promises most; of equal ones the first.
     std::size_t greatest() const {
-        const auto found = std::ranges::max_element(open_, {}, &Candidate::last_gain);
+        const auto found = std::ranges::max_element(
+            open_, {}, [&](const Candidate& candidate) { return candidate.promise(place()); });
         return static_cast<std::size_t>(found - open_.begin());
     }
 
-    /// The best candidate of this round, measured in this round.
+    /// The best candidate for this place, measured for it.
     std::size_t next() {
-        if (round() == 1 || config_.search == Search::thorough) {
-            std::vector<std::size_t> all(open_.size());
-            for (std::size_t place = 0; place < all.size(); ++place)
-                all[place] = place;
-            measure(all);
-        }
+        if (place() == 1 || config_.search == Search::thorough) race();
+        if (place() == 1) describe();
         std::size_t best = greatest();
-        while (open_[best].measured_in != round()) {
-            measure({best});
+        while (open_[best].measured_in != place()) {
+            measure({best}, config_.replications);
             best = greatest();
         }
         return best;
     }
 
-    void measure(const std::vector<std::size_t>& places) {
-        std::vector<SignalSet> sets;
-        for (const std::size_t place : places) {
+    void race() {
+        const std::vector<std::size_t> looks = equip_looks(config_.replications);
+        std::vector<std::size_t> racing(open_.size());
+        std::iota(racing.begin(), racing.end(), std::size_t{0});
+        for (const std::size_t look : looks) {
+            measure(racing, look);
+            if (look == looks.back()) return;
+            const auto tests = static_cast<double>((open_.size() - 1) * (looks.size() - 1));
+            drop_shown_worse(racing, 2.0 * (1.0 - config_.level) / tests);
+        }
+    }
+
+    /// `risk`: of a two-sided interval, of which one side counts.
+    void drop_shown_worse(std::vector<std::size_t>& racing, double risk) {
+        const std::vector<std::size_t> before = racing;
+        const auto is_worse = [&](std::size_t one) {
+            return std::ranges::any_of(before, [&](std::size_t other) {
+                if (one == other) return false;
+                const MaybeEstimate more =
+                    estimate_paired(open_[one].values, open_[other].values, MetricKind::quantity, 1.0 - risk);
+                return shown_interval(more) != nullptr && more->interval->low > 0.0;
+            });
+        };
+        std::erase_if(racing, [&](std::size_t one) {
+            open_[one].left_race = is_worse(one);
+            return open_[one].left_race;
+        });
+    }
+
+    void measure(const std::vector<std::size_t>& rows, std::size_t replications) {
+        std::vector<SignalSet> sets = {chosen_};
+        for (const std::size_t row : rows) {
             sets.push_back(chosen_);
-            sets.back().push_back(open_[place].number);
+            sets.back().push_back(open_[row].number);
         }
-        std::vector<Values> values = measure_(sets);
-        plan_.measured += sets.size();
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            Candidate& candidate = open_[places[i]];
-            candidate.measured_in = round();
-            candidate.values = std::move(values.at(i));
-            candidate.gain = gain_over(present_, candidate.values);
+        std::vector<Values> values = measure_(sets, replications);
+        present_ = std::move(values.front());
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            Candidate& candidate = open_[rows[i]];
+            candidate.measured_in = place();
+            candidate.left_race = false;
+            candidate.values = std::move(values.at(i + 1));
+            candidate.gain = gain_of(candidate.values, config_.level);
         }
     }
 
-    void choose(std::size_t place, const EquipStep& step) {
-        present_ = open_[place].values;
-        chosen_.push_back(step.candidate);
-        open_.erase(open_.begin() + static_cast<std::ptrdiff_t>(place));
-        plan_.steps.push_back(step);
+    void describe() {
+        const double together = 1.0 - (1.0 - config_.level) / static_cast<double>(open_.size());
+        for (const Candidate& candidate : open_) {
+            Values values = candidate.values;
+            values.resize(present_.size());
+            plan_.candidates.push_back({gain_of(values, together), candidate.left_race});
+        }
     }
 
-    const Values& none_;
-    Values present_;
     const EquipConfig& config_;
     const MeasureSets& measure_;
+    Values present_;               ///< With the chosen signals.
     std::vector<Candidate> open_;  ///< By number.
     SignalSet chosen_;
     EquipPlan plan_;
@@ -115,8 +144,16 @@ class Greedy {
 
 }  // namespace
 
-EquipPlan equip_greedily(const Values& none, const EquipConfig& config, const MeasureSets& measure) {
-    return Greedy(none, config, measure).run();
+std::vector<std::size_t> equip_looks(std::size_t replications) {
+    std::vector<std::size_t> looks;
+    for (std::size_t look = fewest_for_interval; look < replications; look *= 2)
+        looks.push_back(look);
+    looks.push_back(replications);
+    return looks;
+}
+
+EquipPlan equip_greedily(const EquipConfig& config, const MeasureSets& measure) {
+    return Greedy(config, measure).run();
 }
 
 }  // namespace clearway::analysis

@@ -13,51 +13,71 @@ namespace clearway::analysis {
 /// A set of equipped signals: numbers of candidates from 0, in the order in which they were chosen.
 using SignalSet = std::vector<std::size_t>;
 
-/// What emergency vehicles need with each of these sets, by replication: `primary_metric`, s. Nothing for a
-/// run that failed. Called once for all sets that are wanted at a time.
-using MeasureSets = std::function<std::vector<Values>(const std::vector<SignalSet>& sets)>;
+/// What emergency vehicles need with each of these sets in each of the first `replications`:
+/// `primary_metric`, s. Nothing for a run that failed. Called once for all sets that are wanted at a time.
+using MeasureSets =
+    std::function<std::vector<Values>(const std::vector<SignalSet>& sets, std::size_t replications)>;
 
 /// Which candidates are tried for the second and later places.
 enum class Search : std::uint8_t {
     lazy,      ///< Those whose last marginal gain could still be the greatest.
-    thorough,  ///< All.
+    thorough,  ///< All, in a race as for the first place.
 };
 
 struct EquipConfig {
     std::size_t candidates = 0;
-    std::size_t budget = 1;  ///< Signals to equip, at least 1.
+    std::size_t budget = 1;        ///< Signals to equip, at least 1.
+    std::size_t replications = 2;  ///< At least 2.
     Search search = Search::lazy;
     double level = usual_level;
+};
+
+/// A candidate by itself, as the first place saw it.
+struct EquipCandidate {
+    /// Less time than with no signal equipped, s; over fewer pairs where it left the race. Nothing without a
+    /// pair. The intervals of all candidates hold together at the level (Bonferroni).
+    MaybeEstimate gain;
+    bool left_race = false;  ///< Shown to gain less than another before all replications were made.
 };
 
 /// A signal that was chosen, or would have been the next.
 struct EquipStep {
     std::size_t candidate = 0;
-    MaybeEstimate gain;    ///< Less time than without it, s. Nothing without a pair of runs.
-    MaybeEstimate so_far;  ///< Less time than with no signal equipped, s.
+    /// Less time than without it, s, in the runs that it was chosen by: too high by the choice. Nothing
+    /// without a pair of runs.
+    MaybeEstimate gain;
 };
 
 /// Why no further signal was chosen.
 enum class EquipEnd : std::uint8_t {
     budget,     ///< As many as wanted are chosen.
     exhausted,  ///< All candidates are.
-    no_effect,  ///< The interval of the next one's gain includes 0, or lies below it.
+    no_gain,    ///< In the mean of its runs the next one gains nothing.
 };
 
 struct EquipPlan {
-    std::vector<EquipStep> steps;  ///< By rank.
+    std::vector<EquipCandidate> candidates;  ///< By number.
+    std::vector<EquipStep> steps;            ///< By rank.
     EquipEnd end = EquipEnd::budget;
-    std::optional<EquipStep> next;  ///< With `no_effect`: the one that was not chosen.
-    std::size_t measured = 0;       ///< Sets for which `measure` was asked.
+    std::optional<EquipStep> next;  ///< With `no_gain`: the one that was not chosen.
 };
 
+/// Numbers of replications after which a race drops candidates, then all of them: 5 (`fewest_for_interval`),
+/// 10, 20, ... below `replications`, then `replications`.
+std::vector<std::size_t> equip_looks(std::size_t replications);
+
 /// Chooses signals one by one: each time the candidate with the greatest mean gain over those chosen before,
-/// of equal ones the first, until the budget is spent, no candidate is left or the gain of the next one is
-/// not shown to be above 0. `none` are the values with no signal equipped. Intervals are t intervals of
-/// paired differences; they are not adjusted for the choice among candidates, so that the gain of the chosen
-/// is somewhat too high. The greedy choice is within 1 - 1/e of the best set if gains are submodular
-/// (Nemhauser, Wolsey and Fisher 1978), and then the lazy search (Minoux 1978) finds what the thorough one
-/// finds. Gains of signals need not be: a green may pay only with the next one.
-EquipPlan equip_greedily(const Values& none, const EquipConfig& config, const MeasureSets& measure);
+/// of equal ones the first, until the budget is spent, no candidate is left or the next one gains nothing.
+///
+/// A place is filled by a race. After each look but the last, a candidate leaves if its paired difference
+/// from another is shown to be for the worse: one-sided t test at (1 - level) / ((m - 1) L) for m candidates
+/// and L such looks. The candidate that is truly best leaves only if one of these (m - 1) L tests against it
+/// errs, so that each race keeps it with probability `level` (Bonferroni), as far as t tests hold. Those that
+/// stay may still be chosen by chance: gains must be estimated again from runs that decided nothing.
+///
+/// The greedy choice is within 1 - 1/e of the best set if gains are submodular (Nemhauser, Wolsey and Fisher
+/// 1978), and then the lazy search (Minoux 1978) finds what the thorough one finds. Gains of signals need not
+/// be: a green may pay only with the next one.
+EquipPlan equip_greedily(const EquipConfig& config, const MeasureSets& measure);
 
 }  // namespace clearway::analysis

@@ -3,35 +3,43 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "campaign/detail/run_cost.hpp"
 #include "campaign/equip_rounds.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/progress.hpp"
 #include "core/temporary_folder.hpp"
+#include "core/terminal.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/equipped_signals.hpp"
 #include "experiment/settings.hpp"
 #include "policy/policy.hpp"
 #include "python/part_name.hpp"
 #include "report/equipment.hpp"
+#include "report/text.hpp"
 #include "scenario/network.hpp"
-#include "scenario/picture.hpp"
 
 namespace clearway::campaign {
 namespace {
+
+bool has_own_code(const experiment::ConditionSpec& base) {
+    return std::ranges::any_of(
+        base.policies, [](const std::string& policy) { return python::part_name_from(policy).has_value(); });
+}
 
 void check_condition(const experiment::ConditionSpec& base) {
     if (base.settings.contains(experiment::equipped_setting))
         throw core::InputError({experiment::equipped_setting, "is chosen by equip itself", "",
                                 "Leave it out, or compare your own sets with clearway run"});
     const bool has_signals = !experiment::policies_with(base, traffic::Trait::asks_signals).empty();
-    const bool has_own_code = std::ranges::any_of(
-        base.policies, [](const std::string& policy) { return python::part_name_from(policy).has_value(); });
-    if (!has_signals && !has_own_code)
+    if (!has_signals && !has_own_code(base))
         throw core::InputError(
             {"condition " + base.name, "has no policy that requests green from signals",
              fmt::format("one with {}, such as corridor",
@@ -43,79 +51,107 @@ struct Signals {
     scenario::BuiltNetwork built;
     EquipCandidates candidates;
 
-    const roads::Signal& signal(std::size_t candidate) const {
-        return built.network.signal(candidates.signals.at(candidate));
+    /// As `clearway scenario signals` counts, from 1.
+    std::size_t number(std::size_t candidate) const { return candidates.signals.at(candidate).value + 1U; }
+    const std::string& id(std::size_t candidate) const {
+        return built.network.signal(candidates.signals.at(candidate)).id;
     }
 };
 
-Signals signals_of(const study::StudyConfig& config, const std::filesystem::path& folder) {
+Signals signals_of(const study::StudyConfig& config, std::size_t most, const std::filesystem::path& folder) {
     const scenario::ScenarioConfig& scenario = config.scenarios.front();
     Signals signals{scenario::build_network(scenario, folder), {}};
     if (signals.built.network.signals().empty())
         throw core::InputError({"scenario " + scenario.name, "has no signals", "a network with signals",
                                 "`clearway scenario signals SCENARIO` lists those of a scenario"});
-    signals.candidates = equip_candidates(config, signals.built);
+    signals.candidates = equip_candidates(config, signals.built, most);
     return signals;
 }
 
-std::optional<analysis::Estimate> less(const analysis::Values& before, const analysis::Values& after) {
-    return analysis::estimate_paired(before, after, analysis::MetricKind::quantity);
+EquipQuestion question_of(const study::StudyConfig& config, const EquipRequest& request,
+                          const Signals& signals) {
+    EquipQuestion question{config,         request.condition, {}, signals.candidates.passed,
+                           request.budget, request.search};
+    analysis::SignalSet all;
+    for (std::size_t candidate = 0; candidate < signals.candidates.signals.size(); ++candidate) {
+        all.push_back(candidate);
+        question.signals.push_back(signals.id(candidate));
+    }
+    // A user's code may ask signals that no emergency vehicle passes.
+    if (has_own_code(request.condition)) question.passed.assign(config.replications, all);
+    return question;
 }
 
-std::optional<analysis::Estimate> mean(const EquipOutcome& outcome) {
+analysis::MaybeEstimate less(const analysis::Values& before, const analysis::Values& after,
+                             double level = analysis::usual_level) {
+    return analysis::estimate_paired(before, after, analysis::MetricKind::quantity, level);
+}
+
+analysis::MaybeEstimate mean(const EquipOutcome& outcome) {
     return analysis::estimate_values(outcome.emergency_s, analysis::MetricKind::quantity);
 }
 
-report::EquippedSignal row_of(const analysis::EquipStep& step, const analysis::SignalSet& set,
-                              const Signals& signals, const EquipRounds& rounds) {
-    const core::SignalIndex index = signals.candidates.signals.at(step.candidate);
-    return {index.value + std::size_t{1}, signals.signal(step.candidate).id, step.gain, step.so_far,
-            less(rounds.of(set).others_s, rounds.none().others_s)};
+void add_candidates(const analysis::EquipPlan& plan, const Signals& signals, report::EquipmentFacts& facts) {
+    for (std::size_t candidate = 0; candidate < plan.candidates.size(); ++candidate) {
+        const analysis::EquipCandidate& found = plan.candidates[candidate];
+        facts.candidates.push_back({signals.number(candidate), signals.id(candidate),
+                                    signals.candidates.trips[candidate], found.gain, found.left_race,
+                                    std::nullopt});
+    }
+    for (std::size_t rank = 0; rank < plan.steps.size(); ++rank)
+        facts.candidates.at(plan.steps[rank].candidate).rank = rank + 1;
 }
 
-report::EquipmentFacts facts_of(const study::StudyConfig& config, const std::string& condition,
-                                const analysis::EquipPlan& plan, const Signals& signals,
-                                const EquipRounds& rounds) {
+void add_outcomes(const analysis::EquipPlan& plan, const Signals& signals, const FreshOutcomes& fresh,
+                  report::EquipmentFacts& facts) {
+    const auto gain = [&](const EquipOutcome& after) {
+        return less(fresh.none.emergency_s, after.emergency_s);
+    };
+    const auto loss = [&](const EquipOutcome& after) { return less(after.others_s, fresh.none.others_s); };
+    facts.baseline_s = mean(fresh.baseline);
+    facts.none_s = mean(fresh.none);
+    facts.all_s = mean(fresh.all);
+    facts.alone_s = mean(fresh.alone);
+    facts.all_gain = gain(fresh.all);
+    facts.all_others = loss(fresh.all);
+    const double together = 1.0 - (1.0 - analysis::usual_level) /
+                                      static_cast<double>(std::max<std::size_t>(plan.steps.size(), 1));
+    for (std::size_t rank = 0; rank < plan.steps.size(); ++rank) {
+        const analysis::EquipStep& step = plan.steps[rank];
+        const EquipOutcome& before = rank == 0 ? fresh.none : fresh.chosen[rank - 1];
+        const EquipOutcome& after = fresh.chosen.at(rank);
+        facts.ranked.push_back({signals.number(step.candidate), signals.id(step.candidate),
+                                less(before.emergency_s, after.emergency_s, together), gain(after),
+                                loss(after), step.gain});
+    }
+}
+
+report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipRequest& request,
+                                const Signals& signals) {
     report::EquipmentFacts facts;
     facts.scenario = config.scenarios.front().name;
     facts.title = config.scenarios.front().title;
-    facts.condition = condition;
+    facts.condition = request.condition.name;
+    facts.command = request.run.command;
     facts.seed = config.seed;
     facts.replications = config.replications;
+    facts.budget = request.budget;
     facts.signals = signals.built.network.signals().size();
     facts.not_passed = signals.candidates.not_passed;
     facts.switched_off = signals.candidates.switched_off;
-    facts.measured = plan.measured;
-    facts.baseline_s = mean(rounds.baseline());
-    facts.none_s = mean(rounds.none());
-    facts.all_s = mean(rounds.all());
-    facts.alone_s = mean(rounds.alone());
-    facts.all_gain = less(rounds.none().emergency_s, rounds.all().emergency_s);
-    facts.all_others = less(rounds.all().others_s, rounds.none().others_s);
-    facts.end = plan.end;
-    analysis::SignalSet set;
-    for (const analysis::EquipStep& step : plan.steps) {
-        set.push_back(step.candidate);
-        facts.ranked.push_back(row_of(step, set, signals, rounds));
-    }
-    if (plan.next) {
-        set.push_back(plan.next->candidate);
-        facts.next = row_of(*plan.next, set, signals, rounds);
-    }
+    facts.seldom_passed = signals.candidates.seldom_passed;
     return facts;
 }
 
-void write_files(const report::EquipmentFacts& facts, const Signals& signals,
-                 const std::filesystem::path& folder) {
-    std::vector<core::SignalIndex> ranked;
-    for (const report::EquippedSignal& row : facts.ranked)
-        ranked.push_back(core::SignalIndex{static_cast<std::uint32_t>(row.number - 1)});
-    const std::string title = facts.title + ": signals to equip first";
+void write_files(const report::EquipmentFacts& facts, const std::filesystem::path& folder) {
+    std::ostringstream page;
+    report::write_equipment_page(facts, page);
+    core::write_atomically(folder / "report.html", page.str());
     core::write_atomically(folder / "equip.csv", report::equipment_csv(facts));
+    core::write_atomically(folder / "candidates.csv", report::candidates_csv(facts));
     core::write_atomically(folder / "equip.json", report::equipment_json(facts));
     core::write_atomically(folder / "curve.svg", report::equipment_curve(facts));
-    core::write_atomically(folder / "map.svg",
-                           scenario::ranked_signals_picture(signals.built.network, title, ranked));
+    core::write_atomically(folder / "map.svg", report::equipment_map(facts));
 }
 
 /// `runs/equip-SCENARIO-xxxxxx`, where the hash stands for what is run.
@@ -126,34 +162,121 @@ std::filesystem::path usual_folder(study::StudyConfig config, const experiment::
     return options.folder;
 }
 
+/// What both verbs begin with.
+struct Search {
+    study::StudyConfig config;
+    Signals signals;
+    EquipRounds rounds;
+};
+
+Search search_of(EquipRequest& request, const std::filesystem::path& network_folder) {
+    check_condition(request.condition);
+    study::StudyConfig config = study_of(request.scenario, {}, request.seed, request.replications);
+    config.name = "equip-" + config.name;
+    Signals signals = signals_of(config, request.most_candidates, network_folder);
+    if (request.run.folder.empty()) request.run.folder = usual_folder(config, request.condition);
+    EquipQuestion question = question_of(config, request, signals);
+    return {std::move(config), std::move(signals), EquipRounds(std::move(question), request.run)};
+}
+
+/// Of a run of the scenario, s: from earlier runs in the folder or beside it, else rough or nothing.
+RunCost cost_of(const Search& search, const EquipRequest& request) {
+    study::StudyConfig config = search.config;
+    config.conditions = {experiment::baseline_for(request.condition), request.condition};
+    RunOptions options = request.run;
+    const study::Plan plan = plan_for(config, options);
+    RunCost cost;
+    for (const std::filesystem::path& folder : {request.run.folder / "round-01", request.run.folder}) {
+        cost =
+            CostBook(folder).of(config.scenarios.front(), plan.manifest.scenarios.front().configuration_hash,
+                                request.condition.traffic_model);
+        if (cost.measured) break;
+    }
+    return cost;
+}
+
 }  // namespace
 
 core::ExitCode equip(EquipRequest request) {
-    const experiment::ConditionSpec& base = request.condition;
-    check_condition(base);
-    study::StudyConfig config = study_of(request.scenario, {}, request.seed, request.replications);
-    config.name = "equip-" + config.name;
     const core::TemporaryFolder network_folder;
-    const Signals signals = signals_of(config, network_folder.path());
-    const std::vector<std::string> ids = core::texts_of(
-        signals.candidates.signals,
-        [&](const core::SignalIndex signal) { return signals.built.network.signal(signal).id; });
-    if (request.run.folder.empty()) request.run.folder = usual_folder(config, base);
-    const std::filesystem::path& folder = request.run.folder;
-    EquipRounds rounds(config, base, ids, request.run);
-    rounds.begin();
-    const analysis::EquipConfig search{ids.size(), request.budget, request.search};
+    Search search = search_of(request, network_folder.path());
+    EquipRounds& rounds = search.rounds;
+    const analysis::EquipConfig config{search.signals.candidates.signals.size(), request.budget,
+                                       request.replications, request.search};
     const analysis::EquipPlan plan = analysis::equip_greedily(
-        rounds.none().emergency_s, search,
-        [&](const std::vector<analysis::SignalSet>& sets) { return rounds.measure(sets); });
-    report::EquipmentFacts facts = facts_of(config, base.name, plan, signals, rounds);
-    facts.budget = request.budget;
-    write_files(facts, signals, folder);
+        config, [&](const std::vector<analysis::SignalSet>& sets, std::size_t replications) {
+            return rounds.measure(sets, replications);
+        });
+    analysis::SignalSet chosen;
+    for (const analysis::EquipStep& step : plan.steps)
+        chosen.push_back(step.candidate);
+    const FreshOutcomes fresh = rounds.estimate(chosen);
+    report::EquipmentFacts facts = facts_of(search.config, request, search.signals);
+    facts.fresh_seed = rounds.fresh_seed();
+    facts.runs = rounds.runs();
+    facts.end = plan.end;
+    add_candidates(plan, search.signals, facts);
+    add_outcomes(plan, search.signals, fresh, facts);
+    facts.roads = report::road_map(results::Store::open(rounds.fresh_folder()), facts.scenario);
+    write_files(facts, request.run.folder);
     fmt::print("{}", request.run.publish.printing == Printing::json ? report::equipment_json(facts)
                                                                     : report::equipment_text(facts));
-    fmt::print(stderr, "clearway: written: equip.csv, equip.json, curve.svg and map.svg in {}\n",
-               folder.string());
+    fmt::print(stderr, "clearway: written: {}\n", (request.run.folder / "report.html").string());
     return rounds.failed_runs() == 0 ? core::ExitCode::ok : core::ExitCode::runs_failed;
+}
+
+core::ExitCode equip_dry_run(EquipRequest request) {
+    const core::TemporaryFolder network_folder;
+    const Search search = search_of(request, network_folder.path());
+    const EquipForecast runs = search.rounds.forecast();
+    const RunCost cost = cost_of(search, request);
+    const unsigned processes =
+        request.run.workers > 0 ? request.run.workers : std::max(1U, std::thread::hardware_concurrency());
+    const auto seconds = [&](std::size_t count) -> core::Json {
+        if (!cost.wall_s) return nullptr;
+        return static_cast<double>(count) * *cost.wall_s / processes;
+    };
+    const auto clock = [&](std::size_t count) {
+        const core::Json left_s = seconds(count);
+        return left_s.is_null() ? "-" : core::clock_text(left_s.get<double>());
+    };
+    Table table{"stages",
+                {{"stage", "stage"},
+                 {"runs", "runs"},
+                 {"most_runs", "at most"},
+                 {"estimated_time_s", ""},
+                 {"", "about, h:m:s"}},
+                {}};
+    const auto add = [&](const std::string& stage, std::size_t likely, std::size_t most) {
+        table.rows.push_back({{stage, likely, most, seconds(likely), clock(likely)}});
+    };
+    const std::size_t candidates = search.signals.candidates.signals.size();
+    const std::size_t first =
+        std::min<std::size_t>(analysis::equip_looks(request.replications).front(), request.replications);
+    add(fmt::format("place 1: {} on {} seeds", report::counted(candidates, "candidate"), first),
+        runs.first_look, runs.first_look);
+    add(fmt::format("place 1: on {} seeds, if none drops out", request.replications), runs.race, runs.race);
+    add("later places", runs.later, runs.later_most);
+    add("fresh seeds: estimate", runs.fresh, runs.fresh);
+    const std::string size =
+        fmt::format("{} likely, {} at most, into {}; runs that it holds are not made again.",
+                    report::counted(runs.likely(), "run"), runs.most(), request.run.folder.string());
+    const std::string time = cost.wall_s
+                                 ? fmt::format("About {} with {}, warm-ups left out ({}).",
+                                               clock(runs.likely()), report::counted(processes, "worker"),
+                                               cost.measured ? "from runs of this scenario here"
+                                                             : "rough: accurate to a factor of about three")
+                                 : "Time unknown: a run of this scenario beside that folder tells.";
+    print({{{"folder", request.run.folder.string()},
+            {"candidates", candidates},
+            {"runs", runs.likely()},
+            {"most_runs", runs.most()},
+            {"estimated_time_s", seconds(runs.likely())},
+            {"estimate_measured", cost.measured}},
+           {table},
+           core::wrapped(size, 0) + "\n" + core::wrapped(time, 0) + "\n"},
+          request.run.publish.printing);
+    return core::ExitCode::ok;
 }
 
 }  // namespace clearway::campaign

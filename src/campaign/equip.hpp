@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "analysis/equipment.hpp"
 #include "campaign/study_run.hpp"
@@ -15,15 +16,20 @@ struct EquipRequest {
     scenario::ScenarioConfig scenario;
     experiment::ConditionSpec condition;  ///< Whose signals are chosen.
     std::size_t budget = 1;               ///< Signals to equip.
+    std::size_t most_candidates = std::numeric_limits<std::size_t>::max();
     analysis::Search search = analysis::Search::lazy;
     std::uint64_t seed = 1;
     std::uint32_t replications = 2;
     RunOptions run;  ///< Its folder is that of the result and of the rounds.
 };
 
-/// Chooses signals greedily from runs in rounds, writes equip.csv, equip.json, curve.svg and map.svg and
-/// prints the ranked table. Returns runs_failed when a run failed. Throws core::InputError for a condition
-/// that asks no signal for green and a network without signals, and as EquipRounds does.
+/// Chooses signals from runs in rounds, estimates their gains from runs on fresh seeds, writes report.html,
+/// equip.csv, candidates.csv, equip.json, curve.svg and map.svg, and prints candidates and ranks. Returns
+/// runs_failed when a run failed. Throws core::InputError for a condition that asks no signal for green and a
+/// network without signals, and as EquipRounds does.
 core::ExitCode equip(EquipRequest request);
+
+/// Prints how many runs `equip` would make, and about how long they take; makes none. Throws likewise.
+core::ExitCode equip_dry_run(EquipRequest request);
 
 }  // namespace clearway::campaign

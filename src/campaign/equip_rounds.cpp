@@ -1,6 +1,9 @@
 #include "campaign/equip_rounds.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <limits>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -11,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/temporary_folder.hpp"
+#include "core/terminal.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/equipped_signals.hpp"
 #include "experiment/settings.hpp"
@@ -20,6 +24,9 @@ namespace clearway::campaign {
 namespace {
 
 constexpr const char* first_round = "round-01";
+constexpr const char* fresh_prefix = "fresh-";
+/// Candidates that a lazy search is assumed to try for each later place. From small cities.
+constexpr std::size_t likely_tries = 2;
 
 /// The signals between each edge and the next.
 using Crossings = std::map<std::pair<std::string, std::string>, std::set<core::SignalIndex>>;
@@ -41,6 +48,16 @@ Crossings crossings_of(const roads::Network& network) {
     return crossings;
 }
 
+std::set<core::SignalIndex> passed_by(const traffic::EmergencyDeparture& departure,
+                                      const Crossings& crossings) {
+    std::set<core::SignalIndex> passed;
+    for (std::size_t at = 1; at < departure.edges.size(); ++at) {
+        const auto found = crossings.find({departure.edges[at - 1], departure.edges[at]});
+        if (found != crossings.end()) passed.insert(found->second.begin(), found->second.end());
+    }
+    return passed;
+}
+
 EquipOutcome outcome_of(const results::Results& results, const std::string& condition) {
     EquipOutcome outcome;
     outcome.emergency_s.resize(results.manifest.replications);
@@ -53,7 +70,7 @@ EquipOutcome outcome_of(const results::Results& results, const std::string& cond
     return outcome;
 }
 
-/// Leaves no empty folder around a round that was refused.
+/// Leaves no empty folder around one that was refused.
 results::Store prepared_folder(const study::Plan& plan, const RunOptions& options) {
     try {
         return prepare_run_folder(plan, options);
@@ -64,56 +81,91 @@ results::Store prepared_folder(const study::Plan& plan, const RunOptions& option
     }
 }
 
-/// Takes the runs of a condition that another folder of the same scenario, seed and condition has.
-void take_over(const std::string& condition, const std::filesystem::path& from, const results::Store& store) {
-    const results::Store source = results::Store::open(from);
-    for (const experiment::RunKey& key : source.complete_runs()) {
-        if (key.condition == condition && !store.complete(key)) store.adopt(source, key);
+/// Takes the runs of equal conditions from folders beside, if they are of the same scenario and seed.
+void take_over(const study::Plan& plan, const results::Store& store) {
+    for (const auto& entry : std::filesystem::directory_iterator(store.folder().parent_path())) {
+        const std::filesystem::path& folder = entry.path();
+        if (!folder.filename().string().starts_with(fresh_prefix) || folder == store.folder() ||
+            !std::filesystem::exists(folder / "manifest.json"))
+            continue;
+        const results::Store source = results::Store::open(folder);
+        results::Manifest alike = plan.manifest;
+        alike.conditions = source.manifest().conditions;
+        alike.replications = source.manifest().replications;
+        if (alike != source.manifest()) continue;
+        for (const study::PlannedUnit& planned : plan.units) {
+            for (const experiment::ConditionSpec& condition : planned.unit.conditions) {
+                const experiment::RunKey key{planned.unit.scenario, condition.name, planned.unit.replication};
+                const bool known = std::ranges::find(alike.conditions, condition) != alike.conditions.end();
+                if (known && source.complete(key) && !store.complete(key)) store.adopt(source, key);
+            }
+        }
     }
+}
+
+std::size_t count_of(const std::map<analysis::SignalSet, std::set<std::uint32_t>>& wanted) {
+    std::size_t count = 0;
+    for (const auto& [set, replications] : wanted)
+        count += replications.size();
+    return count;
 }
 
 }  // namespace
 
-EquipCandidates equip_candidates(const study::StudyConfig& config, const scenario::BuiltNetwork& built) {
+EquipCandidates equip_candidates(const study::StudyConfig& config, const scenario::BuiltNetwork& built,
+                                 std::size_t most) {
     const Crossings crossings = crossings_of(built.network);
-    std::set<core::SignalIndex> passed;
+    std::map<core::SignalIndex, std::size_t> trips;  // of emergency vehicles that pass
+    std::vector<std::set<core::SignalIndex>> passed(config.replications);
+    std::size_t all_trips = 0;
     for (std::uint32_t replication = 0; replication < config.replications; ++replication) {
         const core::TemporaryFolder folder;
         const scenario::Prepared prepared =
             scenario::prepare(config.scenarios.front(), built, core::StudySeed{config.seed},
                               core::Replication{replication}, folder.path());
         for (const traffic::EmergencyDeparture& departure : prepared.emergency) {
-            for (std::size_t at = 1; at < departure.edges.size(); ++at) {
-                const auto found = crossings.find({departure.edges[at - 1], departure.edges[at]});
-                if (found != crossings.end()) passed.insert(found->second.begin(), found->second.end());
-            }
+            const std::set<core::SignalIndex> way = passed_by(departure, crossings);
+            passed[replication].insert(way.begin(), way.end());
+            for (const core::SignalIndex signal : way)
+                ++trips[signal];
+            ++all_trips;
         }
     }
     EquipCandidates candidates;
-    candidates.not_passed = built.network.signals().size() - passed.size();
-    for (const core::SignalIndex signal : passed) {
-        const bool is_off =
-            !built.preemption.empty() && built.preemption[signal.value].enabled.value_or(1) == 0;
-        if (is_off) {
-            ++candidates.switched_off;
-        } else {
-            candidates.signals.push_back(signal);
-        }
+    candidates.not_passed = built.network.signals().size() - trips.size();
+    candidates.switched_off = std::erase_if(trips, [&](const auto& one) {
+        return !built.preemption.empty() && built.preemption[one.first.value].enabled.value_or(1) == 0;
+    });
+    for (const auto& [signal, count] : trips)
+        candidates.signals.push_back(signal);
+    if (candidates.signals.size() > most) {
+        candidates.seldom_passed = candidates.signals.size() - most;
+        std::ranges::stable_sort(candidates.signals, std::greater{}, [&](auto one) { return trips.at(one); });
+        candidates.signals.resize(most);
+        std::ranges::sort(candidates.signals);
+    }
+    candidates.passed.resize(config.replications);
+    for (std::size_t candidate = 0; candidate < candidates.signals.size(); ++candidate) {
+        const core::SignalIndex signal = candidates.signals[candidate];
+        candidates.trips.push_back(static_cast<double>(trips.at(signal)) / static_cast<double>(all_trips));
+        for (std::size_t replication = 0; replication < passed.size(); ++replication)
+            if (passed[replication].contains(signal)) candidates.passed[replication].push_back(candidate);
     }
     return candidates;
 }
 
-EquipRounds::EquipRounds(study::StudyConfig config, experiment::ConditionSpec base,
-                         std::vector<std::string> signals, RunOptions options)
-    : config_(std::move(config)),
-      base_(std::move(base)),
-      signals_(std::move(signals)),
-      options_(std::move(options)) {}
+EquipRounds::EquipRounds(EquipQuestion question, RunOptions options)
+    : question_(std::move(question)),
+      options_(std::move(options)),
+      progress_("runs", 0, core::Progress::style_for_stderr()) {
+    question_.budget = std::min(question_.budget, question_.signals.size());
+}
 
-experiment::ConditionSpec EquipRounds::with(const analysis::SignalSet& set) const {
-    experiment::ConditionSpec condition = base_;
-    std::vector<std::string> ids =
-        core::texts_of(set, [&](const std::size_t candidate) { return signals_.at(candidate); });
+experiment::ConditionSpec EquipRounds::with(analysis::SignalSet set) const {
+    std::ranges::sort(set);
+    experiment::ConditionSpec condition = question_.base;
+    const std::vector<std::string> ids =
+        core::texts_of(set, [&](const std::size_t candidate) { return question_.signals.at(candidate); });
     const std::string equipped =
         ids.empty() ? experiment::none_equipped : fmt::format("{}", fmt::join(ids, ","));
     condition.settings[experiment::equipped_setting] = equipped;
@@ -122,63 +174,172 @@ experiment::ConditionSpec EquipRounds::with(const analysis::SignalSet& set) cons
     return condition;
 }
 
-results::Results EquipRounds::run(const std::string& round,
-                                  std::vector<experiment::ConditionSpec> conditions) {
-    const experiment::ConditionSpec baseline = experiment::baseline_for(base_);
-    conditions.insert(conditions.begin(), baseline);
-    study::StudyConfig config = config_;
-    config.conditions = std::move(conditions);
-    RunOptions options = options_;
-    options.folder = options_.folder / round;
-    const study::Plan plan = plan_for(config, options);
-    const results::Store store = prepared_folder(plan, options);
-    if (round != first_round) take_over(baseline.name, options_.folder / first_round, store);
-    const StudyResult result = run_missing(plan, store, options);
-    if (is_interrupted(result.exit_code))
-        throw core::Error(result.exit_code, fmt::format("interrupted in {}", options.folder.string()));
-    results::Results results = results::read_results(store, results::VehicleRows::emergency);
-    if (!results.errors.empty()) {
-        failed_runs_ += results.errors.size();
-        fmt::print(stderr, "clearway: {} of {} runs failed in {}; `clearway report {}` names them\n",
-                   results.errors.size(), plan.run_count(), options.folder.string(), options.folder.string());
-    }
-    return results;
+std::uint64_t EquipRounds::fresh_seed() const {
+    constexpr std::uint64_t last = std::numeric_limits<std::int64_t>::max();
+    return question_.config.seed == last ? 0 : question_.config.seed + 1;
 }
 
-void EquipRounds::begin() {
-    const experiment::ConditionSpec solo = experiment::built_in_condition("solo", "solo");
-    std::vector<experiment::ConditionSpec> conditions = {base_, with({}), solo};
-    for (std::size_t candidate = 0; candidate < signals_.size(); ++candidate)
-        conditions.push_back(with({candidate}));
-    const results::Results results = run(first_round, conditions);
-    baseline_ = outcome_of(results, experiment::baseline_for(base_).name);
-    all_ = outcome_of(results, base_.name);
-    none_ = outcome_of(results, with({}).name);
-    alone_ = outcome_of(results, solo.name);
-    for (std::size_t candidate = 0; candidate < signals_.size(); ++candidate)
-        sets_[{candidate}] = outcome_of(results, with({candidate}).name);
+analysis::SignalSet EquipRounds::effective(const analysis::SignalSet& set, std::uint32_t replication) const {
+    analysis::SignalSet passed;
+    for (const std::size_t candidate : question_.passed[replication])
+        if (std::ranges::find(set, candidate) != set.end()) passed.push_back(candidate);
+    return passed;
 }
 
-std::vector<analysis::Values> EquipRounds::measure(const std::vector<analysis::SignalSet>& sets) {
-    std::vector<experiment::ConditionSpec> missing;
-    std::string names;
+void EquipRounds::add_missing(const std::vector<analysis::SignalSet>& sets, std::size_t replications,
+                              Wanted& wanted) const {
     for (const analysis::SignalSet& set : sets) {
-        if (sets_.contains(set)) continue;
-        missing.push_back(with(set));
-        names += missing.back().name + "\n";
-    }
-    if (!missing.empty()) {
-        const std::string round =
-            fmt::format("round-{:02}-{}", sets.front().size(), core::content_hash(names).substr(0, 6));
-        const results::Results results = run(round, missing);
-        for (const analysis::SignalSet& set : sets) {
-            if (!sets_.contains(set)) sets_[set] = outcome_of(results, with(set).name);
+        for (std::uint32_t replication = 0; replication < replications; ++replication) {
+            const analysis::SignalSet passed = effective(set, replication);
+            if (!known_.contains({passed, replication})) wanted[passed].insert(replication);
         }
     }
+}
+
+std::size_t EquipRounds::fresh_runs() const {
+    return question_.config.replications * (question_.budget + 4);
+}
+
+std::size_t EquipRounds::later_runs(std::size_t places, std::size_t tries) const {
+    std::size_t passed = 0;
+    for (const analysis::SignalSet& set : question_.passed)
+        passed += set.size();
+    const std::size_t candidates = std::max<std::size_t>(question_.signals.size(), 1);
+    return (places * tries * passed + candidates - 1) / candidates;
+}
+
+EquipForecast EquipRounds::forecast() const {
+    std::vector<analysis::SignalSet> sets = {{}};
+    for (std::size_t candidate = 0; candidate < question_.signals.size(); ++candidate)
+        sets.push_back({candidate});
+    if (sets.size() == 1) return {.fresh = fresh_runs()};
+    Wanted first;
+    Wanted all;
+    add_missing(sets, analysis::equip_looks(question_.config.replications).front(), first);
+    add_missing(sets, question_.config.replications, all);
+    EquipForecast forecast;
+    forecast.first_look = count_of(first);
+    forecast.race = count_of(all) - forecast.first_look;
+    for (std::size_t place = 2; place <= question_.budget; ++place)
+        forecast.later_most += later_runs(1, question_.signals.size() + 1 - place);
+    forecast.later = question_.search == analysis::Search::thorough
+                         ? forecast.later_most
+                         : std::min(forecast.later_most, later_runs(question_.budget - 1, likely_tries));
+    forecast.fresh = fresh_runs();
+    return forecast;
+}
+
+results::Results EquipRounds::run(const study::Plan& plan, const RunOptions& options) {
+    const results::Store store = prepared_folder(plan, options);
+    if (plan.manifest.study_seed != question_.config.seed) take_over(plan, store);
+    std::size_t resumed = 0;
+    const StudyResult result = run_part(plan, store, options, [&](const StudyProgress& now) {
+        resumed = now.resumed;
+        progress_.begin_at(resumed_ + resumed);
+        progress_.expect(done_ + now.total + expected_);
+        progress_.update(done_ + now.done + now.failed, failed_ + now.failed, doing_);
+    });
+    done_ += result.progress.done + result.progress.failed;
+    resumed_ += resumed;
+    failed_ += result.progress.failed;
+    if (is_interrupted(result.exit_code)) {
+        progress_.finish();
+        throw core::Error(result.exit_code,
+                          fmt::format("interrupted after {} runs; they are kept in {}. To continue:\n  {}",
+                                      done_, options_.folder.string(), options_.command));
+    }
+    if (result.progress.failed > 0)
+        core::print_message(fmt::format(
+            "clearway: {} of {} runs failed in {}; `clearway report {}` names them\n", result.progress.failed,
+            plan.run_count(), options.folder.string(), options.folder.string()));
+    return results::read_results(store, results::VehicleRows::emergency);
+}
+
+void EquipRounds::run_round(const Wanted& wanted) {
+    study::StudyConfig config = question_.config;
+    config.conditions = {experiment::baseline_for(question_.base)};
+    std::map<std::string, const Replications*> replications_of;
+    std::string names;
+    for (const auto& [set, replications] : wanted) {
+        const experiment::ConditionSpec condition = with(set);
+        replications_of[condition.name] = &replications;
+        names += fmt::format("{} {}\n", condition.name, fmt::join(replications, " "));
+        config.conditions.push_back(condition);
+    }
+    RunOptions options = options_;
+    ++rounds_;
+    options.folder /= rounds_ == 1
+                          ? first_round
+                          : fmt::format("round-{:02}-{}", rounds_, core::content_hash(names).substr(0, 6));
+    study::Plan plan = plan_for(config, options);
+    for (study::PlannedUnit& planned : plan.units) {
+        std::erase_if(planned.unit.conditions, [&](const experiment::ConditionSpec& condition) {
+            const auto found = replications_of.find(condition.name);
+            return found == replications_of.end() || !found->second->contains(planned.unit.replication);
+        });
+    }
+    std::erase_if(plan.units,
+                  [](const study::PlannedUnit& planned) { return planned.unit.conditions.empty(); });
+    const results::Results results = run(plan, options);
+    for (const auto& [set, replications] : wanted) {
+        const EquipOutcome outcome = outcome_of(results, with(set).name);
+        for (const std::uint32_t replication : replications)
+            known_[{set, replication}] = outcome.emergency_s[replication];
+    }
+}
+
+std::vector<analysis::Values> EquipRounds::measure(const std::vector<analysis::SignalSet>& sets,
+                                                   std::size_t replications) {
+    Wanted wanted;
+    add_missing(sets, replications, wanted);
+    const std::size_t place = sets.front().size() + 1;
+    if (!wanted.empty()) {
+        Wanted whole_race;
+        add_missing(sets, question_.config.replications, whole_race);
+        const bool races = place == 1 || question_.search == analysis::Search::thorough;
+        const std::size_t tries =
+            question_.search == analysis::Search::thorough ? question_.signals.size() : likely_tries;
+        expected_ = (races ? count_of(whole_race) - count_of(wanted) : 0) +
+                    later_runs(question_.budget - place, tries) + fresh_runs();
+        doing_ = fmt::format("place {} of {}, {} on {} seeds", place, question_.budget,
+                             sets.size() == 2 ? "1 candidate" : fmt::format("{} candidates", sets.size() - 1),
+                             replications);
+        run_round(wanted);
+    }
     std::vector<analysis::Values> values;
-    for (const analysis::SignalSet& set : sets)
-        values.push_back(sets_.at(set).emergency_s);
+    for (const analysis::SignalSet& set : sets) {
+        analysis::Values& of_set = values.emplace_back();
+        for (std::uint32_t replication = 0; replication < replications; ++replication)
+            of_set.push_back(known_.at({effective(set, replication), replication}));
+    }
     return values;
+}
+
+FreshOutcomes EquipRounds::estimate(const analysis::SignalSet& chosen) {
+    const experiment::ConditionSpec baseline = experiment::baseline_for(question_.base);
+    const experiment::ConditionSpec solo = experiment::built_in_condition("solo", "solo");
+    study::StudyConfig config = question_.config;
+    config.seed = fresh_seed();
+    config.conditions = {baseline, question_.base, with({}), solo};
+    for (std::size_t rank = 0; rank < chosen.size(); ++rank)
+        config.conditions.push_back(
+            with({chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(rank) + 1}));
+    RunOptions options = options_;
+    const auto names = core::texts_of(config.conditions, &experiment::ConditionSpec::name);
+    options.folder /=
+        fresh_prefix + core::content_hash(fmt::format("{}", fmt::join(names, " "))).substr(0, 6);
+    fresh_folder_ = options.folder;
+    expected_ = 0;
+    doing_ = "fresh seeds";
+    const results::Results results = run(plan_for(config, options), options);
+    progress_.finish();
+    const auto of = [&](std::size_t condition) {
+        return outcome_of(results, config.conditions[condition].name);
+    };
+    FreshOutcomes outcomes{of(0), of(2), of(1), of(3), {}};
+    for (std::size_t condition = 4; condition < config.conditions.size(); ++condition)
+        outcomes.chosen.push_back(of(condition));
+    return outcomes;
 }
 
 }  // namespace clearway::campaign

@@ -1,12 +1,17 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/equipment.hpp"
 #include "campaign/study_run.hpp"
+#include "core/progress.hpp"
 #include "experiment/condition.hpp"
 #include "results/store.hpp"
 #include "roads/network.hpp"
@@ -18,13 +23,19 @@ namespace clearway::campaign {
 /// Signals that equipment could help, and why the others are left out.
 struct EquipCandidates {
     std::vector<core::SignalIndex> signals;  ///< Ascending.
-    std::size_t not_passed = 0;              ///< No emergency vehicle passes them.
-    std::size_t switched_off = 0;            ///< Passed, but their preemption parameters have `enabled` 0.
+    /// By replication: which of them emergency vehicles pass there, ascending.
+    std::vector<analysis::SignalSet> passed;
+    std::vector<double> trips;      ///< By candidate: share of the emergency vehicles that pass it.
+    std::size_t not_passed = 0;     ///< No emergency vehicle passes them.
+    std::size_t switched_off = 0;   ///< Passed, but their preemption parameters have `enabled` 0.
+    std::size_t seldom_passed = 0;  ///< More emergency vehicles pass each of `most` others.
 };
 
-/// The signals that emergency vehicles of a study's first scenario pass in any of its replications. Throws as
+/// The signals that emergency vehicles of a study's first scenario pass in any of its replications; if they
+/// are more than `most`, those that most of these vehicles pass, of equal ones the first. Throws as
 /// scenario::prepare does.
-EquipCandidates equip_candidates(const study::StudyConfig& config, const scenario::BuiltNetwork& built);
+EquipCandidates equip_candidates(const study::StudyConfig& config, const scenario::BuiltNetwork& built,
+                                 std::size_t most);
 
 /// What a set of equipped signals does, by replication; nothing for runs that failed.
 struct EquipOutcome {
@@ -32,44 +43,85 @@ struct EquipOutcome {
     analysis::Values others_s;     ///< Mean time loss of the others.
 };
 
-/// The runs behind a choice of signals: one run folder a round below `options.folder`, so that the same call
-/// continues what was interrupted. `round-01` has the baseline, the policy with every signal and with none,
-/// emergency vehicles alone, and each candidate by itself; the later ones take the baseline's runs from it.
+/// Runs on fresh seeds, which had no part in the choice.
+struct FreshOutcomes {
+    EquipOutcome baseline, none, all, alone;
+    std::vector<EquipOutcome> chosen;  ///< With the first signal, the first two, ...
+};
+
+/// What is searched, and for what.
+struct EquipQuestion {
+    study::StudyConfig config;                ///< Scenario, seed and replications.
+    experiment::ConditionSpec base;           ///< The condition whose signals are chosen.
+    std::vector<std::string> signals;         ///< Ids of the candidates.
+    std::vector<analysis::SignalSet> passed;  ///< As EquipCandidates has them.
+    std::size_t budget = 1;
+    analysis::Search search = analysis::Search::lazy;
+};
+
+/// Runs that a search makes.
+struct EquipForecast {
+    std::size_t first_look = 0;  ///< All candidates, up to the first look of the race.
+    std::size_t race = 0;        ///< The rest of the first place if no candidate leaves.
+    std::size_t later = 0;       ///< Of the later places: with a lazy search assumed, two candidates a place.
+    std::size_t later_most = 0;  ///< With every candidate at every place.
+    std::size_t fresh = 0;
+
+    std::size_t likely() const { return first_look + race + later + fresh; }
+    std::size_t most() const { return first_look + race + later_most + fresh; }
+};
+
+/// The runs behind a choice of signals, in folders below `options.folder`, so that the same call continues
+/// what was interrupted. `round-01`, ... hold what the search needed: a set and a replication whose emergency
+/// vehicles pass none of its signals but those of another set is the run of that set, and is not made again.
+/// `fresh-xxxxxx` is a study with the next seed. One display on standard error shows the progress of all. For
+/// one thread.
 class EquipRounds {
   public:
-    /// `config` has scenario, seed and replications; `base` is the condition whose signals are chosen.
-    EquipRounds(study::StudyConfig config, experiment::ConditionSpec base, std::vector<std::string> signals,
-                RunOptions options);
+    EquipRounds(EquipQuestion question, RunOptions options);
 
-    /// Makes the first round. Throws as run_missing does, and core::Error with its exit code when
-    /// interrupted.
-    void begin();
-    /// Makes the missing runs of these sets of candidates, all of one size. Call after `begin`; throws
-    /// likewise.
-    std::vector<analysis::Values> measure(const std::vector<analysis::SignalSet>& sets);
+    EquipForecast forecast() const;
 
-    const EquipOutcome& baseline() const { return baseline_; }
-    const EquipOutcome& none() const { return none_; }
-    const EquipOutcome& all() const { return all_; }
-    const EquipOutcome& alone() const { return alone_; }
-    /// Of a set that was measured.
-    const EquipOutcome& of(const analysis::SignalSet& set) const { return sets_.at(set); }
-    std::size_t failed_runs() const { return failed_runs_; }
+    /// Makes the missing runs of these sets of candidates, of which the first has those that are chosen.
+    /// Throws as prepare_run_folder and run_part do, and core::Error with its exit code when interrupted.
+    std::vector<analysis::Values> measure(const std::vector<analysis::SignalSet>& sets,
+                                          std::size_t replications);
+    /// Makes the runs on fresh seeds; throws likewise.
+    FreshOutcomes estimate(const analysis::SignalSet& chosen);
+    std::uint64_t fresh_seed() const;
+    /// Of the runs on fresh seeds; a whole study. Empty before `estimate`.
+    const std::filesystem::path& fresh_folder() const { return fresh_folder_; }
+
+    /// So far, complete ones and failed ones.
+    std::size_t runs() const { return done_; }
+    std::size_t failed_runs() const { return failed_; }
 
     /// The condition with these candidates equipped, the others not.
-    experiment::ConditionSpec with(const analysis::SignalSet& set) const;
+    experiment::ConditionSpec with(analysis::SignalSet set) const;
 
   private:
-    /// Runs the conditions beside the baseline in a folder below that of the rounds.
-    results::Results run(const std::string& round, std::vector<experiment::ConditionSpec> conditions);
+    using Replications = std::set<std::uint32_t>;
+    using Wanted = std::map<analysis::SignalSet, Replications>;
 
-    study::StudyConfig config_;
-    experiment::ConditionSpec base_;
-    std::vector<std::string> signals_;  ///< Ids of the candidates.
+    /// The signals of a set that a replication's emergency vehicles pass: the others change nothing there.
+    analysis::SignalSet effective(const analysis::SignalSet& set, std::uint32_t replication) const;
+    /// Adds the runs that these sets need and that are neither known nor in `wanted`.
+    void add_missing(const std::vector<analysis::SignalSet>& sets, std::size_t replications,
+                     Wanted& wanted) const;
+    void run_round(const Wanted& wanted);
+    results::Results run(const study::Plan& plan, const RunOptions& options);
+    std::size_t fresh_runs() const;
+    std::size_t later_runs(std::size_t places, std::size_t tries) const;
+
+    EquipQuestion question_;
     RunOptions options_;
-    EquipOutcome baseline_, none_, all_, alone_;
-    std::map<analysis::SignalSet, EquipOutcome> sets_;
-    std::size_t failed_runs_ = 0;
+    std::filesystem::path fresh_folder_;
+    std::map<std::pair<analysis::SignalSet, std::uint32_t>, std::optional<double>> known_;
+    std::size_t rounds_ = 0;
+    std::size_t done_ = 0, resumed_ = 0, failed_ = 0;
+    std::size_t expected_ = 0;  ///< After the present round.
+    std::string doing_;
+    core::Progress progress_;
 };
 
 }  // namespace clearway::campaign

@@ -231,10 +231,8 @@ results::Store prepare_run_folder(const study::Plan& plan, const RunOptions& opt
     }
 }
 
-StudyResult run_missing(const study::Plan& plan, const results::Store& store, const RunOptions& options) {
-    fmt::print(stderr, "clearway: {} runs into {}\n", plan.run_count(), options.folder.string());
-    core::Progress progress("runs", plan.run_count(), core::Progress::style_for_stderr());
-    PresentEstimate estimate(store);
+StudyResult run_part(const study::Plan& plan, const results::Store& store, const RunOptions& options,
+                     const std::function<void(const StudyProgress&)>& on_progress) {
     WorkersOptions workers;
     workers.workers = options.workers;
     workers.limits = options.limits;
@@ -244,12 +242,20 @@ StudyResult run_missing(const study::Plan& plan, const results::Store& store, co
                    results::run_name(store.folder(), damaged.key), damaged.why, damaged.place.string());
     };
     const std::unique_ptr<python::Nursery> nursery = nursery_for(plan);
-    StudyResult result = run_units(plan, store, workers, [&](const StudyProgress& now) {
+    StudyResult result = run_units(plan, store, workers, on_progress);
+    if (result.progress.done > result.progress.resumed) results::outdate_tables(store);
+    return result;
+}
+
+StudyResult run_missing(const study::Plan& plan, const results::Store& store, const RunOptions& options) {
+    fmt::print(stderr, "clearway: {} runs into {}\n", plan.run_count(), options.folder.string());
+    core::Progress progress("runs", plan.run_count(), core::Progress::style_for_stderr());
+    PresentEstimate estimate(store);
+    StudyResult result = run_part(plan, store, options, [&](const StudyProgress& now) {
         progress.begin_at(now.resumed);
         progress.update(now.done + now.failed, now.failed, estimate.text());
     });
     progress.finish();
-    if (result.progress.done > result.progress.resumed) results::outdate_tables(store);
     if (is_interrupted(result.exit_code))
         say_how_to_continue(store.folder(), result.progress, options.command);
     return result;

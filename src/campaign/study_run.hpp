@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,6 +61,9 @@ results::Store prepare_run_folder(const study::Plan& plan, const RunOptions& opt
 /// Makes the missing runs of a plan, with progress and the current estimate on standard error. When
 /// interrupted, it tells the user how to continue.
 StudyResult run_missing(const study::Plan& plan, const results::Store& store, const RunOptions& options);
+/// The same as a part of something greater: tells `on_progress` and prints none of it.
+StudyResult run_part(const study::Plan& plan, const results::Store& store, const RunOptions& options,
+                     const std::function<void(const StudyProgress&)>& on_progress);
 
 /// Whether this is how a command ends that a signal interrupts.
 bool is_interrupted(core::ExitCode code);

@@ -17,7 +17,10 @@ namespace {
 constexpr std::uint32_t usual_seeds = 10;  // FHWA's minimum number of replications
 constexpr std::size_t most_signals = 10000;
 
+enum class Mode : std::uint8_t { run, dry_run };
+
 struct Arguments {
+    Mode mode = Mode::run;
     std::string scenario;
     ConditionWords conditions;
     scenario::Options options;
@@ -31,10 +34,17 @@ void add_study_options(CLI::App& app, const std::shared_ptr<Arguments>& argument
         ->check(CLI::Range(std::size_t{1}, most_signals))
         ->option_text(fmt::format("N, 1 to {} (required)", most_signals));
     add_condition_words(app, arguments->conditions);
+    app.add_option("--candidates", request.most_candidates, "Try only the N signals that most EVs pass")
+        ->check(CLI::Range(std::size_t{1}, most_signals))
+        ->option_text(fmt::format("N, 1 to {} [all that EVs pass]", most_signals));
     app.add_flag_callback(
         "--thorough", [&request] { request.search = analysis::Search::thorough; },
-        "Try every signal for every place [those that could still be the best]");
-    app.add_option("--seeds", request.replications, "Replications; all sets of signals share their demand")
+        "Race all signals for every place [for later places those that could still be the best]");
+    app.add_flag_callback(
+        "--dry-run", [arguments] { arguments->mode = Mode::dry_run; },
+        "Print numbers of runs and estimated time, and run nothing [off]");
+    app.add_option("--seeds", request.replications,
+                   "Replications that decide, and fresh ones that estimate; all sets share their demand")
         ->check(CLI::Range(2U, most_replications))
         ->option_text(fmt::format("N, 2 to {} [{}]", most_replications, request.replications));
     add_seed_option(app, request.seed);
@@ -60,7 +70,7 @@ Action configure_equip(CLI::App& app) {
         request.condition = shown_condition(chosen_conditions(arguments->conditions), "equip");
         request.scenario = scenario::load(arguments->scenario, arguments->options);
         request.run.command = invocation.command;
-        return campaign::equip(request);
+        return arguments->mode == Mode::dry_run ? campaign::equip_dry_run(request) : campaign::equip(request);
     };
 }
 

@@ -23,6 +23,8 @@ class Progress {
 
     /// Work done before this job began; it is left out of the estimate of the time left.
     void begin_at(std::size_t done) { before_ = done; }
+    /// For a job whose size becomes known on the way.
+    void expect(std::size_t total) { total_ = total; }
     /// Call as often as convenient; output is limited to 10 a second (bar) or one per 10 s (lines). `note` is
     /// a short extra text, for example the current estimate of the headline metric.
     void update(std::size_t done, std::size_t failed, const std::string& note = {});

@@ -1,13 +1,14 @@
 #include "report/equipment.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "core/csv.hpp"
-#include "report/detail/axes.hpp"
-#include "report/detail/figures.hpp"
-#include "report/detail/json.hpp"
+#include "core/terminal.hpp"
+#include "report/detail/equipment_sheets.hpp"
+#include "report/detail/side_files.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report {
@@ -15,78 +16,94 @@ namespace {
 
 using analysis::EquipEnd;
 using detail::Json;
+using detail::Share;
+using detail::Sheet;
+using detail::SheetCell;
+using Where = detail::SheetColumn::Shown;
 
 constexpr double great_share = 0.8;
-
-std::string share_text(const std::optional<double>& share) {
-    return share ? fmt::format("{:.0f}", *share * 100.0) : "-";
-}
-
-std::string row_text(std::string_view rank, const EquipmentFacts& facts, const EquippedSignal& signal) {
-    const std::string name = signal.number == 0
-                                 ? signal.signal
-                                 : fmt::format("{} {}", signal.number, short_signal_name(signal.signal));
-    return fmt::format("{:>4}  {:28} {:>19} {:>19} {:>5} {:>19}\n", rank, name, estimate(signal.gain, {}),
-                       estimate(signal.so_far, {}), share_text(share_of_all(facts, signal)),
-                       estimate(signal.others, {}));
-}
 
 EquippedSignal all_of(const EquipmentFacts& facts) {
     return {0, "all signals", std::nullopt, facts.all_gain, facts.all_others};
 }
 
+SheetCell count_or_nothing(std::size_t count) {
+    return count > 0 ? SheetCell(count) : SheetCell();
+}
+
+std::vector<detail::SheetColumn> ranked_columns() {
+    return {{"equipped", "#"},
+            {"number", "No."},
+            {"signal", "Signal"},
+            {"gain_s", "Gain, s"},
+            {"shown", "Effect"},
+            {"gain_so_far_s", "So far, s"},
+            {"share_of_all", "%"},
+            {"others_time_loss_s", "Others lose, s", Where::not_on_terminal},
+            {"gain_chosen_by_s", "", Where::in_data}};
+}
+
+/// `equipped`: with how many signals the row ends.
+std::vector<SheetCell> ranked_row(const EquipmentFacts& facts, std::size_t equipped,
+                                  const EquippedSignal& signal) {
+    const bool is_signal = signal.number > 0;
+    const std::optional<double> share = share_of_all(facts, signal);
+    return {equipped,
+            count_or_nothing(signal.number),
+            signal.signal,
+            signal.gain,
+            is_signal ? SheetCell(is_shown(signal.gain)) : SheetCell(),
+            signal.so_far,
+            share ? SheetCell(Share{*share}) : SheetCell(),
+            signal.others,
+            signal.chosen_by};
+}
+
+std::string names_of(const EquipmentFacts& facts) {
+    std::vector<std::string> names;
+    for (const EquippedSignal& signal : facts.ranked)
+        names.push_back(fmt::format("{} ({})", signal.number, short_signal_name(signal.signal)));
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string not_shown_sentence(const EquipmentFacts& facts) {
+    std::vector<std::size_t> ranks;
+    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
+        if (!is_shown(facts.ranked[rank].gain)) ranks.push_back(rank + 1);
+    if (ranks.empty()) return "";
+    const std::string which = ranks.size() == facts.ranked.size()
+                                  ? "of any of them"
+                                  : fmt::format("of rank {}", fmt::join(ranks, ", "));
+    if (facts.replications < analysis::fewest_for_interval)
+        return fmt::format("Not shown: the gain {}; that takes {} seeds.", which,
+                           analysis::fewest_for_interval);
+    return fmt::format(
+        "Not shown: the gain {}. It is likely best, but chance could be all of it; more --seeds tell.",
+        which);
+}
+
 std::string end_sentence(const EquipmentFacts& facts) {
-    if (facts.candidates() == 0) return "";
-    if (facts.end == EquipEnd::exhausted) return "Every signal that could gain is equipped.\n";
-    if (facts.end == EquipEnd::budget || !facts.next) return "";
-    const EquippedSignal& next = *facts.next;
-    if (!next.gain || !next.gain->interval)
-        return fmt::format("Stopped: fewer than two pairs of runs show what signal {} ({}) would gain.\n",
-                           next.number, short_signal_name(next.signal));
-    return fmt::format("Stopped: the next one, signal {} ({}), shows no effect: {:.2f} s [{:.2f}, {:.2f}].\n",
-                       next.number, short_signal_name(next.signal), next.gain->mean, next.gain->interval->low,
-                       next.gain->interval->high);
-}
-
-std::string budget_sentence(const EquipmentFacts& facts) {
-    if (facts.budget <= facts.signals) return "";
-    return fmt::format("The budget is {}, and the scenario has only {}.\n", facts.budget,
-                       counted(facts.signals, "signal"));
-}
-
-std::string left_out_sentence(const EquipmentFacts& facts) {
-    std::string text;
-    if (facts.not_passed > 0)
-        text += fmt::format("Left out: {} of {}, which no EV passes in these seeds.\n", facts.not_passed,
-                            counted(facts.signals, "signal"));
-    if (facts.switched_off > 0)
-        text += fmt::format("Left out: {} that the scenario's preemption parameters switch off.\n",
-                            counted(facts.switched_off, "signal"));
-    return text;
+    if (facts.ranked.empty() || facts.end == EquipEnd::budget) return "";
+    if (facts.end == EquipEnd::exhausted) return "Every signal that could gain is equipped.";
+    return fmt::format("Stopped at {} of {}: in the mean of the runs no other signal adds a gain.",
+                       facts.ranked.size(), facts.budget);
 }
 
 std::string share_sentence(const EquipmentFacts& facts) {
-    if (!share_of_all(facts, all_of(facts))) return "The gain of all signals is not shown to be above 0.\n";
+    if (!share_of_all(facts, all_of(facts))) return "The gain of all signals is not shown to be above 0.";
+    if (facts.ranked.empty()) return "";
     if (const auto rank = rank_with_share(facts, great_share))
-        return fmt::format("{} of {} bring {:.0f} % of the gain of all.\n", *rank,
+        return fmt::format("{} of {} bring {:.0f} % of the gain of all.", *rank,
                            counted(facts.signals, "signal"), great_share * 100.0);
-    return fmt::format("These do not bring {:.0f} % of the gain of all.\n", great_share * 100.0);
+    return fmt::format("These do not bring {:.0f} % of the gain of all.", great_share * 100.0);
 }
 
-Json estimate_json(const MaybeEstimate& estimate) {
-    if (!estimate) return nullptr;
-    Json json = {{"mean", estimate->mean}, {"pairs", estimate->n}};
-    detail::put_ends(json, detail::pointer_to(estimate->interval), "low", "high");
-    return json;
+std::string left_out_sentence(std::size_t count, const char* why) {
+    return count == 0 ? "" : fmt::format("Left out: {} that {}.", counted(count, "signal"), why);
 }
 
-Json signal_json(const EquipmentFacts& facts, const EquippedSignal& signal) {
-    return {{"number", signal.number},
-            {"signal", signal.signal},
-            {"gain_s", estimate_json(signal.gain)},
-            {"gain_so_far_s", estimate_json(signal.so_far)},
-            {"share_of_all", detail::json_of(share_of_all(facts, signal))},
-            {"others_time_loss_s", estimate_json(signal.others)}};
+std::string estimate_or_dash(const analysis::MaybeEstimate& value) {
+    return estimate(value, {});
 }
 
 const char* end_word(EquipEnd end) {
@@ -95,38 +112,118 @@ const char* end_word(EquipEnd end) {
             return "budget";
         case EquipEnd::exhausted:
             return "exhausted";
-        case EquipEnd::no_effect:
+        case EquipEnd::no_gain:
             break;
     }
-    return "no_effect";
+    return "no_gain";
 }
 
-void append_estimate(std::string& line, const MaybeEstimate& estimate) {
-    const auto end = [&](double analysis::Interval::*side) {
-        return estimate && estimate->interval ? std::optional(*estimate->interval.*side) : std::nullopt;
-    };
-    line += fmt::format(",{},{},{}", core::csv_cell(mean_of(estimate)),
-                        core::csv_cell(end(&analysis::Interval::low)),
-                        core::csv_cell(end(&analysis::Interval::high)));
-}
-
-void append_row(std::string& csv, std::size_t equipped, const EquipmentFacts& facts,
-                const EquippedSignal& signal) {
-    csv += fmt::format("{},{},{}", equipped, signal.number == 0 ? "" : std::to_string(signal.number),
-                       core::csv_text(signal.signal));
-    append_estimate(csv, signal.gain);
-    append_estimate(csv, signal.so_far);
-    csv += "," + core::csv_cell(share_of_all(facts, signal));
-    append_estimate(csv, signal.others);
-    csv += "\n";
+std::string paragraph(const std::vector<std::string>& sentences) {
+    return core::wrapped(fmt::format("{}", fmt::join(sentences, " ")), 0) + "\n";
 }
 
 }  // namespace
 
+namespace detail {
+
+Sheet ranked_sheet(const EquipmentFacts& facts, LastRow last) {
+    Sheet sheet{ranked_columns(), {}};
+    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
+        sheet.rows.push_back(ranked_row(facts, rank + 1, facts.ranked[rank]));
+    if (last == LastRow::all) sheet.rows.push_back(ranked_row(facts, facts.signals, all_of(facts)));
+    return sheet;
+}
+
+Sheet candidate_sheet(const EquipmentFacts& facts) {
+    Sheet sheet{{{"number", "No."},
+                 {"signal", "Signal"},
+                 {"share_of_trips", "EVs, %"},
+                 {"gain_s", "Gain alone, s"},
+                 {"shown", "Effect"},
+                 {"pairs", "Pairs"},
+                 {"left_race", "", Where::in_data},
+                 {"rank", "Rank"}},
+                {}};
+    std::vector<EquipCandidateFacts> candidates = facts.candidates;
+    std::ranges::stable_sort(candidates, std::greater{}, [](const EquipCandidateFacts& one) {
+        return analysis::mean_of(one.gain).value_or(-1e30);
+    });
+    for (const EquipCandidateFacts& one : candidates)
+        sheet.rows.push_back({one.number, one.signal, Share{one.trips}, one.gain, is_shown(one.gain),
+                              one.gain ? one.gain->n : std::size_t{0}, one.left_race,
+                              count_or_nothing(one.rank.value_or(0))});
+    return sheet;
+}
+
+std::vector<std::string> findings_of(const EquipmentFacts& facts) {
+    std::vector<std::string> sentences;
+    if (facts.candidates.empty()) {
+        sentences.emplace_back("No signal could gain.");
+    } else if (facts.ranked.empty()) {
+        sentences.push_back(fmt::format("No signal to equip: in the mean of the runs none of the {} gains.",
+                                        counted(facts.candidates.size(), "candidate")));
+    } else {
+        const EquippedSignal& last = facts.ranked.back();
+        sentences.push_back(fmt::format("Equip first: {}.", names_of(facts)));
+        sentences.push_back(fmt::format(
+            "Together, an EV needs {} s less a trip than with none ({}), and the others lose {} s each.",
+            estimate_or_dash(last.so_far), is_shown(last.so_far) ? "shown" : "not shown",
+            estimate_or_dash(last.others)));
+        sentences.push_back(not_shown_sentence(facts));
+    }
+    sentences.push_back(end_sentence(facts));
+    sentences.push_back(share_sentence(facts));
+    std::erase(sentences, "");
+    return sentences;
+}
+
+std::vector<std::string> circumstances_of(const EquipmentFacts& facts) {
+    std::vector<std::string> sentences = {
+        facts.budget > facts.signals ? fmt::format("The budget is {}, and the scenario has only {}.",
+                                                   facts.budget, counted(facts.signals, "signal"))
+                                     : "",
+        left_out_sentence(facts.not_passed, "no EV passes in these seeds"),
+        left_out_sentence(facts.seldom_passed, "fewer EVs pass than the candidates"),
+        left_out_sentence(facts.switched_off, "the scenario's preemption parameters switch off"),
+        fmt::format("EV time, s: baseline {}, no signal equipped {}, all signals {}, alone {}.",
+                    estimate_or_dash(facts.baseline_s), estimate_or_dash(facts.none_s),
+                    estimate_or_dash(facts.all_s), estimate_or_dash(facts.alone_s)),
+        fmt::format("{}.", counted(facts.runs, "run"))};
+    std::erase(sentences, "");
+    return sentences;
+}
+
+std::string candidate_legend(const EquipmentFacts& facts) {
+    return fmt::format(
+        "Each candidate alone, seed {}. EVs: share that pass it. Gain: less restricted mean travel time of "
+        "the EVs, paired by seed; "
+        "[95 %, all rows together (Bonferroni), from {} pairs on]. One with fewer pairs was shown to gain "
+        "less than another.",
+        facts.seed, analysis::fewest_for_interval);
+}
+
+std::string ranked_legend(const EquipmentFacts& facts) {
+    return fmt::format(
+        "In the order of choice. Gains are of fresh runs, seed {}, so that the choice does not flatter "
+        "them: over the ranks before [95 %, all ranks together (Bonferroni)], and so far, over no signal "
+        "equipped [95 %, each]. %: of the gain of all signals.",
+        facts.fresh_seed);
+}
+
+}  // namespace detail
+
+std::optional<RoadMap> road_map(const results::Store& store, const std::string& scenario) {
+    return detail::roads_in(store.scenario_folder(scenario) / "roads.json");
+}
+
+bool is_shown(const analysis::MaybeEstimate& gain) {
+    const analysis::Interval* const interval = analysis::shown_interval(gain);
+    return interval != nullptr && interval->low > 0.0;
+}
+
 std::optional<double> share_of_all(const EquipmentFacts& facts, const EquippedSignal& signal) {
-    const MaybeEstimate& all = facts.all_gain;
-    if (!signal.so_far || !all || !all->interval || all->interval->low <= 0.0) return std::nullopt;
-    return signal.so_far->mean / all->mean;
+    if (!signal.so_far || !is_shown(facts.all_gain)) return std::nullopt;
+    return signal.so_far->mean / facts.all_gain->mean;
 }
 
 std::optional<std::size_t> rank_with_share(const EquipmentFacts& facts, double share) {
@@ -139,93 +236,54 @@ std::optional<std::size_t> rank_with_share(const EquipmentFacts& facts, double s
 
 std::string equipment_text(const EquipmentFacts& facts) {
     std::string text =
-        fmt::format("{}: which signals to equip first, {}, {}, seed {}\n\n", printable(facts.title),
-                    facts.condition, counted(facts.replications, "replication"), facts.seed);
-    text += fmt::format("{:>4}  {:28} {:>19} {:>19} {:>5} {:>19}\n", "Rank", "Signal", "Gain s", "So far s",
-                        "%", "Others lose s");
-    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
-        text += row_text(std::to_string(rank + 1), facts, facts.ranked[rank]);
-    text += row_text("", facts, all_of(facts));
-    text += "\n" + budget_sentence(facts) + end_sentence(facts) + left_out_sentence(facts) +
-            share_sentence(facts);
-    text +=
-        fmt::format("EV time s: baseline {}, no signal equipped {},\n           all signals {}, alone {}.\n",
-                    estimate(facts.baseline_s, {}), estimate(facts.none_s, {}), estimate(facts.all_s, {}),
-                    estimate(facts.alone_s, {}));
-    text +=
-        "Gain: reduction of the EVs' restricted mean travel time, paired by seed, [95 %] from 5 pairs on;\n"
-        "so far: against the same policy with no signal equipped; %: of the gain of all signals; others:\n"
-        "increase of their mean time loss. Intervals are not adjusted for the choice of signals: confirm it\n"
-        "with another seed.\n";
-    return text;
+        paragraph({fmt::format("{}: which signals to equip first, {}, {}", printable(facts.title),
+                               facts.condition, counted(facts.replications, "replication"))});
+    if (!facts.candidates.empty())
+        text += "\n" + detail::text_of(detail::candidate_sheet(facts)) +
+                paragraph({detail::candidate_legend(facts)});
+    text += "\n" + detail::text_of(detail::ranked_sheet(facts, detail::LastRow::all)) +
+            paragraph({detail::ranked_legend(facts)});
+    return text + "\n" + paragraph(detail::circumstances_of(facts)) + "\n" +
+           paragraph(detail::findings_of(facts));
 }
 
 std::string equipment_json(const EquipmentFacts& facts) {
-    Json ranked = Json::array();
-    for (const EquippedSignal& signal : facts.ranked)
-        ranked.push_back(signal_json(facts, signal));
+    using detail::estimate_json;
+    Sheet all{ranked_columns(), {ranked_row(facts, facts.signals, all_of(facts))}};
     const auto rank = rank_with_share(facts, great_share);
     const Json json = {{"scenario", facts.scenario},
                        {"condition", facts.condition},
                        {"seed", facts.seed},
+                       {"fresh_seed", facts.fresh_seed},
                        {"replications", facts.replications},
                        {"budget", facts.budget},
                        {"signals", facts.signals},
                        {"not_passed", facts.not_passed},
                        {"switched_off", facts.switched_off},
-                       {"sets_measured", facts.measured},
+                       {"seldom_passed", facts.seldom_passed},
+                       {"runs", facts.runs},
                        {"baseline_s", estimate_json(facts.baseline_s)},
                        {"none_equipped_s", estimate_json(facts.none_s)},
                        {"all_equipped_s", estimate_json(facts.all_s)},
                        {"alone_s", estimate_json(facts.alone_s)},
-                       {"all", signal_json(facts, all_of(facts))},
-                       {"ranked", ranked},
+                       {"candidates", detail::json_of(detail::candidate_sheet(facts))},
+                       {"ranked", detail::json_of(detail::ranked_sheet(facts, detail::LastRow::ranked))},
+                       {"all", detail::json_of(all).front()},
                        {"rank_with_80_percent", rank ? Json(*rank) : Json(nullptr)},
-                       {"end", end_word(facts.end)},
-                       {"next", facts.next ? signal_json(facts, *facts.next) : Json(nullptr)}};
+                       {"end", end_word(facts.end)}};
     return detail::to_text(json);
 }
 
 std::string equipment_csv(const EquipmentFacts& facts) {
-    std::string csv =
-        "equipped,number,signal,gain_s,gain_low_s,gain_high_s,so_far_s,so_far_low_s,so_far_high_s,"
-        "share_of_all,others_s,others_low_s,others_high_s\n";
+    Sheet sheet = detail::ranked_sheet(facts, detail::LastRow::all);
     const analysis::Estimate nothing{};
-    append_row(csv, 0, facts, {0, "", std::nullopt, nothing, nothing});
-    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
-        append_row(csv, rank + 1, facts, facts.ranked[rank]);
-    append_row(csv, facts.signals, facts, {0, "", std::nullopt, facts.all_gain, facts.all_others});
-    return csv;
+    sheet.rows.back()[2] = std::string();
+    sheet.rows.insert(sheet.rows.begin(), ranked_row(facts, 0, {0, "", std::nullopt, nothing, nothing}));
+    return detail::csv_of(sheet);
 }
 
-std::string equipment_curve(const EquipmentFacts& facts) {
-    const detail::Range numbers(0.0, static_cast<double>(std::max<std::size_t>(facts.ranked.size(), 1)));
-    detail::Range gains;
-    gains.include(0.0);
-    gains.include_all(facts.all_gain);
-    for (const EquippedSignal& signal : facts.ranked)
-        gains.include_all(signal.so_far);
-    detail::Chart plot(fmt::format("{}: gain against number of signals equipped", facts.title), 260.0,
-                       detail::padded(numbers, 0.05), "signals equipped", detail::padded(gains, 0.1),
-                       "emergency vehicles gain, s a trip");
-    plot.horizontal(0.0);
-    detail::Points points = {{0.0, 0.0}};
-    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank) {
-        const MaybeEstimate& gain = facts.ranked[rank].so_far;
-        if (!gain) continue;
-        const auto equipped = static_cast<double>(rank + 1);
-        points.emplace_back(equipped, gain->mean);
-        if (gain->interval) plot.whisker(equipped, {gain->interval->low, gain->interval->high}, {1});
-    }
-    plot.line(points, {1, detail::Series::Weight::lead});
-    std::vector<detail::LegendEntry> legend = {
-        detail::line_entry({1, detail::Series::Weight::lead}, "the first signals, with 95 % intervals")};
-    if (facts.all_gain) {
-        plot.line({{numbers.low, facts.all_gain->mean}, {numbers.high, facts.all_gain->mean}}, {2});
-        legend.push_back(detail::line_entry({2}, fmt::format("all of {}", counted(facts.signals, "signal"))));
-    }
-    plot.legend(legend);
-    return detail::standalone(plot.finish());
+std::string candidates_csv(const EquipmentFacts& facts) {
+    return detail::csv_of(detail::candidate_sheet(facts));
 }
 
 }  // namespace clearway::report

@@ -3,20 +3,35 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
 #include "analysis/equipment.hpp"
+#include "report/map.hpp"
+#include "results/store.hpp"
 
 namespace clearway::report {
 
-/// A signal that was chosen.
+/// A signal that was chosen. Gains are of fresh seeds, which had no part in the choice.
 struct EquippedSignal {
-    std::size_t number = 0;                    ///< As `clearway scenario signals` counts, from 1.
-    std::string signal;                        ///< Its id; text from a file.
-    std::optional<analysis::Estimate> gain;    ///< Over those of better rank, s of EV time.
-    std::optional<analysis::Estimate> so_far;  ///< Over no signal equipped.
-    std::optional<analysis::Estimate> others;  ///< Time loss of the others over no signal equipped, s each.
+    std::size_t number = 0;  ///< As `clearway scenario signals` counts, from 1.
+    std::string signal;      ///< Its id; text from a file.
+    /// Over those of better rank, s of EV time. The intervals of all ranks hold together (Bonferroni).
+    analysis::MaybeEstimate gain;
+    analysis::MaybeEstimate so_far;          ///< Over no signal equipped.
+    analysis::MaybeEstimate others;          ///< Time loss of the others over no signal equipped, s each.
+    analysis::MaybeEstimate chosen_by = {};  ///< `gain` in the runs that decided; too high by the choice.
+};
+
+/// A signal that could gain, by itself, in the runs that decided on the first one.
+struct EquipCandidateFacts {
+    std::size_t number = 0;
+    std::string signal;
+    double trips = 0.0;            ///< Share of the emergency vehicles that pass it.
+    analysis::MaybeEstimate gain;  ///< As analysis::EquipCandidate has it.
+    bool left_race = false;
+    std::optional<std::size_t> rank;  ///< From 1; nothing if it was not chosen.
 };
 
 /// Which signals to equip first, and what that is worth. Gains are restricted mean travel times of emergency
@@ -25,40 +40,57 @@ struct EquipmentFacts {
     std::string scenario;
     std::string title;
     std::string condition;
-    std::uint64_t seed = 0;
+    std::string command;
+    std::uint64_t seed = 0;        ///< Of the runs that decide.
+    std::uint64_t fresh_seed = 0;  ///< Of those that estimate.
     std::uint32_t replications = 0;
     std::size_t budget = 0;
-    std::size_t signals = 0;       ///< Of the network.
-    std::size_t not_passed = 0;    ///< Of them, no emergency vehicle passes in these replications.
-    std::size_t switched_off = 0;  ///< Passed, but `enabled` is 0 in the scenario's preemption parameters.
-    std::size_t measured = 0;      ///< Sets of signals for which runs were made.
-    std::optional<analysis::Estimate> baseline_s;  ///< Time without the policy.
-    std::optional<analysis::Estimate> none_s;      ///< With the policy, no signal equipped.
-    std::optional<analysis::Estimate> all_s;       ///< With every signal equipped.
-    std::optional<analysis::Estimate> alone_s;     ///< Of emergency vehicles alone on the road.
-    std::optional<analysis::Estimate> all_gain;    ///< Every signal over none.
-    std::optional<analysis::Estimate> all_others;
+    std::size_t signals = 0;        ///< Of the network.
+    std::size_t not_passed = 0;     ///< Of them, no emergency vehicle passes in these replications.
+    std::size_t switched_off = 0;   ///< Passed, but `enabled` is 0 in the scenario's preemption parameters.
+    std::size_t seldom_passed = 0;  ///< Left out because more emergency vehicles pass the candidates.
+    std::size_t runs = 0;           ///< Those that decide and those that estimate.
+    std::vector<EquipCandidateFacts> candidates;  ///< By number.
+    // Of the fresh seeds.
+    analysis::MaybeEstimate baseline_s;  ///< Time without the policy.
+    analysis::MaybeEstimate none_s;      ///< With the policy, no signal equipped.
+    analysis::MaybeEstimate all_s;       ///< With every signal equipped.
+    analysis::MaybeEstimate alone_s;     ///< Of emergency vehicles alone on the road.
+    analysis::MaybeEstimate all_gain;    ///< Every signal over none.
+    analysis::MaybeEstimate all_others;
     std::vector<EquippedSignal> ranked;
     analysis::EquipEnd end = analysis::EquipEnd::budget;
-    std::optional<EquippedSignal> next;  ///< With `no_effect`: the one that was not chosen.
-
-    /// Signals that could gain.
-    std::size_t candidates() const { return signals - not_passed - switched_off; }
+    std::optional<RoadMap> roads;  ///< Nothing where there is no map to draw.
 };
 
+/// The roads of a scenario of a run folder; nothing if the folder has none. Throws core::InputError for a
+/// damaged file.
+std::optional<RoadMap> road_map(const results::Store& store, const std::string& scenario);
+
+/// Whether a gain above 0 is shown: an interval of at least `fewest_for_interval` pairs lies above it.
+bool is_shown(const analysis::MaybeEstimate& gain);
+
 /// Share of the gain of every signal that a signal and those before it bring. Nothing where that gain is not
-/// shown to be above 0.
+/// shown.
 std::optional<double> share_of_all(const EquipmentFacts& facts, const EquippedSignal& signal);
 /// Rank with which that share reaches `share`; nothing if none does.
 std::optional<std::size_t> rank_with_share(const EquipmentFacts& facts, double share);
 
-/// The ranked table for a terminal of 100 columns, and what it says.
+/// Candidates and ranks for a terminal of 80 columns, and last the answer.
 std::string equipment_text(const EquipmentFacts& facts);
 /// All of it as one JSON object; null for missing values.
 std::string equipment_json(const EquipmentFacts& facts);
 /// The curve as CSV: one row for each number of equipped signals, 0 included, and one for all of them.
 std::string equipment_csv(const EquipmentFacts& facts);
+/// The candidates as CSV, the greatest gain first.
+std::string candidates_csv(const EquipmentFacts& facts);
 /// The curve of gain against number equipped with its intervals, and the gain of all: a stand-alone SVG.
 std::string equipment_curve(const EquipmentFacts& facts);
+/// The roads with the ranks of the chosen signals, the other candidates and those left out, as a stand-alone
+/// SVG; empty without roads.
+std::string equipment_map(const EquipmentFacts& facts);
+
+/// One self-contained page with the answer, map, tables and curves.
+void write_equipment_page(const EquipmentFacts& facts, std::ostream& page);
 
 }  // namespace clearway::report

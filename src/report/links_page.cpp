@@ -9,7 +9,7 @@
 #include "report/detail/axes.hpp"
 #include "report/detail/link_figures.hpp"
 #include "report/detail/markup.hpp"
-#include "report/detail/style.hpp"
+#include "report/detail/plain_page.hpp"
 #include "report/links.hpp"
 #include "report/text.hpp"
 
@@ -18,6 +18,7 @@ namespace {
 
 using analysis::Measured;
 using detail::DataTable;
+using detail::PageSection;
 using links::LinkGain;
 using links::LinkResult;
 using links::LinkSubset;
@@ -301,12 +302,6 @@ const char* const definitions =
     "emergency vehicle with a vehicle ahead on its route. Brackets hold 95 % percentile intervals of a "
     "bootstrap over runs within scenarios.</p>\n";
 
-struct Section {
-    const char* id;
-    const char* title;
-    std::string body;
-};
-
 /// Tables of one measure of a kind of pairs.
 std::string subset_section(const LinkFacts& facts, LinkSubset subset,
                            Measured links::LinkMeasures::*measure) {
@@ -319,13 +314,13 @@ std::string error_section(const LinkFacts& facts, const char* measure, Measured 
            gains_section(facts, reduction);
 }
 
-std::vector<Section> sections_of(const LinkFacts& facts) {
+std::vector<PageSection> sections_of(const LinkFacts& facts) {
     using Measures = links::LinkMeasures;
     const auto of_all = [&](Measured Measures::*measure) {
         return subset_section(facts, LinkSubset::all, measure);
     };
-    std::vector<Section> sections = {{"ap", "Average precision", definitions + of_all(&Measures::ap)},
-                                     {"f1", "F1", of_all(&Measures::f1)}};
+    std::vector<PageSection> sections = {{"ap", "Average precision", definitions + of_all(&Measures::ap)},
+                                         {"f1", "F1", of_all(&Measures::f1)}};
     if (!facts.comparisons.empty())
         sections.push_back({"comparisons", "Comparisons named in advance", comparisons_section(facts)});
     if (!facts.gains.empty()) {
@@ -350,27 +345,12 @@ std::vector<Section> sections_of(const LinkFacts& facts) {
 }  // namespace
 
 void write_links_page(const LinkFacts& facts, std::ostream& page) {
-    const std::string title = escaped("Link prediction: " + facts.title);
-    page << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-            "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
-            "'unsafe-inline'; img-src data:\">\n<link rel=\"icon\" href=\"data:,\">\n<title>"
-         << title << "</title>\n<style>" << detail::page_style()
-         << "</style>\n</head>\n<body>\n<header>\n<h1>" << title << "</h1>\n<p class=\"lead\">"
-         << escaped(fmt::format("{} predictors under {} sensor failures in {}, on {} seeds.",
-                                facts.predictors.size(), facts.failures.size(),
-                                fmt::join(facts.scenarios, ", "), facts.split))
-         << "</p>\n<nav aria-label=\"Sections\">";
-    const std::vector<Section> sections = sections_of(facts);
-    for (const Section& section : sections)
-        page << "<a href=\"#" << section.id << "\">" << section.title << "</a>";
-    page << "</nav>\n</header>\n<main>\n";
-    for (const Section& section : sections) {
-        page << "<section id=\"" << section.id << "\">\n<h2>" << section.title << "</h2>\n"
-             << section.body << "</section>\n";
-    }
-    page << "</main>\n<footer>AP: average precision. F1: harmonic mean of precision and recall.</footer>\n"
-            "</body>\n</html>\n";
+    detail::write(
+        {"Link prediction: " + facts.title,
+         fmt::format("{} predictors under {} sensor failures in {}, on {} seeds.", facts.predictors.size(),
+                     facts.failures.size(), fmt::join(facts.scenarios, ", "), facts.split),
+         sections_of(facts), "AP: average precision. F1: harmonic mean of precision and recall."},
+        page);
 }
 
 }  // namespace clearway::report

@@ -232,7 +232,7 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
 
 namespace {
 
-/// Index in `finding_words` of what the headline says about a condition.
+/// Index in `verdict_words` of what the headline says about a condition.
 std::size_t finding_of(const ConditionFacts& condition) {
     const analysis::Objections& objections = condition.objections;
     if (objections.loses_emergency()) return 0;
@@ -240,7 +240,7 @@ std::size_t finding_of(const ConditionFacts& condition) {
     if (objections.unchecked) return 2;
     return 3 + static_cast<std::size_t>(effect_of(condition, primary));
 }
-constexpr std::array<const char*, 10> finding_words = {"emergency vehicles lost",
+constexpr std::array<const char*, 10> verdict_words = {"emergency vehicles lost",
                                                        "more collisions with emergency vehicles",
                                                        "safety checks off",
                                                        "emergency vehicles faster",
@@ -310,7 +310,7 @@ std::string headline(const StudyFacts& study) {
     std::vector<std::string> parts;
     for (const ScenarioFacts& scenario : study.scenarios) {
         std::size_t compared = 0;
-        std::array<std::size_t, finding_words.size()> seen = {};
+        std::array<std::size_t, verdict_words.size()> seen = {};
         for (const ConditionFacts& condition : scenario.conditions) {
             if (!condition.is_compared() || reference_of(study, scenario, condition) != nullptr) continue;
             ++compared;
@@ -322,7 +322,7 @@ std::string headline(const StudyFacts& study) {
             if (seen[finding] == 0) continue;
             const std::string total =
                 findings.empty() ? fmt::format(" of {}", counted(compared, "condition")) : "";
-            findings.push_back(fmt::format("{} under {}{}", finding_words[finding], seen[finding], total));
+            findings.push_back(fmt::format("{} under {}{}", verdict_words[finding], seen[finding], total));
         }
         parts.push_back(fmt::format("{}: {}", scenario.name, fmt::join(findings, ", ")));
     }

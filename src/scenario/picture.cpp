@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "core/labels.hpp"
 #include "core/markup.hpp"
-#include "scenario/detail/labels.hpp"
 #include "scenario/signal_sheet.hpp"
 
 namespace clearway::scenario {
@@ -151,30 +151,25 @@ struct NameBox {
         return left < other.left + other.width && other.left < left + width &&
                std::abs(bottom - other.bottom) < height_of_text;
     }
-    bool meets(const detail::Spot& disc) const {
-        return disc.x + detail::disc_radius > left && disc.x - detail::disc_radius < left + width &&
-               disc.y + detail::disc_radius > bottom - height_of_text &&
-               disc.y - detail::disc_radius < bottom;
+    bool meets(const core::Spot& disc) const {
+        return disc.x + core::disc_radius > left && disc.x - core::disc_radius < left + width &&
+               disc.y + core::disc_radius > bottom - height_of_text && disc.y - core::disc_radius < bottom;
     }
 };
 
 /// The signals of a picture and where their marks are drawn.
 struct SignalMarks {
     std::vector<SignalSheet> sheets;
-    std::vector<detail::Spot> places;
-    std::vector<detail::Spot> spots;
+    std::vector<core::Spot> places;
+    std::vector<core::Spot> spots;
 };
 
-SignalMarks marks_of(const roads::Network& network, const Frame& frame,
-                     const std::vector<std::string>& labels) {
+SignalMarks marks_of(const roads::Network& network, const Frame& frame) {
     SignalMarks marks{signal_sheets(network, {}), {}, {}};
-    std::vector<detail::Mark> kinds;
-    for (std::size_t row = 0; row < marks.sheets.size(); ++row) {
-        const roads::Point place = marks.sheets[row].place;
-        marks.places.push_back({frame.x(place.x_m), frame.y(place.y_m)});
-        kinds.push_back(labels[row].empty() ? detail::Mark::dot : detail::Mark::disc);
-    }
-    marks.spots = detail::spread(marks.places, kinds, {picture_width, frame.height});
+    for (const SignalSheet& sheet : marks.sheets)
+        marks.places.push_back({frame.x(sheet.place.x_m), frame.y(sheet.place.y_m)});
+    marks.spots = core::spread(marks.places, std::vector(marks.places.size(), core::Mark::disc),
+                               {picture_width, frame.height});
     return marks;
 }
 
@@ -195,25 +190,16 @@ std::optional<NameBox> room_for_name(const SignalMarks& marks, std::size_t row,
     return std::nullopt;
 }
 
-/// `labels` are by signal; one without is a small grey dot. A line leads from a disc that had to give way to
-/// its signal.
-void draw_labels(const roads::Network& network, const Frame& frame, const std::vector<std::string>& labels,
-                 std::string& svg) {
+/// A line leads from a disc that had to give way to its signal.
+void draw_labels(const roads::Network& network, const Frame& frame, std::string& svg) {
     auto out = std::back_inserter(svg);
-    const SignalMarks marks = marks_of(network, frame, labels);
+    const SignalMarks marks = marks_of(network, frame);
     std::vector<NameBox> names;
     for (std::size_t row = 0; row < marks.sheets.size(); ++row) {
-        const detail::Spot& place = marks.places[row];
-        const detail::Spot& spot = marks.spots[row];
+        const core::Spot& place = marks.places[row];
+        const core::Spot& spot = marks.spots[row];
         const std::string name = core::escaped(marks.sheets[row].signal);
-        if (labels[row].empty()) {
-            fmt::format_to(
-                out,
-                "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\" fill=\"#999\"><title>{}</title></circle>\n",
-                place.x, place.y, detail::dot_radius, name);
-            continue;
-        }
-        fmt::format_to(out, "<g fill=\"#000\"><title>{}: {}</title>", labels[row], name);
+        fmt::format_to(out, "<g fill=\"#000\"><title>{}: {}</title>", row + 1, name);
         if (spot != place)
             fmt::format_to(out,
                            "<path d=\"M{0:.1f} {1:.1f}L{2:.1f} {3:.1f}\" stroke=\"#d55e00\"/>"
@@ -223,24 +209,13 @@ void draw_labels(const roads::Network& network, const Frame& frame, const std::v
                        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"{2:g}\" fill=\"#d55e00\"/>"
                        "<text x=\"{0:.1f}\" y=\"{3:.1f}\" text-anchor=\"middle\" "
                        "style=\"font-size:9px;fill:#fff\">{4}</text>",
-                       spot.x, spot.y, detail::disc_radius, spot.y + 3.5, labels[row]);
+                       spot.x, spot.y, core::disc_radius, spot.y + 3.5, row + 1);
         if (const auto box = room_for_name(marks, row, names)) {
             fmt::format_to(out, "<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", box->left, box->bottom, name);
             names.push_back(*box);
         }
         svg += "</g>\n";
     }
-}
-
-std::string labelled_picture(const roads::Network& network, const std::string& title,
-                             const std::vector<std::string>& labels) {
-    const Frame frame = frame_of(network);
-    std::string svg = opened(frame, title);
-    svg += fmt::format("<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"#fff\"/>\n<g color=\"#444\">\n",
-                       picture_width, frame.height);
-    svg += roads_of(network, frame) + "</g>\n";
-    draw_labels(network, frame, labels, svg);
-    return svg + "</svg>\n";
 }
 
 }  // namespace
@@ -251,18 +226,13 @@ std::string network_picture(const roads::Network& network, const std::string& ti
 }
 
 std::string signals_picture(const roads::Network& network, const std::string& title) {
-    std::vector<std::string> numbers(network.signals().size());
-    for (std::size_t row = 0; row < numbers.size(); ++row)
-        numbers[row] = std::to_string(row + 1);
-    return labelled_picture(network, title, numbers);
-}
-
-std::string ranked_signals_picture(const roads::Network& network, const std::string& title,
-                                   std::span<const core::SignalIndex> ranked) {
-    std::vector<std::string> ranks(network.signals().size());
-    for (std::size_t rank = 0; rank < ranked.size(); ++rank)
-        ranks.at(ranked[rank].value) = std::to_string(rank + 1);
-    return labelled_picture(network, title, ranks);
+    const Frame frame = frame_of(network);
+    std::string svg = opened(frame, title);
+    svg += fmt::format("<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"#fff\"/>\n<g color=\"#444\">\n",
+                       picture_width, frame.height);
+    svg += roads_of(network, frame) + "</g>\n";
+    draw_labels(network, frame, svg);
+    return svg + "</svg>\n";
 }
 
 }  // namespace clearway::scenario

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <string>
 
 #include "roads/network.hpp"
@@ -15,10 +14,5 @@ std::string network_picture(const roads::Network& network, const std::string& ti
 /// The same on white paper, with the number of each signal (from 1, in the order of the network) and, where
 /// there is room, its name.
 std::string signals_picture(const roads::Network& network, const std::string& title);
-
-/// The same with the ranks of some signals instead of numbers: `ranked` holds their indices, the first one
-/// gets a 1. The others are grey.
-std::string ranked_signals_picture(const roads::Network& network, const std::string& title,
-                                   std::span<const core::SignalIndex> ranked);
 
 }  // namespace clearway::scenario

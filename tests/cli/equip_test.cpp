@@ -1,4 +1,8 @@
 // Which signals to equip first, as a user asks for it.
+#include <filesystem>
+#include <set>
+#include <sstream>
+
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
@@ -22,39 +26,123 @@ class EquipTest : public CrossingsTest {
     }
 };
 
+/// Names below `folder/out` that begin so.
+std::set<std::string> folders(const std::filesystem::path& out, const std::string& beginning) {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(out)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with(beginning)) names.insert(name);
+    }
+    return names;
+}
+
 TEST_F(EquipTest, ranks_signals_and_continues_in_its_folder_without_new_runs) {
     const Ended ended = equip({"--policy", "preempt_signals", "--json"});
     ASSERT_EQ(ended.code, 0) << ended.err;
     const auto json = nlohmann::json::parse(ended.out);
     EXPECT_EQ(json.at("signals"), 2);
     EXPECT_EQ(json.at("not_passed"), 0);
+    EXPECT_EQ(json.at("fresh_seed"), 2);
     EXPECT_DOUBLE_EQ(mean(json, "none_equipped_s"), mean(json, "baseline_s"))
         << "a policy for signals does nothing where none is equipped";
     EXPECT_LT(mean(json, "all_equipped_s"), mean(json, "none_equipped_s"));
+    EXPECT_EQ(json.at("candidates").size(), 2U);
+    ASSERT_FALSE(json.at("ranked").empty());
     double so_far_s = 0.0;
     for (const auto& row : json.at("ranked")) {
         so_far_s += mean(row, "gain_s");
-        EXPECT_NEAR(mean(row, "so_far_s"), so_far_s, 1e-9);
-        EXPECT_GT(row.at("gain_s").at("low").get<double>(), 0.0);
+        EXPECT_NEAR(mean(row, "gain_so_far_s"), so_far_s, 1e-9);
+        EXPECT_GT(mean(row, "gain_chosen_by_s"), 0.0);
     }
-    EXPECT_EQ(json.at("ranked").empty() || json.at("end") != "budget", json.at("ranked").size() < 2);
+    if (json.at("ranked").size() == 2) {
+        EXPECT_DOUBLE_EQ(mean(json.at("ranked").back(), "gain_so_far_s"),
+                         mean(json.at("all"), "gain_so_far_s"));
+    }
     EXPECT_THAT(read("out/equip.json"), ended.out);
     EXPECT_THAT(read("out/equip.csv"), HasSubstr("equipped,number,signal"));
+    EXPECT_THAT(read("out/candidates.csv"), HasSubstr("number,signal,share_of_trips,gain_s"));
     EXPECT_THAT(read("out/curve.svg"), HasSubstr("<svg"));
     EXPECT_THAT(read("out/map.svg"), HasSubstr("Two crossings: signals to equip first"));
-    const std::string run = "out/round-01/runs/crossings/baseline/00000/run.json";
-    const auto made = std::filesystem::last_write_time(folder() / run);
+    EXPECT_THAT(read("out/report.html"), HasSubstr("<section id=\"equipment\">"));
+    const std::string none = "out/round-01/runs/crossings/preempt_signals_none_equipped/00000/run.json";
+    const auto made = std::filesystem::last_write_time(folder() / none);
     const Ended again = equip({"--policy", "preempt_signals"});
     ASSERT_EQ(again.code, 0) << again.err;
-    EXPECT_EQ(std::filesystem::last_write_time(folder() / run), made);
+    EXPECT_EQ(std::filesystem::last_write_time(folder() / none), made);
     EXPECT_EQ(read("out/equip.json"), ended.out);
-    EXPECT_THAT(again.out, AllOf(HasSubstr("Two crossings"), HasSubstr("EV time s: baseline")));
+    EXPECT_THAT(again.out, AllOf(HasSubstr("Two crossings"), HasSubstr("Equip first: ")));
+}
+
+TEST_F(EquipTest, shows_one_progress_and_takes_over_fresh_runs_where_the_budget_grows) {
+    const Ended one = clearway({"equip", "./crossings", "--budget", "1", "--seeds", "5", "--out", "out"});
+    ASSERT_EQ(one.code, 0) << one.err;
+    EXPECT_THAT(one.err,
+                AllOf(HasSubstr("runs: 40/40"), Not(HasSubstr("15/15")), Not(HasSubstr("runs into"))));
+    const std::set<std::string> first = folders(folder() / "out", "fresh-");
+    ASSERT_EQ(first.size(), 1U);
+    const std::string baseline = "/runs/crossings/baseline/00003/run.json";
+    const Ended two = equip({});
+    ASSERT_EQ(two.code, 0) << two.err;
+    for (const std::string& fresh : folders(folder() / "out", "fresh-"))
+        EXPECT_TRUE(std::filesystem::equivalent(folder() / "out" / (*first.begin() + baseline),
+                                                folder() / "out" / (fresh + baseline)))
+            << "linked, not made again";
+}
+
+TEST_F(EquipTest, says_before_it_runs_how_many_runs_it_makes) {
+    const Ended dry = equip({"--dry-run", "--json"});
+    ASSERT_EQ(dry.code, 0) << dry.err;
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+    const auto json = nlohmann::json::parse(dry.out);
+    EXPECT_EQ(json.at("candidates"), 2);
+    // None and each alone on 5 seeds; both together on 5; then baseline, none, all, alone and two ranks.
+    EXPECT_EQ(json.at("runs"), 15 + 5 + 30);
+    EXPECT_EQ(json.at("most_runs"), 50);
+    EXPECT_GT(json.at("estimated_time_s").get<double>(), 0.0);
+    EXPECT_FALSE(json.at("estimate_measured").get<bool>());
+    const auto made = nlohmann::json::parse(equip({"--json"}).out);
+    EXPECT_LE(made.at("runs"), json.at("most_runs"));
+    if (made.at("ranked").size() == 2) {
+        EXPECT_EQ(made.at("runs"), json.at("runs"));
+    }
+    const Ended text = equip({"--dry-run"});
+    EXPECT_THAT(text.out,
+                AllOf(HasSubstr("50 runs likely, 50 at most"), HasSubstr("from runs of this scenario")));
+    std::istringstream lines(text.out);
+    for (std::string line; std::getline(lines, line);)
+        EXPECT_LE(line.size(), 80U) << line;
+}
+
+TEST_F(EquipTest, tries_only_the_signals_that_most_emergency_vehicles_pass_where_that_is_wanted) {
+    const Ended ended = equip({"--candidates", "1", "--json"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const auto json = nlohmann::json::parse(ended.out);
+    ASSERT_EQ(json.at("candidates").size(), 1U);
+    EXPECT_EQ(json.at("candidates").at(0).at("signal"), "A") << "of equal ones the first";
+    EXPECT_DOUBLE_EQ(json.at("candidates").at(0).at("share_of_trips").get<double>(), 1.0);
+    EXPECT_EQ(json.at("seldom_passed"), 1);
+}
+
+TEST_F(EquipTest, does_not_report_a_gain_where_every_request_is_lost) {
+    const Ended lost =
+        equip({"--policy", "preempt_signals", "--set", "failure.signal_request_propagation=sharp", "--set",
+               "failure.signal_request_loss_rate=1", "--json"});
+    ASSERT_EQ(lost.code, 0) << lost.err;
+    const auto json = nlohmann::json::parse(lost.out);
+    EXPECT_THAT(json.at("ranked"), IsEmpty());
+    EXPECT_EQ(json.at("end"), "no_gain");
+    ASSERT_EQ(json.at("candidates").size(), 2U);
+    for (const auto& row : json.at("candidates")) {
+        EXPECT_DOUBLE_EQ(mean(row, "gain_s"), 0.0);
+        EXPECT_FALSE(row.at("shown").get<bool>());
+    }
 }
 
 TEST_F(EquipTest, leaves_out_signals_that_no_emergency_vehicle_passes_or_that_are_switched_off) {
     write_scenario("A_north_a");
     const auto turned = nlohmann::json::parse(equip({"--json"}).out);
     EXPECT_EQ(turned.at("not_passed"), 1);
+    EXPECT_EQ(turned.at("candidates").size(), 1U);
     EXPECT_LE(turned.at("ranked").size(), 1U);
     ASSERT_EQ(clearway({"scenario", "signals", "./crossings", "--out", "p.csv"}).code, 0);
     const std::string text = read("p.csv");
@@ -66,6 +154,21 @@ TEST_F(EquipTest, leaves_out_signals_that_no_emergency_vehicle_passes_or_that_ar
     EXPECT_EQ(json.at("switched_off"), 1);
     EXPECT_TRUE(json.at("ranked").empty());
     EXPECT_EQ(json.at("end"), "exhausted");
+}
+
+TEST_F(EquipTest, may_take_a_run_for_that_of_a_set_without_the_signals_that_nobody_passes) {
+    write_scenario("A_north_a");
+    const auto time_with = [&](const std::string& equipped, const std::string& name) {
+        const Ended ended =
+            clearway({"run", "./crossings", "--policy", "corridor", "--set", "actuation.equipped=" + equipped,
+                      "--name", name, "--seeds", "1", "--out", name});
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        return nlohmann::json::parse(read(name + "/runs/crossings/" + name + "/00000/run.json"))
+            .at("metrics");
+    };
+    EXPECT_EQ(time_with("A", "first"), time_with("A,B", "both")) << "they turn off before B";
+    EXPECT_EQ(time_with("none", "without"), time_with("B", "second"));
+    EXPECT_NE(time_with("none", "without2"), time_with("A", "first2"));
 }
 
 TEST_F(EquipTest, refuses_what_has_no_answer_and_leaves_nothing_behind) {

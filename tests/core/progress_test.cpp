@@ -43,6 +43,15 @@ TEST(ProgressLine, FitsTheTerminalAndGivesUpTheBarFirst) {
     EXPECT_THAT(progress.line(80), HasSubstr("EV travel"));
 }
 
+TEST(ProgressLine, CountsTowardsTheTotalThatIsExpectedNow) {
+    Progress progress("runs", 0, Progress::Style::lines);
+    progress.expect(120);
+    progress.update(30, 0);
+    EXPECT_THAT(progress.line(0), StartsWith("runs: 30/120, "));
+    progress.expect(90);
+    EXPECT_THAT(progress.line(0), StartsWith("runs: 30/90, "));
+}
+
 TEST(Terminal, CutsBetweenCharactersOfUtf8) {
     EXPECT_EQ(cut_to_columns("Zürich", 6), "Zürich");
     EXPECT_EQ(cut_to_columns("Zürich", 2), "Zü");

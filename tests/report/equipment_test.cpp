@@ -19,50 +19,109 @@ Estimate about(double mean, double half_width) {
     return {10, mean, 1.0, Interval{mean - half_width, mean + half_width}};
 }
 
-/// Twelve signals, ten of which EVs pass. The first two bring 30 and 42 of 50 s.
+/// Twelve signals, ten of which EVs pass; two of these ten are candidates by name here. The first two bring
+/// 30 and 42 of 50 s; the gain of the second is not shown.
 EquipmentFacts two_of_twelve() {
     EquipmentFacts facts;
     facts.scenario = "town";
     facts.title = "A town";
     facts.condition = "corridor";
+    facts.command = "clearway equip town <&>";
     facts.seed = 7;
+    facts.fresh_seed = 8;
     facts.replications = 10;
     facts.budget = 5;
     facts.signals = 12;
     facts.not_passed = 2;
+    facts.runs = 140;
     facts.all_gain = about(50.0, 5.0);
     facts.all_others = about(2.0, 1.0);
     facts.baseline_s = about(151.0, 9.0);
     facts.none_s = about(150.0, 9.0);
     facts.all_s = about(100.0, 8.0);
     facts.alone_s = about(95.0, 7.0);
-    facts.ranked = {{4, "north<&>", about(30.0, 4.0), about(30.0, 4.0), about(0.5, 0.2)},
-                    {9, "south", about(12.0, 3.0), about(42.0, 4.0), about(1.0, 0.4)}};
-    facts.end = analysis::EquipEnd::no_effect;
-    facts.next = EquippedSignal{1, "west", about(1.0, 2.0), about(43.0, 4.0), about(1.0, 0.4)};
+    facts.candidates = {{1, "west", 0.1, about(1.0, 2.0), true, std::nullopt},
+                        {4, "north<&>", 0.45, about(31.0, 4.0), false, 1},
+                        {9, "south of the old town's gate", 0.2, about(12.0, 3.0), false, 2}};
+    facts.candidates[0].gain->n = 5;
+    facts.ranked = {{4, "north<&>", about(30.0, 4.0), about(30.0, 4.0), about(0.5, 0.2), about(31.0, 4.0)},
+                    {9, "south of the old town's gate", about(12.0, 13.0), about(42.0, 4.0), about(1.0, 0.4),
+                     about(14.0, 3.0)}};
+    facts.end = analysis::EquipEnd::no_gain;
     return facts;
 }
 
-TEST(Equipment, HasARowForEachRankAndSaysWhatItFound) {
+/// The roads of the three of them, 400 m by 300 m.
+RoadMap three_roads() {
+    RoadMap roads;
+    roads.edges.push_back({"a", {}, true, 500.0, 14.0, {{0.0, 0.0}, {400.0, 300.0}}});
+    roads.signals = {{"west", {0.0, 0.0}}, {"north<&>", {200.0, 150.0}}, {"east", {400.0, 300.0}}};
+    return roads;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::istringstream stream(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);)
+        lines.push_back(line);
+    return lines;
+}
+
+/// Without line ends, where wrapping may have put them.
+std::string flat_text(const EquipmentFacts& facts) {
+    std::string text = equipment_text(facts);
+    std::ranges::replace(text, '\n', ' ');
+    return text;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        ++count;
+    return count;
+}
+
+TEST(Equipment, HasARowForEachCandidateAndRankInEightyColumns) {
     const std::string text = equipment_text(two_of_twelve());
-    EXPECT_THAT(text, HasSubstr("30.0 [26.0, 34.0]   30.0 [26.0, 34.0]    60"));
-    EXPECT_THAT(text, HasSubstr("12.0 [9.0, 15.0]   42.0 [38.0, 46.0]    84"));
-    EXPECT_THAT(text, HasSubstr("2 of 12 signals bring 80 % of the gain of all."));
-    EXPECT_THAT(text, HasSubstr("signal 1 (west), shows no effect: 1.00 s [-1.00, 3.00]"));
-    EXPECT_THAT(text, HasSubstr("Left out: 2 of 12 signals, which no EV passes"));
-    EXPECT_THAT(text, HasSubstr("baseline 151.0 [142.0, 160.0]"));
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);)
-        EXPECT_LE(line.size(), 100U) << line;
+    EXPECT_THAT(text, HasSubstr("31.0 [27.0, 35.0]  shown"));
+    EXPECT_THAT(text, HasSubstr("1.0 [-1.0, 3.0]  not shown      5"));
+    EXPECT_THAT(text, HasSubstr("30.0 [26.0, 34.0]  shown"));
+    EXPECT_THAT(text, HasSubstr("12.0 [-1.0, 25.0]  not shown  42.0 [38.0, 46.0]   84"));
+    EXPECT_LT(text.find("31.0 ["), text.find("1.0 [-1.0, 3.0]")) << "the greatest gain first";
+    for (const std::string& line : lines_of(text))
+        EXPECT_LE(line.size(), 80U) << line;
+}
+
+TEST(Equipment, EndsWithTheAnswer) {
+    const std::string text = flat_text(two_of_twelve());
+    const std::string answer = text.substr(text.find("Equip first: 4 (north<&>), 9 (south of the old"));
+    EXPECT_THAT(answer, HasSubstr("42.0 [38.0, 46.0]"));
+    EXPECT_THAT(text, HasSubstr("Not shown: the gain of rank 2"));
+    EXPECT_THAT(text, HasSubstr("Stopped at 2 of 5"));
+    EXPECT_LE(answer.size(), 6U * 80U) << "six lines at the end of a terminal";
 }
 
 TEST(Equipment, SaysThatTheBudgetIsMoreThanThereAreSignals) {
     EquipmentFacts facts = two_of_twelve();
     facts.budget = 12;
-    EXPECT_THAT(equipment_text(facts), Not(HasSubstr("The budget is")));
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("The budget is")));
     facts.budget = 13;
-    EXPECT_THAT(equipment_text(facts),
-                HasSubstr("The budget is 13, and the scenario has only 12 signals.\n"));
+    EXPECT_THAT(flat_text(facts), HasSubstr("The budget is 13, and the scenario has only 12 signals."));
+}
+
+TEST(Equipment, IsShownNowhereWhereNoCandidateGains) {
+    EquipmentFacts facts = two_of_twelve();
+    facts.ranked.clear();
+    for (EquipCandidateFacts& one : facts.candidates)
+        one = {one.number, one.signal, one.trips, about(0.0, 0.0), false, std::nullopt};
+    const std::string text = flat_text(facts);
+    EXPECT_THAT(text,
+                HasSubstr("No signal to equip: in the mean of the runs none of the 3 candidates gains."));
+    EXPECT_THAT(text, Not(HasSubstr("]  shown")));
+    EXPECT_THAT(text, Not(HasSubstr("0.0]  shown")));
+    const auto json = nlohmann::json::parse(equipment_json(facts));
+    for (const auto& row : json.at("candidates"))
+        EXPECT_FALSE(row.at("shown").get<bool>());
 }
 
 TEST(Equipment, HasNoShareOfAGainThatIsNotShown) {
@@ -70,7 +129,16 @@ TEST(Equipment, HasNoShareOfAGainThatIsNotShown) {
     facts.all_gain = about(50.0, 51.0);
     EXPECT_FALSE(share_of_all(facts, facts.ranked[0]));
     EXPECT_FALSE(rank_with_share(facts, 0.1));
-    EXPECT_THAT(equipment_text(facts), HasSubstr("The gain of all signals is not shown to be above 0."));
+    EXPECT_THAT(flat_text(facts), HasSubstr("The gain of all signals is not shown to be above 0."));
+}
+
+TEST(Equipment, IsNotShownByFewerPairsThanAnIntervalTakes) {
+    Estimate four = about(30.0, 4.0);
+    four.n = 4;
+    EXPECT_FALSE(is_shown(four));
+    four.n = 5;
+    EXPECT_TRUE(is_shown(four));
+    EXPECT_FALSE(is_shown(std::nullopt));
 }
 
 TEST(Equipment, SaysWhenTheShareIsNotReached) {
@@ -78,34 +146,48 @@ TEST(Equipment, SaysWhenTheShareIsNotReached) {
     facts.ranked.pop_back();
     EXPECT_EQ(rank_with_share(facts, 0.6), 1U);
     EXPECT_FALSE(rank_with_share(facts, 0.8));
-    EXPECT_THAT(equipment_text(facts), HasSubstr("These do not bring 80 % of the gain of all."));
+    EXPECT_THAT(flat_text(facts), HasSubstr("These do not bring 80 % of the gain of all."));
 }
 
-TEST(Equipment, IsAJsonObjectWithNullForWhatIsMissing) {
+TEST(Equipment, IsWholeInJsonWithNullForWhatIsMissing) {
     EquipmentFacts facts = two_of_twelve();
     facts.ranked[1].gain->interval.reset();
     facts.alone_s.reset();
     const auto json = nlohmann::json::parse(equipment_json(facts));
     EXPECT_EQ(json.at("ranked").at(0).at("signal"), "north<&>");
+    EXPECT_DOUBLE_EQ(json.at("ranked").at(0).at("gain_chosen_by_s").at("mean").get<double>(), 31.0);
     EXPECT_DOUBLE_EQ(json.at("ranked").at(1).at("share_of_all").get<double>(), 0.84);
     EXPECT_TRUE(json.at("ranked").at(1).at("gain_s").at("low").is_null());
+    EXPECT_FALSE(json.at("ranked").at(1).at("shown").get<bool>());
     EXPECT_TRUE(json.at("alone_s").is_null());
-    EXPECT_EQ(json.at("end"), "no_effect");
-    EXPECT_EQ(json.at("next").at("number"), 1);
+    EXPECT_EQ(json.at("end"), "no_gain");
     EXPECT_EQ(json.at("rank_with_80_percent"), 2);
+    ASSERT_EQ(json.at("candidates").size(), 3U);
+    EXPECT_EQ(json.at("candidates").at(0).at("number"), 4);
+    EXPECT_EQ(json.at("candidates").at(0).at("rank"), 1);
+    EXPECT_TRUE(json.at("candidates").at(2).at("left_race").get<bool>());
+    EXPECT_TRUE(json.at("candidates").at(2).at("rank").is_null());
 }
 
 TEST(Equipment, IsACurveFromNoneToAllAsCsv) {
-    std::istringstream lines(equipment_csv(two_of_twelve()));
-    std::vector<std::string> rows;
-    for (std::string line; std::getline(lines, line);)
-        rows.push_back(line);
+    const std::vector<std::string> rows = lines_of(equipment_csv(two_of_twelve()));
     ASSERT_EQ(rows.size(), 5U);
-    EXPECT_EQ(rows[1], "0,,,,,,0,,,0,0,,");
-    EXPECT_EQ(rows[2], "1,4,north<&>,30,26,34,30,26,34,0.6,0.5,0.3,0.7");
-    EXPECT_EQ(rows[4], "12,,,,,,50,45,55,1,2,1,3");
-    for (const std::string& row : rows)
-        EXPECT_EQ(std::ranges::count(row, ','), 12) << row;
+    EXPECT_EQ(rows[0],
+              "equipped,number,signal,gain_s,gain_low_s,gain_high_s,shown,gain_so_far_s,gain_so_far_low_s,"
+              "gain_so_far_high_s,share_of_all,others_time_loss_s,others_time_loss_low_s,"
+              "others_time_loss_high_s,gain_chosen_by_s,gain_chosen_by_low_s,gain_chosen_by_high_s");
+    EXPECT_EQ(rows[1], "0,,,,,,,0,,,0,0,,,,,");
+    EXPECT_EQ(rows[2], "1,4,north<&>,30,26,34,true,30,26,34,0.6,0.5,0.3,0.7,31,27,35");
+    EXPECT_EQ(rows[4], "12,,,,,,,50,45,55,1,2,1,3,,,");
+}
+
+TEST(Equipment, HasItsCandidatesAsCsv) {
+    const std::vector<std::string> rows = lines_of(candidates_csv(two_of_twelve()));
+    ASSERT_EQ(rows.size(), 4U);
+    EXPECT_EQ(rows[0],
+              "number,signal,share_of_trips,gain_s,gain_low_s,gain_high_s,shown,pairs,left_race,rank");
+    EXPECT_EQ(rows[1], "4,north<&>,0.45,31,27,35,true,10,false,1");
+    EXPECT_EQ(rows[3], "1,west,0.1,1,-1,3,false,5,true,");
 }
 
 TEST(Equipment, IsDrawnAsACurveWithTheGainOfAll) {
@@ -118,6 +200,47 @@ TEST(Equipment, IsDrawnAsACurveWithTheGainOfAll) {
     facts.ranked.clear();
     facts.all_gain.reset();
     EXPECT_THAT(equipment_curve(facts), Not(HasSubstr("nan")));
+}
+
+TEST(Equipment, IsCountedInWholeSignalsBelowTheCurve) {
+    EquipmentFacts facts = two_of_twelve();
+    for (const std::size_t ranked : {2U, 1U, 0U}) {
+        facts.ranked.resize(ranked);
+        const std::string svg = equipment_curve(facts);
+        for (const char* const half : {">0.5<", ">1.5<", ">0.2<", ">1.0<"})
+            EXPECT_THAT(svg, Not(HasSubstr(half))) << ranked;
+        EXPECT_THAT(svg, AllOf(HasSubstr(">0</text>"), HasSubstr(">1</text>"))) << ranked;
+    }
+}
+
+TEST(Equipment, IsMappedWithCandidatesAndChosenDrawnApart) {
+    EquipmentFacts facts = two_of_twelve();
+    EXPECT_THAT(equipment_map(facts), testing::IsEmpty()) << "no roads, no map";
+    facts.roads = three_roads();
+    const std::string svg = equipment_map(facts);
+    EXPECT_EQ(count_of(svg, "<circle class=\"held\""), 2U) << "west, and the legend";
+    EXPECT_EQ(count_of(svg, "<circle class=\"tick\""), 2U) << "east, and the legend";
+    EXPECT_EQ(count_of(svg, "<circle class=\"dot better\""), 2U) << "north, and the legend";
+    EXPECT_THAT(svg,
+                AllOf(HasSubstr("chosen, gain shown"), HasSubstr("other candidate"), HasSubstr("left out")));
+    facts.ranked[0].gain = about(30.0, 31.0);
+    EXPECT_EQ(count_of(equipment_map(facts), "<circle class=\"station\""), 2U) << "north is not shown";
+}
+
+TEST(Equipment, HasAPageWithAnswerMapTablesAndCommand) {
+    EquipmentFacts facts = two_of_twelve();
+    facts.roads = three_roads();
+    std::ostringstream page;
+    write_equipment_page(facts, page);
+    const std::string html = page.str();
+    EXPECT_THAT(html, AllOf(HasSubstr("<section id=\"equipment\">"), HasSubstr("<section id=\"candidates\">"),
+                            HasSubstr("id=\"map\""), HasSubstr("id=\"curve\""),
+                            HasSubstr("clearway equip town &lt;&amp;&gt;"),
+                            HasSubstr("12.0 [\u22121.0, 25.0]"), HasSubstr("not shown")));
+    EXPECT_THAT(html, Not(HasSubstr("north<&>")));
+    EXPECT_THAT(html, Not(HasSubstr("south of the old town&#39;s gate"))) << "long names are cut";
+    EXPECT_THAT(html, HasSubstr("south of the old town..."));
+    EXPECT_EQ(count_of(html, "<th scope=\"row\">"), 6U) << "3 candidates, 2 ranks and all signals";
 }
 
 }  // namespace

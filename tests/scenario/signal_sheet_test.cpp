@@ -68,14 +68,5 @@ TEST(SignalsPicture, has_a_number_and_a_name_at_each_signal) {
     EXPECT_THAT(network_picture(network, "two"), ::testing::Not(HasSubstr(">1</text>")));
 }
 
-TEST(SignalsPicture, has_the_ranks_of_some_signals_and_the_others_in_grey) {
-    const roads::Network network = sheet_crossings();
-    const std::vector<core::SignalIndex> second = {core::SignalIndex{1}};
-    const std::string svg = ranked_signals_picture(network, "two", second);
-    EXPECT_THAT(svg, HasSubstr("<title>1: B</title>"));
-    EXPECT_THAT(svg, HasSubstr("fill=\"#999\"><title>A</title>"));
-    EXPECT_THAT(svg, ::testing::Not(HasSubstr(">2</text>")));
-}
-
 }  // namespace
 }  // namespace clearway::scenario

@@ -32,8 +32,8 @@ void Range::include_all(const MaybeEstimate& estimate) {
     include(estimate->interval->high);
 }
 
-Ticks nice_ticks(Range range, int wanted) {
-    const double rough = (range.high - range.low) / std::max(1, wanted);
+Ticks nice_ticks(Range range, int wanted, double least_step) {
+    const double rough = std::max(least_step, (range.high - range.low) / std::max(1, wanted));
     const double power = std::pow(10.0, std::floor(std::log10(rough)));
     const double fraction = rough / power;
     const double step = (fraction <= 1.0   ? 1.0
@@ -77,7 +77,7 @@ void Plot::turn_to(Axis x, Axis y) {
 }
 
 void Plot::grid_x() {
-    const Ticks ticks = nice_ticks(x_.values, 5);
+    const Ticks ticks = nice_ticks(x_.values, 5, x_.scale == Scale::whole ? 1.0 : 0.0);
     const double bottom = std::max(y_.from, y_.to);
     const double top = std::min(y_.from, y_.to);
     for (const double value : ticks.values) {

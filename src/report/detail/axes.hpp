@@ -38,15 +38,17 @@ struct Ticks {
     std::vector<double> values;
     int decimals = 0;  ///< Enough to tell neighbouring values apart.
 };
-Ticks nice_ticks(Range range, int wanted);
+/// At least `least_step` apart.
+Ticks nice_ticks(Range range, int wanted, double least_step = 0.0);
 /// Powers of ten within 10^exponents, at most seven.
 Ticks decade_ticks(Range exponents);
 
 /// The range with a margin on both sides, wide enough to be drawn when all of its values are equal.
 Range padded(Range range, double share);
 
-/// How an axis spaces its values: evenly, or with the same width for each decade.
-enum class Scale { linear, logarithmic };
+/// How an axis spaces its values: evenly, evenly with marks at whole numbers alone, or with the same width
+/// for each decade.
+enum class Scale { linear, whole, logarithmic };
 
 /// An axis of a figure: what it shows and where.
 struct Axis {
@@ -58,9 +60,9 @@ struct Axis {
 
     /// On a logarithmic axis values below its range, 0 included, are placed at its low end.
     double place(double value) const {
-        const double at = scale == Scale::linear ? value
-                          : value > 0.0          ? std::max(values.low, std::log10(value))
-                                                 : values.low;
+        const double at = scale != Scale::logarithmic ? value
+                          : value > 0.0               ? std::max(values.low, std::log10(value))
+                                                      : values.low;
         return from + (at - values.low) / (values.high - values.low) * (to - from);
     }
 };

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace clearway::scenario::detail {
+namespace clearway::core {
 
 /// A point of a picture in its units, y down.
 struct Spot {
@@ -29,4 +29,4 @@ inline constexpr double dot_radius = 4.0;
 /// stays. Equal places give equal spots. Time grows with the square of the number of places.
 std::vector<Spot> spread(const std::vector<Spot>& places, const std::vector<Mark>& marks, Spot size);
 
-}  // namespace clearway::scenario::detail
+}  // namespace clearway::core

@@ -1,10 +1,10 @@
-#include "scenario/detail/labels.hpp"
+#include "core/labels.hpp"
 
 #include <cmath>
 
 #include <gmock/gmock.h>
 
-namespace clearway::scenario::detail {
+namespace clearway::core {
 namespace {
 
 constexpr Spot picture{960.0, 540.0};
@@ -53,4 +53,4 @@ TEST(Labels, WithoutAnyRoomStayToo) {
 }
 
 }  // namespace
-}  // namespace clearway::scenario::detail
+}  // namespace clearway::core

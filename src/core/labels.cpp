@@ -1,10 +1,10 @@
-#include "scenario/detail/labels.hpp"
+#include "core/labels.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace clearway::scenario::detail {
+namespace clearway::core {
 namespace {
 
 constexpr double gap = 1.0;
@@ -91,4 +91,4 @@ std::vector<Spot> spread(const std::vector<Spot>& places, const std::vector<Mark
     return Spreader(places, marks, size).spots();
 }
 
-}  // namespace clearway::scenario::detail
+}  // namespace clearway::core

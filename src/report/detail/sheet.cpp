@@ -1,0 +1,187 @@
+#include "report/detail/sheet.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/csv.hpp"
+#include "core/terminal.hpp"
+#include "report/text.hpp"
+
+namespace clearway::report::detail {
+namespace {
+
+constexpr std::size_t column_gap = 2;
+constexpr std::size_t least_text = 8;
+
+template <class... Cases>
+struct Overloaded : Cases... {
+    using Cases::operator()...;
+};
+
+std::string cell_words(const SheetCell& cell, Script script) {
+    return std::visit(Overloaded{[&](std::monostate) { return missing(script); },
+                                 [](std::size_t count) { return std::to_string(count); },
+                                 [&](const std::string& text) {
+                                     return script == Script::plain ? printable(text)
+                                                                    : short_signal_name(text);
+                                 },
+                                 [](bool shown) { return std::string(shown ? "shown" : "not shown"); },
+                                 [&](Share share) {
+                                     return number(100.0 * share.value, {0, script});
+                                 },
+                                 [&](const MaybeEstimate& value) {
+                                     return estimate(value, {1, script});
+                                 }},
+                      cell);
+}
+
+Json json_cell(const SheetCell& cell) {
+    return std::visit(Overloaded{[](std::monostate) { return Json(nullptr); },
+                                 [](Share share) { return Json(share.value); },
+                                 [](const MaybeEstimate& value) { return estimate_json(value); },
+                                 [](const auto& value) { return Json(value); }},
+                      cell);
+}
+
+/// The cells of an estimate, or a single one.
+std::vector<std::string> csv_cells(const SheetCell& cell) {
+    if (const auto* const value = std::get_if<MaybeEstimate>(&cell)) {
+        const bool bounded = *value && (*value)->interval;
+        const auto end = [&](double analysis::Interval::*side) {
+            return core::csv_cell(bounded ? std::optional(*(*value)->interval.*side) : std::nullopt);
+        };
+        return {core::csv_cell(mean_of(*value)), end(&analysis::Interval::low),
+                end(&analysis::Interval::high)};
+    }
+    if (const auto* const share = std::get_if<Share>(&cell)) return {core::csv_cell(share->value)};
+    if (const auto* const text = std::get_if<std::string>(&cell)) return {core::csv_text(*text)};
+    return {std::holds_alternative<std::monostate>(cell) ? "" : json_cell(cell).dump()};
+}
+
+/// Whether a column holds estimates, which CSV spreads over three columns.
+bool is_estimate(const Sheet& sheet, std::size_t column) {
+    return !sheet.rows.empty() && std::holds_alternative<MaybeEstimate>(sheet.rows.front()[column]);
+}
+
+bool holds_text(const Sheet& sheet, std::size_t column) {
+    return std::ranges::any_of(sheet.rows, [&](const std::vector<SheetCell>& row) {
+        return std::holds_alternative<std::string>(row[column]) || std::holds_alternative<bool>(row[column]);
+    });
+}
+
+/// A column as it is printed on a terminal, its title first.
+struct TextColumn {
+    std::vector<std::string> cells;
+    bool left = false;
+    bool can_be_cut = false;
+
+    std::size_t width() const {
+        std::size_t most = 0;
+        for (const std::string& cell : cells)
+            most = std::max(most, core::characters_in(cell));
+        return most;
+    }
+    void cut(std::size_t most) {
+        for (std::string& cell : cells)
+            if (core::characters_in(cell) > most) cell = core::cut_to_columns(cell, most - 2) + "..";
+    }
+};
+
+std::vector<TextColumn> text_columns(const Sheet& sheet) {
+    std::vector<TextColumn> columns;
+    for (std::size_t at = 0; at < sheet.columns.size(); ++at) {
+        if (sheet.columns[at].shown != SheetColumn::Shown::everywhere) continue;
+        TextColumn column{{sheet.columns[at].title}, holds_text(sheet, at)};
+        for (const std::vector<SheetCell>& row : sheet.rows) {
+            column.cells.push_back(cell_words(row[at], Script::plain));
+            column.can_be_cut = column.can_be_cut || std::holds_alternative<std::string>(row[at]);
+        }
+        columns.push_back(std::move(column));
+    }
+    return columns;
+}
+
+void fit(std::vector<TextColumn>& columns) {
+    std::size_t total = column_gap * (columns.size() - 1);
+    for (const TextColumn& column : columns)
+        total += column.width();
+    for (TextColumn& column : columns) {
+        if (!column.can_be_cut || total <= core::help_columns) continue;
+        const std::size_t before = column.width();
+        column.cut(std::max(least_text, before - std::min(before, total - core::help_columns)));
+        total -= before - column.width();
+    }
+}
+
+}  // namespace
+
+Json estimate_json(const MaybeEstimate& estimate) {
+    if (!estimate) return nullptr;
+    Json json = {{"mean", estimate->mean}, {"pairs", estimate->n}};
+    put_ends(json, pointer_to(estimate->interval), "low", "high");
+    return json;
+}
+
+Json json_of(const Sheet& sheet) {
+    Json rows = Json::array();
+    for (const std::vector<SheetCell>& row : sheet.rows) {
+        Json& object = rows.emplace_back(Json::object());
+        for (std::size_t at = 0; at < row.size(); ++at)
+            object[sheet.columns[at].key] = json_cell(row[at]);
+    }
+    return rows;
+}
+
+std::string csv_of(const Sheet& sheet) {
+    std::vector<std::string> head;
+    for (std::size_t at = 0; at < sheet.columns.size(); ++at) {
+        const std::string& key = sheet.columns[at].key;
+        head.push_back(key);
+        if (!is_estimate(sheet, at)) continue;
+        const std::string stem = key.substr(0, key.size() - 2);
+        head.insert(head.end(), {stem + "_low_s", stem + "_high_s"});
+    }
+    std::string csv = fmt::format("{}\n", fmt::join(head, ","));
+    for (const std::vector<SheetCell>& row : sheet.rows) {
+        std::vector<std::string> cells;
+        for (const SheetCell& cell : row)
+            std::ranges::move(csv_cells(cell), std::back_inserter(cells));
+        csv += fmt::format("{}\n", fmt::join(cells, ","));
+    }
+    return csv;
+}
+
+std::string text_of(const Sheet& sheet) {
+    std::vector<TextColumn> columns = text_columns(sheet);
+    fit(columns);
+    std::string text;
+    for (std::size_t line = 0; line <= sheet.rows.size(); ++line) {
+        std::string words;
+        for (const TextColumn& column : columns) {
+            const std::string& cell = column.cells[line];
+            const std::string room(column.width() - core::characters_in(cell), ' ');
+            if (!words.empty()) words += std::string(column_gap, ' ');
+            words += column.left ? cell + room : room + cell;
+        }
+        words.erase(words.find_last_not_of(' ') + 1);
+        text += words + "\n";
+    }
+    return text;
+}
+
+DataTable data_table_of(const Sheet& sheet) {
+    DataTable table;
+    for (const SheetColumn& column : sheet.columns)
+        if (column.shown != SheetColumn::Shown::in_data) table.head.push_back(column.title);
+    for (const std::vector<SheetCell>& row : sheet.rows) {
+        std::vector<std::string>& cells = table.rows.emplace_back();
+        for (std::size_t at = 0; at < row.size(); ++at)
+            if (sheet.columns[at].shown != SheetColumn::Shown::in_data)
+                cells.push_back(cell_words(row[at], Script::typeset));
+    }
+    return table;
+}
+
+}  // namespace clearway::report::detail
