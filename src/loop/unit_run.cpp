@@ -30,6 +30,8 @@ sumo::SessionConfig session_config(const experiment::RunJob& unit, const scenari
     if (unit.traffic_model == experiment::TrafficModel::sublane) {
         config.extra_arguments = {"--lateral-resolution", scenario::sublane_resolution_m};
     }
+    for (const std::string& option : prepared.options)
+        config.extra_arguments.push_back("--" + option);
     config.names = names_of(network);
     return config;
 }

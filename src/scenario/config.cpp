@@ -53,6 +53,7 @@ void read_lists(StrictTable& reader, Measured& measured) {
     reader.texts("routes", measured.routes);
     reader.texts("additional", measured.additional);
     reader.texts("persons", measured.persons);
+    reader.texts("options", measured.options);
     read_below(reader, "type", measured.types);
     read_below(reader, "own_types", measured.own_types);
 }

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -440,6 +441,16 @@ struct OwnTypes {
     }
 };
 
+/// What a SUMO configuration may set beyond Clearway's own keys, with numbers as values: how actuated signals
+/// and rerouting vehicles see the traffic.
+inline constexpr std::array<std::string_view, 7> kept_options = {"tls.actuated.jam-threshold",
+                                                                 "tls.actuated.detector-length",
+                                                                 "device.rerouting.adaptation-weight",
+                                                                 "device.rerouting.adaptation-steps",
+                                                                 "device.rerouting.adaptation-interval",
+                                                                 "weights.random-factor",
+                                                                 "weights.priority-factor"};
+
 /// Table `[measured]`: route files with measured departures and routes. A share of the cars, chosen by
 /// vehicle id, is automated; nothing else about them changes.
 struct Measured {
@@ -449,6 +460,8 @@ struct Measured {
     std::vector<std::string> additional;
     /// Route files of walking `<person>`s, with their types. They are the same in every condition.
     std::vector<std::string> persons;
+    /// SUMO's options that the demand was made for, `tls.actuated.jam-threshold=30`; of `kept_options`.
+    std::vector<std::string> options;
     std::vector<MeasuredType> types;
     std::optional<OwnTypes> own_types;
 

@@ -68,6 +68,7 @@ std::string lists(const Measured& measured) {
                                    text_array(measured.additional));
     // Only if there are any, so that older configurations keep their `configuration_hash`.
     if (!measured.persons.empty()) text += fmt::format("persons = {}\n", text_array(measured.persons));
+    if (!measured.options.empty()) text += fmt::format("options = {}\n", text_array(measured.options));
     if (measured.own_types) text += "\n[measured.own_types]\n" + members(*measured.own_types);
     for (const MeasuredType& type : measured.types)
         text += "\n[[measured.type]]\n" + members(type);

@@ -83,6 +83,7 @@ Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core
         core::write_atomically(prepared.route_files.back(), *content);
     }
     prepared.additional_files = additional_files(config);
+    if (config.measured) prepared.options = config.measured->options;
     prepared.additional_files.insert(prepared.additional_files.begin(), folder / "vehicle_types.add.xml");
     prepared.human = count(demand.vehicles, traffic::VehicleClass::human);
     prepared.automated = count(demand.vehicles, traffic::VehicleClass::automated);

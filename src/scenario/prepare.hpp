@@ -23,6 +23,7 @@ struct Prepared {
     /// By departure. The run adds them after the warm-up; they are in no route file, but in `emergency.csv`.
     std::vector<traffic::EmergencyDeparture> emergency;
     Times time;
+    std::vector<std::string> options;  ///< For SUMO, `name=value`.
     std::uint64_t simulator_seed = 1;  ///< For SUMO's own generator, 31 bits, not 0.
     int human = 0;
     int automated = 0;

@@ -60,6 +60,12 @@ void write_sumo_files(const ScenarioConfig& config, const BuiltNetwork& network,
                                      ? fmt::format("    <ignore-junction-blocker value=\"{}\"/>\n",
                                                    *prepared.time.ignore_junction_blocker_s)
                                      : "";
+    std::string options;
+    for (const std::string& option : prepared.options) {
+        const std::size_t equals = option.find('=');
+        options +=
+            fmt::format("    <{} value=\"{}\"/>\n", option.substr(0, equals), option.substr(equals + 1));
+    }
     const std::string additional = copied(prepared.additional_files, folder);
     core::write_atomically(
         folder / "run.sumocfg",
@@ -69,10 +75,10 @@ void write_sumo_files(const ScenarioConfig& config, const BuiltNetwork& network,
             "    <route-files value=\"{}\"/>\n"
             "    <additional-files value=\"{}\"/>\n    <begin value=\"0\"/>\n    <end value=\"{}\"/>\n"
             "    <step-length value=\"{}\"/>\n    <seed value=\"{}\"/>\n"
-            "    <time-to-teleport value=\"{}\"/>\n{}{}    <xml-validation value=\"never\"/>\n"
+            "    <time-to-teleport value=\"{}\"/>\n{}{}{}    <xml-validation value=\"never\"/>\n"
             "    <collision.action value=\"warn\"/>\n</configuration>\n",
             routes, additional, prepared.time.horizon_s, prepared.time.step_length_s, prepared.simulator_seed,
-            prepared.time.time_to_teleport_s.value_or(300.0), blockers, lateral));
+            prepared.time.time_to_teleport_s.value_or(300.0), blockers, lateral, options));
 }
 
 }  // namespace clearway::scenario

@@ -48,6 +48,7 @@ struct Sources {
     double step_length_s = 1.0;  ///< Of the SUMO scenario; SUMO's default.
     std::optional<double> time_to_teleport_s;
     std::optional<double> ignore_junction_blocker_s;
+    std::vector<std::string> options;
 };
 
 void check_folder(const std::filesystem::path& folder) {
@@ -85,6 +86,12 @@ void add_configuration(const std::filesystem::path& file, Import& import, Source
     sources.step_length_s = configuration.step_length_s;
     sources.time_to_teleport_s = configuration.time_to_teleport_s;
     sources.ignore_junction_blocker_s = configuration.ignore_junction_blocker_s;
+    sources.options = configuration.kept_options;
+    if (configuration.sublane_width_m > 0.0)
+        import.findings.changes.push_back(fmt::format(
+            "vehicles of the scenario share lanes (lateral-resolution {:g} m); here they do so only "
+            "in the sublane model: --traffic-model sublane of every verb",
+            configuration.sublane_width_m));
     if (configuration.scale != 1.0)
         import.findings.changes.push_back(fmt::format(
             "option scale of the configuration: each vehicle occurs {:g} times", configuration.scale));
@@ -298,6 +305,7 @@ void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfi
     if (has_files &&
         detail::add_sumo_demand(import, sources.demand, network, import.scenario / network_name, config)) {
         take_over_times(sources, config);
+        config.measured->options = sources.options;
         detail::compare_steps(import, try_out_demand(import, config), sources.step_length_s);
         import.findings.trial_failure = in_own_words(import.findings.trial_failure, import);
         return;

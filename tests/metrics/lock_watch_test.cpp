@@ -325,16 +325,19 @@ TEST_F(LockWatch, of_lanes_that_end_the_route_a_vehicle_waits_for_the_fullest) {
     EXPECT_EQ(finish().metrics.locks, 0U);
 }
 
-TEST_F(LockWatch, one_that_has_to_change_lanes_waits_for_the_queue_beside_it) {
-    for (const bool is_beside : {false, true}) {
+TEST_F(LockWatch, one_that_has_to_change_lanes_waits_for_the_queue_beside_it_or_behind_the_junction) {
+    drives("a1", to_the_left);
+    const auto locks = [&] {
         watch_street(false);
-        drives("a1", to_the_left);
         put("a1", 0, 99.0F);
-        if (is_beside) put("b3", 1, 99.0F);
-        fill_left_lane();
         stand(100, "r");
-        EXPECT_EQ(finish().metrics.locks, is_beside ? 0U : 1U);
-    }
+        return finish().metrics.locks;
+    };
+    EXPECT_EQ(locks(), 1U);
+    fill_left_lane();
+    EXPECT_EQ(locks(), 0U);
+    put("b3", 1, 99.0F);
+    EXPECT_EQ(locks(), 0U);
 }
 
 }  // namespace

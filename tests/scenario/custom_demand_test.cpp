@@ -92,6 +92,21 @@ TEST_F(CustomDemand, trips_longer_than_the_network_are_refused) {
     EXPECT_THAT(found[0].where, HasSubstr("trips.emergency_minimum_length_m"));
 }
 
+TEST_F(CustomDemand, only_options_that_are_kept_may_be_set_and_only_to_numbers) {
+    write("measured.rou.xml",
+          "<routes><vehicle id=\"a\" depart=\"0\"><route edges=\"first second\"/></vehicle></routes>");
+    const auto found = problems(
+        "[measured]\nroutes = [\"measured.rou.xml\"]\n"
+        "options = [\"tls.actuated.jam-treshold=30\", \"seed=4\", \"weights.random-factor=high\", "
+        "\"weights.random-factor\", \"weights.priority-factor=2\"]\n");
+    ASSERT_EQ(found.size(), 4U);
+    EXPECT_THAT(found[0].where, HasSubstr("measured.options"));
+    EXPECT_THAT(found[0].cure, HasSubstr("tls.actuated.jam-threshold"));
+    EXPECT_THAT(found[1].what, HasSubstr("\"seed\" is not known"));
+    EXPECT_THAT(found[2].what, HasSubstr("has no number"));
+    EXPECT_THAT(found[3].what, HasSubstr("has no number"));
+}
+
 TEST_F(CustomDemand, measured_types_must_be_listed) {
     write("measured.rou.xml",
           "<routes><vehicle id=\"a\" type=\"lorry\" depart=\"0\"><route edges=\"first second\"/></vehicle>"

@@ -36,6 +36,12 @@ class MapImport : public ImportTest {
 /// 40 streets in two directions; at two corners the streets have one name and become one edge.
 constexpr std::size_t town_edges = 76;
 
+TEST_F(MapImport, a_wide_map_of_slow_roads_has_a_horizon_by_which_its_trips_arrive) {
+    const Findings findings = run(request({write("wide.osm", town_map(13.0, 51.0, "living_street", 0.01))}));
+    EXPECT_THAT(findings.demand, HasSubstr("all have arrived after"));
+    EXPECT_GT(scenario::load((out() / "town").string()).time.horizon_s, 3600.0);
+}
+
 TEST_F(MapImport, makes_a_scenario_that_loads_with_sites_signals_and_a_level) {
     const Findings findings = run(request({write("town.osm", town_map())}));
     EXPECT_EQ(findings.car_edges, town_edges);

@@ -305,6 +305,16 @@ TEST_F(SumoDemand, fast_departures_stay_as_fast_as_their_drivers_may_be) {
     EXPECT_THAT(traffic(), AllOf(HasSubstr("departSpeed=\"58\""), HasSubstr("departSpeed=\"max\"")));
 }
 
+TEST_F(SumoDemand, options_of_actuated_signals_and_rerouting_reach_every_run) {
+    run(configured(cars(9),
+                   "<tls.actuated.jam-threshold value='30'/><device.rerouting.adaptation-steps "
+                   "value='18'/><weights.random-factor value='1.5'/>"));
+    EXPECT_THAT(scenario::load((out() / "town").string()).measured->options,
+                ElementsAre("tls.actuated.jam-threshold=30", "device.rerouting.adaptation-steps=18",
+                            "weights.random-factor=1.5"));
+    EXPECT_THAT(prepared().options, testing::SizeIs(3));
+}
+
 TEST_F(SumoDemand, all_options_that_shape_traffic_are_named) {
     const Findings findings =
         run(configured(cars(9),
@@ -313,8 +323,10 @@ TEST_F(SumoDemand, all_options_that_shape_traffic_are_named) {
                        "value='off'/><delay value='9'/>"
                        "<tripinfo-output value='x'/>"));
     EXPECT_THAT(findings.left_out,
-                Contains("3 options of the configuration that are not taken over (max-depart-delay = 5, "
-                         "lateral-resolution = 1, time-to-teleport.highways = 0)"));
+                Contains("2 options of the configuration that are not taken over (max-depart-delay = 5, "
+                         "time-to-teleport.highways = 0)"));
+    EXPECT_THAT(findings.changes, Contains(AllOf(HasSubstr("share lanes (lateral-resolution 1 m)"),
+                                                 HasSubstr("--traffic-model sublane"))));
     const scenario::ScenarioConfig config = scenario::load((out() / "town").string());
     EXPECT_EQ(config.time.time_to_teleport_s, 60.0);
     EXPECT_EQ(config.time.step_length_s, 0.25);

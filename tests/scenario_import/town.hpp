@@ -16,12 +16,11 @@
 
 namespace clearway::scenario_import {
 
-/// A map as text: five by five crossings, 0.002 degrees apart, joined by streets of class `highway`, with a
-/// hospital and a fire station beside crossings. `longitude` is that of the western edge.
+/// A map as text: five by five crossings, `spacing` degrees apart, joined by streets of class `highway`, with
+/// a hospital and a fire station beside crossings. `longitude` is that of the western edge.
 inline std::string town_map(double longitude = 13.0, double latitude = 51.0,
-                            const char* highway = "secondary") {
+                            const char* highway = "secondary", double spacing = 0.002) {
     constexpr int side = 5;
-    constexpr double spacing = 0.002;
     std::string xml = "<?xml version='1.0' encoding='UTF-8'?>\n<osm version='0.6'>\n";
     const auto node = [&](int row, int column) { return 1 + row * side + column; };
     for (int row = 0; row < side; ++row)

@@ -126,7 +126,7 @@ const LaneWay* LockWatch::way_of(const Look& look, std::uint32_t row, core::Lane
 bool LockWatch::leads_on(const LaneWay& way, const std::vector<core::EdgeIndex>& route,
                          std::size_t next) const {
     const std::vector<LaneWay>& beyond = layout_.chain.ways[lane_beyond(way).value];
-    return next + 1 == route.size() ||
+    return next + 1 >= route.size() ||
            std::ranges::find(beyond, route[next + 1], &LaneWay::next) != beyond.end();
 }
 
@@ -189,11 +189,27 @@ std::uint32_t LockWatch::ahead_of(const Look& look, std::uint32_t row) const {
     const std::uint32_t ahead = at_end ? ahead_on(look, row, way) : nothing;
     if (ahead != nothing) return ahead;
     const std::uint32_t crossing = across(look, is_inside(lane) ? lane : way->onto, row);
-    if (crossing != nothing || is_inside(lane)) return crossing;
     const traffic::VehicleInfo* const info = look.roster.find(look.snapshot.key[row]);
-    const bool in_its_lane = info == nullptr || leads_on(*way, look.roster.route(info->route),
-                                                         look.snapshot.route_edge[row] + std::size_t{1});
-    return in_its_lane ? nothing : beside(look, row, lane);
+    if (crossing != nothing || info == nullptr) return crossing;
+    const std::vector<core::EdgeIndex>& route = look.roster.route(info->route);
+    if (leads_on(*way, route, look.snapshot.route_edge[row] + std::size_t{1})) return nothing;
+    const std::uint32_t neighbour = is_inside(lane) ? nothing : beside(look, row, lane);
+    return neighbour != nothing ? neighbour : beyond(look, row, *way, route);
+}
+
+std::uint32_t LockWatch::beyond(const Look& look, std::uint32_t row, const LaneWay& way,
+                                const std::vector<core::EdgeIndex>& route) const {
+    const std::size_t after = look.snapshot.route_edge[row] + std::size_t{2};
+    const auto& edge = layout_.chain.edge;
+    for (std::uint32_t lane = 0; lane < edge.size(); ++lane) {
+        if (edge[lane] != way.next || last_on_lane_[lane] == nothing) continue;
+        const bool leads = after >= route.size() ||
+                           std::ranges::find(layout_.chain.ways[lane], route[after], &LaneWay::next) !=
+                               layout_.chain.ways[lane].end();
+        if (leads && room_on_m(look, core::LaneIndex{lane}) <= length_m(look, row) + queue_gap_m)
+            return order_[last_on_lane_[lane]];
+    }
+    return nothing;
 }
 
 std::uint32_t LockWatch::beside(const Look& look, std::uint32_t row, core::LaneIndex lane) const {

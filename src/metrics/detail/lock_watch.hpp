@@ -55,6 +55,10 @@ class LockWatch {
     bool is_inside(core::LaneIndex lane) const;
     /// Who holds the lanes beside one from which a vehicle has to change, or `nothing`.
     std::uint32_t beside(const Look& look, std::uint32_t row, core::LaneIndex lane) const;
+    /// Who fills the lanes behind the junction that lead on, where that of its own way does not, or
+    /// `nothing`.
+    std::uint32_t beyond(const Look& look, std::uint32_t row, const LaneWay& way,
+                         const std::vector<core::EdgeIndex>& route) const;
     /// Whether the lane behind a way onto edge `next` of a route leads to the edge after it.
     bool leads_on(const LaneWay& way, const std::vector<core::EdgeIndex>& route, std::size_t next) const;
     /// The lane behind the junction that a way leads across.

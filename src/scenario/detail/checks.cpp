@@ -1,6 +1,8 @@
 #include "scenario/detail/checks.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <string>
 
@@ -136,6 +138,21 @@ void check_density(const ScenarioConfig& config, Problems& problems) {
                             fmt::format("0 to {}", largest), "lower --density"});
 }
 
+void check_option(const ScenarioConfig& config, const std::string& option, Problems& problems) {
+    const std::size_t equals = std::min(option.find('='), option.size());
+    const std::string name = option.substr(0, equals);
+    const std::vector<std::string> known(kept_options.begin(), kept_options.end());
+    char* end = nullptr;
+    const char* const value = option.c_str() + std::min(equals + 1, option.size());
+    const bool is_number = std::isfinite(std::strtod(value, &end)) && end != value && *end == '\0';
+    if (std::ranges::find(known, name) == known.end())
+        problems.push_back({config.where("measured.options"), fmt::format("\"{}\" is not known", name),
+                            core::listed(known), core::did_you_mean(name, known)});
+    else if (!is_number)
+        problems.push_back({config.where("measured.options"), fmt::format("\"{}\" has no number", option),
+                            name + "=NUMBER", ""});
+}
+
 void check_measured(const ScenarioConfig& config, Problems& problems) {
     if (!config.measured) return;
     const Measured& measured = *config.measured;
@@ -158,6 +175,8 @@ void check_measured(const ScenarioConfig& config, Problems& problems) {
         check_file(config, "measured.additional", path, problems);
     for (const std::string& path : measured.persons)
         check_file(config, "measured.persons", path, problems);
+    for (const std::string& option : measured.options)
+        check_option(config, option, problems);
     if (measured.own_types) {
         require_text(config, "measured.own_types.file", measured.own_types->file, problems);
         check_file(config, "measured.own_types.file", measured.own_types->file, problems);

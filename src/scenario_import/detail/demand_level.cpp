@@ -28,7 +28,7 @@ constexpr double usual_density = 20.0;
 /// Runs shares of a demand.
 class Probe {
   public:
-    explicit Probe(Import& import) : import_(import) {}
+    Probe(Import& import, double horizon_s) : import_(import), horizon_s_(horizon_s) {}
 
     LoadFault try_share(const scenario::Prepared& demand, double share) {
         const std::filesystem::path summary = import_.work / "summary.xml";
@@ -36,7 +36,7 @@ class Probe {
         std::vector<std::string> arguments = sumo_arguments(demand);
         for (const std::string& word :
              {std::string("--step-length"), std::string("1"), std::string("--scale"),
-              fmt::format("{:.4f}", share), std::string("--end"), fmt::format("{}", demand_horizon_s),
+              fmt::format("{:.4f}", share), std::string("--end"), fmt::format("{}", horizon_s_),
               std::string("--summary-output"), summary.string(), std::string("--summary-output.period"),
               std::string("10"), std::string("--no-warnings")})
             arguments.push_back(word);
@@ -62,6 +62,7 @@ class Probe {
 
   private:
     Import& import_;
+    double horizon_s_;
     double free_speed_ = 0.0;
     Load load_;
     bool has_room_ = false;
@@ -95,7 +96,7 @@ struct Carried {
     bool has_room = false;
 };
 
-std::string words_of(LoadFault fault, const Import& import) {
+std::string words_of(LoadFault fault, const Import& import, double horizon_s) {
     switch (fault) {
         case LoadFault::fails:
             return fmt::format("SUMO fails:\n{}", complaint(import.work / "probe.log"));
@@ -106,18 +107,18 @@ std::string words_of(LoadFault fault, const Import& import) {
         case LoadFault::teleports:
             return "more than 1 % of them stand for 300 s, and SUMO teleports them";
         case LoadFault::stays:
-            return fmt::format("some have not arrived after {:.0f} s", demand_horizon_s);
+            return fmt::format("some have not arrived after {:.0f} s", horizon_s);
         case LoadFault::none:
             break;
     }
     return "";
 }
 
-[[noreturn]] void refuse_every_level(const Import& import, LoadFault fault, int cars) {
+[[noreturn]] void refuse_every_level(const Import& import, LoadFault fault, int cars, double horizon_s) {
     throw core::InputError(core::Problem{
         import.request.files.front().string(),
         fmt::format("cannot carry any level of demand: of {} cars in {:.0f} s, {}", cars, demand_window_s,
-                    words_of(fault, import)),
+                    words_of(fault, import, horizon_s)),
         "a network that empties at some level of demand",
         fault == LoadFault::fails
             ? "correct what SUMO names, or import another part of the map"
@@ -147,10 +148,11 @@ DemandLevel find_level(Import& import, scenario::ScenarioConfig& config, int mos
     set_cars(config, most, import.request.automated_share);
     const int lowest_rung = lowest_rung_of(most);
     const Tried tried = make_demand(import, config);
-    Probe probe(import);
+    Probe probe(import, config.time.horizon_s);
     LoadFault fault = probe.try_share(tried.demand, share_of(lowest_rung));
     if (fault == LoadFault::fails) require_load(import, tried.demand);
-    if (fault != LoadFault::none) refuse_every_level(import, fault, cars_on(lowest_rung, most));
+    if (fault != LoadFault::none)
+        refuse_every_level(import, fault, cars_on(lowest_rung, most), config.time.horizon_s);
     probe.take_as_free_flow();
     Carried best{lowest_rung, probe.load(), probe.has_room()};
     for (int too_high = -1, rung = first_rung(import.findings.lane_km, most, lowest_rung);
@@ -169,7 +171,8 @@ DemandLevel find_level(Import& import, scenario::ScenarioConfig& config, int mos
                          : fault_of_more(tried.network, config, import.work / "more", probe);
     };
     while ((fault = fault_of_best()) != LoadFault::none) {
-        if (++best.rung > lowest_rung) refuse_every_level(import, fault, cars_on(lowest_rung, most));
+        if (++best.rung > lowest_rung)
+            refuse_every_level(import, fault, cars_on(lowest_rung, most), config.time.horizon_s);
         probe.try_share(tried.demand, share_of(best.rung));
         best.load = probe.load();
     }

@@ -62,24 +62,27 @@ std::string mean_time_loss(Import& import, const scenario::Prepared& demand, dou
 }  // namespace
 
 std::vector<std::string> sumo_arguments(const scenario::Prepared& prepared) {
-    return {"--net-file",
-            prepared.network_file.string(),
-            "--route-files",
-            joined(prepared.route_files),
-            "--additional-files",
-            joined(prepared.additional_files),
-            "--xml-validation",
-            "never",
-            "--xml-validation.net",
-            "never",
-            "--xml-validation.routes",
-            "never",
-            "--no-step-log",
-            "--duration-log.disable",
-            "--route-steps",
-            "0",
-            "--collision.action",
-            "warn"};
+    std::vector<std::string> arguments = {"--net-file",
+                                          prepared.network_file.string(),
+                                          "--route-files",
+                                          joined(prepared.route_files),
+                                          "--additional-files",
+                                          joined(prepared.additional_files),
+                                          "--xml-validation",
+                                          "never",
+                                          "--xml-validation.net",
+                                          "never",
+                                          "--xml-validation.routes",
+                                          "never",
+                                          "--no-step-log",
+                                          "--duration-log.disable",
+                                          "--route-steps",
+                                          "0",
+                                          "--collision.action",
+                                          "warn"};
+    for (const std::string& option : prepared.options)
+        arguments.push_back("--" + option);
+    return arguments;
 }
 
 Tried make_demand(Import& import, scenario::ScenarioConfig& config) {

@@ -22,6 +22,18 @@ int most_cars(const Findings& findings) {
         std::clamp(per_lane_km_hour * findings.lane_km * demand_window_s / 3600.0, fewest, most)));
 }
 
+/// Time for a trip between places `distance_m` apart, with a detour of a half and half of the mean limit.
+double longest_trip_s(const roads::Network& network, double distance_m) {
+    double metres = 0.0;
+    double seconds = 0.0;
+    for (const roads::Lane& lane : network.lanes()) {
+        if (!lane.allows_cars || network.edge(lane.edge).internal) continue;
+        metres += lane.length_m;
+        seconds += lane.length_m / lane.speed_limit_mps;
+    }
+    return 3.0 * distance_m * seconds / metres;
+}
+
 std::string describe(const scenario::ScenarioConfig& config, const DemandLevel& level, double lane_km) {
     const char* const places =
         config.trips.ends == scenario::TripEnds::reachable
@@ -67,7 +79,6 @@ void add_synthetic_demand(Import& import, scenario::ScenarioConfig& config, cons
     const double diagonal = diagonal_m(network);
     config.time.warm_up_s = 300.0;
     config.time.window_s = demand_window_s;
-    config.time.horizon_s = demand_horizon_s;
     config.demand.emergency = 6;
     config.trips.minimum_length_m = std::floor(std::min(500.0, 0.25 * diagonal));
     config.trips.emergency_minimum_length_m = std::floor(std::min(1000.0, 0.4 * diagonal));
@@ -75,6 +86,9 @@ void add_synthetic_demand(Import& import, scenario::ScenarioConfig& config, cons
     constexpr std::size_t large = 3000;
     if (import.findings.car_edges > large)
         config.trips.maximum_distance_m = std::floor(std::clamp(0.25 * diagonal, 3000.0, 6000.0));
+    const double longest_m = config.trips.maximum_distance_m.value_or(diagonal);
+    config.time.horizon_s =
+        std::max(demand_horizon_s, std::ceil(demand_window_s + longest_trip_s(network, longest_m)));
 
     Findings& findings = import.findings;
     const DemandLevel level = find_level(import, config, most_cars(findings));

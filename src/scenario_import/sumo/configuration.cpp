@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "scenario/config.hpp"
 #include "scenario_import/detail/element.hpp"
 #include "scenario_import/detail/source.hpp"
 
@@ -163,8 +164,13 @@ class ConfigurationReader {
             configuration_.rerouting.share = *number(value);
         else if (name == "device.rerouting.period" && time_s(value).value_or(-1.0) >= 0.0)
             configuration_.rerouting.period_s = *time_s(value);
+        else if (name == "lateral-resolution" && number(value).value_or(-1.0) > 0.0)
+            configuration_.sublane_width_m = *number(value);
         else if (name == "ignore-route-errors")
             configuration_.ignores_route_errors = is_true(value);
+        else if (std::ranges::find(scenario::kept_options, name) != scenario::kept_options.end() &&
+                 time_s(value))
+            configuration_.kept_options.push_back(fmt::format("{}={:g}", name, *time_s(value)));
         else if (!is_harmless(name) && (number(value) || !is_false(value)))
             configuration_.other_options.push_back(fmt::format("{} = {}", name, value));
     }

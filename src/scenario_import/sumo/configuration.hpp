@@ -23,8 +23,10 @@ struct Configuration {
     /// After which a vehicle that stands inside a junction no longer blocks it; -1: never. Nothing: SUMO's
     /// default.
     std::optional<double> ignore_junction_blocker_s;
+    double sublane_width_m = 0.0;  ///< Of the sublane model (`lateral-resolution`); 0: lanes are whole.
     bool ignores_route_errors = false;
     Rerouting rerouting;
+    std::vector<std::string> kept_options;   ///< As scenario::Measured::options.
     std::vector<std::string> other_options;  ///< Set there, but not taken over: `time-to-teleport = 60`.
 };
 
