@@ -1,4 +1,5 @@
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -16,50 +17,58 @@
 namespace clearway::cli {
 namespace {
 
-enum class Pixels { png, none };
+enum class Formats { all, svg };
 
 struct Arguments {
     std::filesystem::path folder;
     std::filesystem::path output;
     double least_relevant_s = report::usual_least_relevant_s;
-    Pixels pixels = Pixels::png;
+    Formats formats = Formats::all;
 };
 
 constexpr const char* rasteriser = "rsvg-convert";
 constexpr const char* scale = "3";  // 1200 pixels across: enough for a column of print at 300 dpi
 
-/// Draws SVG files as PNG files beside them. Throws core::EnvironmentError when the program is missing or
+/// Converts SVG files to files beside them. Throws core::EnvironmentError when the program is missing or
 /// fails.
-void draw_pixels(const std::vector<std::filesystem::path>& drawings) {
+void convert(const std::vector<std::filesystem::path>& drawings, const std::string& format) {
     const core::TemporaryFolder folder;
     for (const std::filesystem::path& drawing : drawings) {
         std::filesystem::path picture = drawing;
-        picture.replace_extension(".png");
+        picture.replace_extension("." + format);
         const std::filesystem::path log = folder.path() / "log";
         const core::Exit exit =
             core::run({.program = rasteriser,
-                       .arguments = {"--zoom", scale, "--output", picture.string(), drawing.string()},
+                       .arguments = {"--format", format, "--zoom", format == "png" ? scale : "1", "--output",
+                                     picture.string(), drawing.string()},
                        .output = log});
         if (exit.ok()) continue;
         if (exit.code == campaign::program_not_started)
-            throw core::EnvironmentError(
-                fmt::format("{} cannot be started; it draws PNG files. Install the package librsvg2-bin, or "
-                            "give --no-png. "
-                            "The SVG, CSV and LaTeX files are written",
-                            rasteriser));
+            throw core::EnvironmentError(fmt::format(
+                "{} cannot be started; it makes PDF and PNG files. Install the package "
+                "librsvg2-bin, or give --svg-only. The SVG, CSV and LaTeX files and index.html are "
+                "written",
+                rasteriser));
         throw core::EnvironmentError(fmt::format("{}: {} ended with {}: {}", drawing.string(), rasteriser,
                                                  exit.describe(), core::tail(log, 3)));
     }
 }
 
 core::ExitCode write(const Arguments& arguments) {
-    const bool pixels = arguments.pixels == Pixels::png;
+    const bool all = arguments.formats == Formats::all;
     const report::StudyFacts facts = report::read_facts(arguments.folder, arguments.least_relevant_s);
     const report::FigureFiles files = report::write_figures(facts, arguments.output);
-    if (pixels) draw_pixels(files.drawings);
+    report::write_index(files, arguments.output, {});
+    if (all) {
+        const std::vector<std::string> converted = {"pdf", "png"};
+        for (const std::string& format : converted)
+            convert(files.drawings, format);
+        report::write_index(files, arguments.output, converted);
+    }
     fmt::print(stderr,
-               "clearway: written to {}: {} figures as SVG{}, {} tables as CSV, {} of them as LaTeX\n",
-               arguments.output.string(), files.drawings.size(), pixels ? " and PNG" : "",
+               "clearway: written to {}: {} figures as SVG{}, {} tables as CSV, {} of them as LaTeX; all "
+               "are on index.html\n",
+               arguments.output.string(), files.drawings.size(), all ? ", PDF and PNG" : "",
                files.tables.size(), files.typeset.size());
     return core::ExitCode::ok;
 }
@@ -79,8 +88,8 @@ Action configure_figures(CLI::App& app) {
         ->check(core::NumberRange{0.0, 1e6})
         ->option_text(fmt::format("SECONDS, 0 to 1e6 [{}]", arguments->least_relevant_s));
     app.add_flag_callback(
-           "--no-png", [arguments] { arguments->pixels = Pixels::none; },
-           "Write no PNG files, which need the program rsvg-convert")
+           "--svg-only", [arguments] { arguments->formats = Formats::svg; },
+           "Write no PDF and no PNG files, which need the program rsvg-convert")
         ->option_text("[off]");
     return [arguments](const Invocation&) { return write(*arguments); };
 }

@@ -102,8 +102,8 @@ Figure curve_figure(const EquipmentFacts& facts) {
     for (const EquippedSignal& signal : facts.ranked)
         gains.include_all(signal.so_far);
     Chart plot(fmt::format("{}: gain against number of signals equipped", facts.title), 260.0,
-               {padded(numbers, 0.05), "signals equipped", 0.0, 0.0, Scale::whole},
-               {padded(gains, 0.1), "emergency vehicles gain, s a trip"});
+               {padded(numbers, 0.05), "signals equipped, number", 0.0, 0.0, Scale::whole},
+               {padded(gains, 0.1), labelled(primary, "gain")});
     plot.horizontal(0.0);
     Points points = {{0.0, 0.0}};
     for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank) {
@@ -140,7 +140,7 @@ Figure candidates_figure(const EquipmentFacts& facts) {
         gains.include(one.gain);
     const double bottom = top_edge + row_height * static_cast<double>(drawn.size());
     Plot plot(fmt::format("{}: gain of each candidate alone", facts.title), bottom + label_space,
-              {padded(gains, 0.05), "an emergency vehicle gains, s a trip", names_end + 8.0, right_edge},
+              {padded(gains, 0.05), labelled(primary, "gain"), names_end + 8.0, right_edge},
               {{0.0, 1.0}, "", bottom, top_edge});
     plot.grid_x();
     plot.vertical(0.0);

@@ -2,17 +2,19 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace clearway::report {
 
 const std::array<MeasureInfo, measure_count>& measures() {
     using M = Measure;
     static constexpr std::array<MeasureInfo, measure_count> table = {{
-        {M::emergency_waiting_time, "emergency_waiting_time_s", "Emergency waiting time", "s",
+        {M::emergency_waiting_time, "emergency_waiting_time_s", "EV waiting time", "s",
          "Time that an emergency vehicle (EV) stands (below 0.1 m/s), mean over the EVs that entered.",
          Better::lower, Relevance::least, 1.0},
-        {M::emergency_depart_delay, "emergency_depart_delay_s", "Depart delay, EV", "s",
+        {M::emergency_depart_delay, "emergency_depart_delay_s", "EV depart delay", "s",
          "Time that an EV waits for a gap to enter the network.", Better::lower, Relevance::least, 1.0},
-        {M::waiting_time, "waiting_time_s", "Average waiting time", "s",
+        {M::waiting_time, "waiting_time_s", "Waiting time, all", "s",
          "Time that a vehicle stands, mean over all that entered.", Better::lower, Relevance::any, 1.0},
         {M::emergency_restricted_time, "emergency_restricted_travel_time_s", "EV travel time, all", "s",
          "From entering the network to arriving, restricted mean over all EVs: one that did not arrive "
@@ -48,6 +50,12 @@ const std::array<MeasureInfo, measure_count>& measures() {
 
 const MeasureInfo& info(Measure measure) {
     return measures()[static_cast<std::size_t>(measure)];
+}
+
+std::string labelled(Measure measure, const std::string& what) {
+    const MeasureInfo& one = info(measure);
+    return what.empty() ? fmt::format("{}, {}", one.title, one.unit)
+                        : fmt::format("{}: {}, {}", one.title, what, one.unit);
 }
 
 std::size_t ScenarioFacts::place_of(const std::string& condition) const {

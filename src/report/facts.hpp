@@ -65,6 +65,8 @@ struct MeasureInfo {
 /// All measures, indexed by `Measure`.
 const std::array<MeasureInfo, measure_count>& measures();
 const MeasureInfo& info(Measure measure);
+/// `EV travel time, all, s`: title, what of it (`difference`; may be empty) and unit, for axes and columns.
+std::string labelled(Measure measure, const std::string& what = "");
 
 /// Half width of the interval of the difference in restricted mean EV travel time after a number of
 /// replications.

@@ -1,10 +1,14 @@
 #include "report/figure_files.hpp"
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "core/files.hpp"
 #include "report/detail/figures.hpp"
+#include "report/detail/style.hpp"
 #include "report/detail/table_files.hpp"
 #include "report/sections/sections.hpp"
 
@@ -17,6 +21,8 @@ using detail::Table;
 class FileWriter : public detail::Writer {
   public:
     explicit FileWriter(const std::filesystem::path& folder) : folder_(folder) {}
+
+    void begin(const char* section) { section_ = section; }
 
     void markup(std::string_view /*html*/) override {}
     const FigureFiles& files() const { return files_; }
@@ -31,25 +37,83 @@ class FileWriter : public detail::Writer {
         files_.drawings.push_back(write(figure.name, ".svg", detail::standalone(figure.drawing)));
         if (!figure.data.rows.empty())
             files_.tables.push_back(write(figure.name, ".csv", detail::to_csv(figure.data)));
+        files_.entries.push_back(
+            {section_, figure.name, figure.caption, figure.note, true, !figure.data.rows.empty()});
     }
     void put(const Table& table) override {
         files_.tables.push_back(write(table.name, ".csv", detail::to_csv(table.data)));
-        files_.typeset.push_back(write(table.name, ".tex", detail::to_latex(table.data)));
+        files_.typeset.push_back(write(table.name, ".tex", detail::to_latex(table)));
+        files_.entries.push_back({section_, table.name, table.caption, "", false, true});
     }
 
     std::filesystem::path folder_;
+    std::string section_;
     FigureFiles files_;
 };
 
+std::string link(const std::string& name, const std::string& ending) {
+    return fmt::format(" <a href=\"{0}.{1}\">{1}</a>", name, ending);
+}
+
+std::string entry_markup(const FigureEntry& entry, const std::vector<std::string>& more) {
+    std::string html = fmt::format("<figure id=\"{}\"><figcaption>{}<span class=\"save\">", entry.name,
+                                   escaped(entry.caption));
+    if (entry.is_drawing) {
+        html += link(entry.name, "svg");
+        for (const std::string& ending : more)
+            html += link(entry.name, ending);
+    }
+    if (entry.has_data) html += link(entry.name, "csv");
+    if (!entry.is_drawing) html += link(entry.name, "tex");
+    html += "</span></figcaption>\n";
+    if (entry.is_drawing) {
+        const bool has_pdf = std::ranges::find(more, "pdf") != more.end();
+        html += fmt::format(
+            "<a href=\"{0}.svg\"><img src=\"{0}.svg\" alt=\"{1}\"></a>\n<p class=\"note\">{2}</p>\n"
+            "<details><summary>LaTeX</summary><pre>{3}</pre></details>\n",
+            entry.name, escaped(entry.caption), escaped(entry.note),
+            escaped(
+                fmt::format("\\begin{{figure}}\n\\centering\n\\includegraphics[width=\\linewidth]{{{0}{1}}}\n"
+                            "\\caption{{{2}}}\n\\label{{fig:{0}}}\n\\end{{figure}}",
+                            entry.name, has_pdf ? ".pdf" : "", detail::latex_escaped(entry.caption))));
+    }
+    return html + "</figure>\n";
+}
+
 }  // namespace
+
+void write_index(const FigureFiles& files, const std::filesystem::path& folder,
+                 const std::vector<std::string>& more) {
+    std::string html = fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+        "<link rel=\"icon\" href=\"data:,\">\n<title>{0}: figures</title>\n<style>{1}\n"
+        "img{{display:block;width:100%;background:#fff}}</style>\n</head>\n<body>\n"
+        "<header>\n<h1>{0}: figures and tables</h1>\n</header>\n<main>\n",
+        escaped(files.title), detail::page_style());
+    std::string section;
+    for (const FigureEntry& entry : files.entries) {
+        if (entry.section != section)
+            html += fmt::format("{}<h2>{}</h2>\n<div class=\"figures\">\n", section.empty() ? "" : "</div>\n",
+                                entry.section);
+        section = entry.section;
+        html += entry_markup(entry, more);
+    }
+    html += section.empty() ? "<p>Nothing to draw.</p>\n" : "</div>\n";
+    core::write_atomically(folder / "index.html", html + "</main>\n</body>\n</html>\n");
+}
 
 FigureFiles write_figures(const StudyFacts& study, const std::filesystem::path& folder) {
     core::make_folder(folder);
     FileWriter writer(folder);
     for (const detail::Section& section : detail::sections()) {
-        if (section.applies(study)) section.write(study, writer);
+        if (!section.applies(study)) continue;
+        writer.begin(section.title);
+        section.write(study, writer);
     }
-    return writer.files();
+    FigureFiles files = writer.files();
+    files.title = study.title;
+    return files;
 }
 
 }  // namespace clearway::report

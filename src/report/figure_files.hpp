@@ -1,22 +1,40 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "report/facts.hpp"
 
 namespace clearway::report {
 
+/// A figure or a table among the files.
+struct FigureEntry {
+    std::string section;  ///< Title of the section that it is from.
+    std::string name;     ///< Of its files, without ending.
+    std::string caption, note;
+    bool is_drawing = false;
+    bool has_data = false;  ///< Whether there is a CSV file.
+};
+
 /// What `write_figures` wrote.
 struct FigureFiles {
+    std::string title;                            ///< Of the study.
     std::vector<std::filesystem::path> drawings;  ///< SVG.
     std::vector<std::filesystem::path> tables;    ///< CSV, of figures and of tables.
     std::vector<std::filesystem::path> typeset;   ///< LaTeX, of tables.
+    std::vector<FigureEntry> entries;             ///< In the order of the report.
 };
 
 /// Writes every figure of the report as NAME.svg, on white paper, and its data as NAME.csv; every table as
 /// NAME.csv and NAME.tex. Names are those of the page's downloads. Makes the folder. Throws
 /// core::EnvironmentError when it cannot be written.
 FigureFiles write_figures(const StudyFacts& study, const std::filesystem::path& folder);
+
+/// Writes `index.html` into the folder of the files: every figure and table with its caption and its files,
+/// and the LaTeX that includes a figure. `more` are endings of files that were made of each drawing, such as
+/// `pdf`.
+void write_index(const FigureFiles& files, const std::filesystem::path& folder,
+                 const std::vector<std::string>& more);
 
 }  // namespace clearway::report

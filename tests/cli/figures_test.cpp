@@ -35,7 +35,7 @@ class FiguresTest : public UserTest {
     }
 };
 
-TEST_F(FiguresTest, every_drawing_becomes_svg_and_png_and_every_table_csv_and_latex) {
+TEST_F(FiguresTest, every_drawing_becomes_svg_pdf_and_png_and_every_table_csv_and_latex) {
     run();
     const Ended ended = clearway({"export", "figures", "study", "--out", "new/figures"});
     ASSERT_EQ(ended.code, 0) << ended.err;
@@ -43,34 +43,43 @@ TEST_F(FiguresTest, every_drawing_becomes_svg_and_png_and_every_table_csv_and_la
     const auto count = files("new/figures");
     EXPECT_GE(count.at(".svg"), 5U);
     EXPECT_EQ(count.at(".png"), count.at(".svg"));
+    EXPECT_EQ(count.at(".pdf"), count.at(".svg"));
     EXPECT_GE(count.at(".tex"), 3U);
     EXPECT_GE(count.at(".csv"), count.at(".tex"));
     EXPECT_THAT(ended.err,
                 HasSubstr("written to new/figures: " + std::to_string(count.at(".svg")) +
-                          " figures as SVG and PNG, " + std::to_string(count.at(".csv")) +
+                          " figures as SVG, PDF and PNG, " + std::to_string(count.at(".csv")) +
                           " tables as CSV, " + std::to_string(count.at(".tex")) + " of them as LaTeX"));
     EXPECT_TRUE(read("new/figures/tradeoff-line.png").starts_with("\x89PNG"));
+    EXPECT_TRUE(read("new/figures/tradeoff-line.pdf").starts_with("%PDF-"));
+    const std::string index = read("new/figures/index.html");
+    for (const auto& entry : std::filesystem::directory_iterator(folder() / "new/figures")) {
+        const std::string name = entry.path().filename();
+        if (name != "index.html") EXPECT_THAT(index, HasSubstr("href=\"" + name + "\"")) << name;
+    }
     EXPECT_THAT(read("new/figures/times-line.tex"), HasSubstr("\\toprule"));
 }
 
-TEST_F(FiguresTest, without_png_no_other_program_is_needed) {
+TEST_F(FiguresTest, with_svg_only_no_other_program_is_needed) {
     run();
     const Environment bare = without_rasteriser();
-    const Ended ended = clearway({"export", "figures", "study", "--out", "figures", "--no-png"}, bare);
+    const Ended ended = clearway({"export", "figures", "study", "--out", "figures", "--svg-only"}, bare);
     ASSERT_EQ(ended.code, 0) << ended.err;
-    EXPECT_THAT(ended.err, AllOf(HasSubstr("figures as SVG, "), Not(HasSubstr("PNG"))));
-    EXPECT_EQ(files("figures").count(".png"), 0U);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("figures as SVG, "), Not(HasSubstr("PDF"))));
+    EXPECT_EQ(files("figures").count(".png") + files("figures").count(".pdf"), 0U);
+    EXPECT_THAT(read("figures/index.html"), AllOf(HasSubstr("tradeoff-line.svg"), Not(HasSubstr(".pdf\""))));
     const Ended lacking = clearway({"export", "figures", "study", "--out", "others"}, bare);
     EXPECT_EQ(lacking.code, 4);
     EXPECT_THAT(lacking.err, AllOf(HasSubstr("rsvg-convert cannot be started"), HasSubstr("librsvg2-bin"),
-                                   HasSubstr("--no-png"), HasSubstr("SVG, CSV and LaTeX files are written")));
+                                   HasSubstr("--svg-only"),
+                                   HasSubstr("SVG, CSV and LaTeX files and index.html are written")));
     EXPECT_EQ(files("others"), files("figures"));
 }
 
 TEST_F(FiguresTest, a_second_time_gives_the_same_bytes) {
     run();
-    ASSERT_EQ(clearway({"export", "figures", "study", "--out", "one", "--no-png"}).code, 0);
-    ASSERT_EQ(clearway({"export", "figures", "study", "--out", "two", "--no-png"}).code, 0);
+    ASSERT_EQ(clearway({"export", "figures", "study", "--out", "one", "--svg-only"}).code, 0);
+    ASSERT_EQ(clearway({"export", "figures", "study", "--out", "two", "--svg-only"}).code, 0);
     for (const auto& entry : std::filesystem::directory_iterator(folder() / "one")) {
         const std::string name = entry.path().filename();
         EXPECT_EQ(read("one/" + name), read("two/" + name)) << name;

@@ -14,6 +14,7 @@
 namespace clearway::report::detail {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -39,13 +40,32 @@ TEST(TableFiles, SplitIntervalsIntoColumnsOfTheirOwn) {
 }
 
 TEST(TableFiles, AreEscapedForLatex) {
-    DataTable table{{"a_b", "50 %"}, {{"x & {y} \\ ~ ^ # $", "\u22121.0"}}};
-    EXPECT_EQ(to_latex(table),
-              "\\begin{tabular}{lr}\n\\toprule\na\\_b & 50 \\% \\\\\n\\midrule\n"
-              "x \\& \\{y\\} \\textbackslash{} \\textasciitilde{} \\textasciicircum{} \\# \\$ & $-$1.0 \\\\\n"
-              "\\bottomrule\n\\end{tabular}\n");
-    table.cells = DataTable::Cells::words;
-    EXPECT_THAT(to_latex(table), HasSubstr("{ll}"));
+    Table table{"a-b", "50 % of a_b", {{"a_b", "50 %"}, {{"x & {y} \\ ~ ^ # $ < >", "\u22121.0"}}}};
+    EXPECT_EQ(
+        to_latex(table),
+        "% needs \\usepackage{booktabs,siunitx}\n\\begin{table}\n\\centering\n\\caption{50 \\% of a\\_b}\n"
+        "\\label{tab:a-b}\n\\begin{tabular}{l S[table-format=-1.1]}\n\\toprule\na\\_b & {50 \\%} \\\\\n"
+        "\\midrule\nx \\& \\{y\\} \\textbackslash{} \\textasciitilde{} \\textasciicircum{} \\# \\$ $<$ $>$ & "
+        "-1.0 \\\\\n\\bottomrule\n\\end{tabular}\n\\end{table}\n");
+    table.data.cells = DataTable::Cells::words;
+    EXPECT_THAT(to_latex(table), HasSubstr("{l l}"));
+}
+
+TEST(TableFiles, SetNumbersAndIntervalsInColumnsOfSiunitx) {
+    const Table table{"t",
+                      "c",
+                      {{"Condition", "difference", "p", "count", "why"},
+                       {{"one", "\u221212.4 [\u221215.5, \u22129.3]", "< 0.001", "12,345", "a"},
+                        {"two", "+0.4 [0.1, 0.7]", "0.25", "7", ""},
+                        {"three", "\u2013", "0.3", "0", "b"}}}};
+    EXPECT_THAT(
+        to_latex(table),
+        HasSubstr("{l S[table-format=+2.1,retain-explicit-plus]@{\\,}l S[table-format=1.2] "
+                  "S[table-format=5.0] r}\n\\toprule\n"
+                  "Condition & \\multicolumn{2}{c}{difference} & {p} & {count} & why \\\\\n\\midrule\n"
+                  "one & -12.4 & [\\num{-15.5}, \\num{-9.3}] & {$<$ 0.001} & 12345 & a \\\\\n"
+                  "two & +0.4 & [\\num{0.1}, \\num{0.7}] & 0.25 & 7 &  \\\\\n"
+                  "three & {--} & & 0.3 & 0 & b \\\\\n"));
 }
 
 TEST(Standalone, DrawingNeedsNothingOfThePage) {
@@ -80,8 +100,71 @@ TEST(FigureFiles, HoldEveryFigureAndTableOfTheReport) {
     EXPECT_TRUE(names.contains(folder.path() / "figures" / "tradeoff-b-city-b-x.svg"));
     const std::string data = text_of(folder.path() / "figures" / "tradeoff-merge.csv");
     EXPECT_THAT(data,
-                HasSubstr("Graph made by simulation attributes,1,12.40,9.30,15.50,0.40,-0.80,1.60,20,\n"));
-    EXPECT_THAT(text_of(folder.path() / "figures" / "times-merge.tex"), HasSubstr("\\toprule"));
+                HasSubstr("Graph made by simulation attributes,1,12.40,9.30,15.50,0.40,-0.80,1.60,20\n"));
+    EXPECT_THAT(text_of(folder.path() / "figures" / "times-merge.tex"),
+                AllOf(HasSubstr("\\toprule"), HasSubstr("\\label{tab:times-merge}"), HasSubstr("\\num{")));
+}
+
+/// Texts of the SVG files of a study with a CSS class.
+std::vector<std::string> texts_of_drawings(const FigureFiles& files, const std::string& style) {
+    std::vector<std::string> texts;
+    for (const std::filesystem::path& file : files.drawings) {
+        const std::string drawing = text_of(file);
+        const std::string begin = "<text class=\"" + style + "\"";
+        for (std::size_t at = drawing.find(begin); at != std::string::npos;
+             at = drawing.find(begin, at + 1)) {
+            const std::size_t from = drawing.find('>', at) + 1;
+            texts.push_back(drawing.substr(from, drawing.find('<', from) - from));
+        }
+    }
+    return texts;
+}
+
+TEST(FigureFiles, NameMeasureAndUnitOnEveryAxis) {
+    const core::TemporaryFolder folder;
+    const FigureFiles files = write_figures(tests::study({"merge", "city"}), folder.path() / "figures");
+    const std::vector<std::string> axes = texts_of_drawings(files, "axis");
+    ASSERT_GE(axes.size(), 20u);
+    for (const std::string& axis : axes)
+        EXPECT_THAT(axis,
+                    ::testing::MatchesRegex(".*, (s|m|%|nat|number|0 to 1)(; across: .*|, in decades.*)?"));
+    for (const std::filesystem::path& file : files.drawings) {
+        const std::string drawing = text_of(file);
+        const bool has_grid = drawing.find("<path class=\"grid\"") != std::string::npos;
+        EXPECT_TRUE(!has_grid || drawing.find("<text class=\"axis\"") != std::string::npos) << file;
+    }
+}
+
+TEST(FigureFiles, HoldOnlyWhatTheStudyUsed) {
+    StudyFacts study = tests::study({"merge"});
+    const core::TemporaryFolder folder;
+    const auto table = [&](const char* name) {
+        write_figures(study, folder.path());
+        return text_of(folder.path() / name);
+    };
+    EXPECT_THAT(table("times-merge.tex"), HasSubstr("Gap closed"));
+    EXPECT_THAT(table("tradeoff-merge.csv"), Not(HasSubstr("objection")));
+    for (ConditionFacts& condition : study.scenarios[0].conditions)
+        tests::value(condition, Measure::gap_closed).reset();
+    EXPECT_THAT(table("times-merge.tex"), Not(HasSubstr("Gap closed, ")));
+    for (JourneyFacts& journey : study.scenarios[0].journeys)
+        std::erase_if(journey.signals, [](const SignalSpan& span) { return span.state == "yellow"; });
+    EXPECT_THAT(table("journey-merge-baseline.svg"),
+                AllOf(HasSubstr("signal red"), Not(HasSubstr("signal yellow"))));
+}
+
+TEST(FigureFiles, AreAllOnOnePage) {
+    const core::TemporaryFolder folder;
+    const FigureFiles files = write_figures(tests::study({"merge", "<b>City</b>/../x"}), folder.path());
+    write_index(files, folder.path(), {"pdf"});
+    const std::string index = text_of(folder.path() / "index.html");
+    for (const auto* const list : {&files.drawings, &files.tables, &files.typeset}) {
+        for (const std::filesystem::path& file : *list)
+            EXPECT_THAT(index, HasSubstr("href=\"" + file.filename().string() + "\""));
+    }
+    EXPECT_THAT(index, HasSubstr("href=\"tradeoff-merge.pdf\""));
+    EXPECT_THAT(index, HasSubstr("\\label{fig:tradeoff-merge}"));
+    EXPECT_THAT(index, Not(HasSubstr("<b>")));
 }
 
 }  // namespace

@@ -71,7 +71,8 @@ std::string age_label(std::size_t age_class) {
 }  // namespace
 
 std::string precision_recall_figure(const std::vector<DrawnResult>& drawn) {
-    Chart plot("Precision over recall", height, Range(0.5, 1.0), "recall", Range(0.5, 1.0), "precision");
+    Chart plot("Precision over recall", height, Range(0.5, 1.0), "recall, 0 to 1", Range(0.5, 1.0),
+               "precision, 0 to 1");
     DataTable data{{"Predictor", "AP", "precision at recall .80", ".90", ".95", ".98", ".99"}, {}};
     bool any = false;
     for (const DrawnResult& one : drawn) {
@@ -105,8 +106,8 @@ std::string reliability_figure(const std::vector<DrawnResult>& drawn) {
         for (const auto& [stated, gap] : curves.back())
             gaps.include(gap);
     }
-    Chart plot("Reliability", height, Range(0.0, 1.0), "stated probability", padded(gaps, 0.04),
-               "share of true links minus stated probability");
+    Chart plot("Reliability", height, Range(0.0, 1.0), "stated probability, 0 to 1", padded(gaps, 0.04),
+               "share of true links minus stated probability, \u22121 to 1");
     DataTable data{{"Predictor", "stated", "share of true links minus it"}, {}};
     for (std::size_t i = 0; i < drawn.size(); ++i) {
         if (!curves[i].empty()) plot.line(curves[i], {drawn[i].series});
@@ -146,7 +147,7 @@ std::string age_figure(const std::vector<DrawnResult>& drawn) {
     const double last = static_cast<double>(links::age_classes) - 1.0;
     Plot plot("Average precision by age", height,
               {Range(-0.3, last + 0.3), "age of the older report, s", left_edge, right_edge},
-              {padded(values, 0.02), "average precision", height - label_space, top_edge});
+              {padded(values, 0.02), "average precision, 0 to 1", height - label_space, top_edge});
     plot.grid_y();
     for (std::size_t age_class = 0; age_class < links::age_classes; ++age_class) {
         plot.text(plot.x().place(static_cast<double>(age_class)), height - label_space + 16.0,

@@ -78,35 +78,81 @@ std::string line_of(const std::vector<std::string>& cells) {
     return line + "\n";
 }
 
-std::string latex_escaped(const std::string& text) {
-    static const std::vector<std::pair<std::string_view, std::string_view>> words = {
-        {"\\", "\\textbackslash{}"},
-        {"{", "\\{"},
-        {"}", "\\}"},
-        {"&", "\\&"},
-        {"%", "\\%"},
-        {"$", "\\$"},
-        {"#", "\\#"},
-        {"_", "\\_"},
-        {"~", "\\textasciitilde{}"},
-        {"^", "\\textasciicircum{}"},
-        {minus, "$-$"},
-        {dash, "--"},
-        {"\u00b1", "$\\pm$"}};
-    std::string result;
-    for (std::size_t at = 0; at < text.size();) {
-        const auto found = std::ranges::find_if(
-            words, [&](const auto& word) { return text.compare(at, word.first.size(), word.first) == 0; });
-        result += found == words.end() ? std::string_view(text).substr(at, 1) : found->second;
-        at += found == words.end() ? 1 : found->first.size();
-    }
-    return result;
+/// The number of a cell without separators, with its sign; nothing for any other text.
+std::optional<std::string> number_in(const std::string& cell) {
+    std::string value = replaced(cell, minus, "-");
+    if (is_grouped(value)) value = replaced(std::move(value), ",", "");
+    const std::size_t sign = value.starts_with('-') || value.starts_with('+') ? 1 : 0;
+    const std::size_t point = std::min(value.find('.'), value.size());
+    const auto digits = [&](std::size_t from, std::size_t to) {
+        return to > from && std::all_of(value.begin() + static_cast<std::ptrdiff_t>(from),
+                                        value.begin() + static_cast<std::ptrdiff_t>(to), is_digit);
+    };
+    const bool is_number = digits(sign, point) && (point == value.size() || digits(point + 1, value.size()));
+    return is_number ? std::optional(value) : std::nullopt;
 }
 
-std::string latex_line(const std::vector<std::string>& cells) {
-    std::vector<std::string> escaped_cells =
-        core::texts_of(cells, [](const std::string& cell) { return latex_escaped(cell); });
-    return fmt::format("{} \\\\\n", fmt::join(escaped_cells, " & "));
+/// How LaTeX sets a column.
+struct Column {
+    bool numbers = false;
+    bool intervals = false;
+    bool plus = false, minus = false;
+    std::size_t whole = 1, decimals = 0;  ///< Most digits before and after the point.
+
+    void include(const std::string& cell) {
+        const std::optional<Interval> parts = interval_in(cell);
+        const std::optional<std::string> number = number_in(parts ? (*parts)[0] : cell);
+        if (!number) return;
+        numbers = true;
+        intervals = intervals || parts.has_value();
+        plus = plus || number->front() == '+';
+        minus = minus || number->front() == '-';
+        const std::size_t sign = number->front() == '+' || number->front() == '-' ? 1 : 0;
+        const std::size_t point = std::min(number->find('.'), number->size());
+        whole = std::max(whole, point - sign);
+        if (point < number->size()) decimals = std::max(decimals, number->size() - point - 1);
+    }
+    std::string type(const char* of_words) const {
+        if (!numbers) return of_words;
+        return fmt::format("S[table-format={}{}.{}{}]{}",
+                           plus    ? "+"
+                           : minus ? "-"
+                                   : "",
+                           whole, decimals, plus ? ",retain-explicit-plus" : "", intervals ? "@{\\,}l" : "");
+    }
+    std::string head(const std::string& text) const {
+        const std::string words = latex_escaped(text);
+        if (!numbers) return words;
+        return intervals ? "\\multicolumn{2}{c}{" + words + "}" : "{" + words + "}";
+    }
+    std::string body(const std::string& cell) const {
+        if (!numbers) return latex_escaped(cell);
+        const std::optional<Interval> parts = interval_in(cell);
+        const std::optional<std::string> number = number_in(parts ? (*parts)[0] : cell);
+        std::string text = number ? *number : "{" + latex_escaped(cell) + "}";
+        if (!intervals) return text;
+        const auto end = [](const std::string& value) {
+            return "\\num{" + replaced(value, "\u2212", "-") + "}";
+        };
+        return text + (parts ? " & [" + end((*parts)[1]) + ", " + end((*parts)[2]) + "]" : " &");
+    }
+};
+
+std::vector<Column> columns_of(const DataTable& table) {
+    std::vector<Column> columns(table.head.size());
+    for (const auto& row : table.rows) {
+        for (std::size_t column = 1; column < row.size(); ++column)
+            if (table.cells == DataTable::Cells::numbers) columns[column].include(row[column]);
+    }
+    return columns;
+}
+
+template <class Set>
+std::string latex_line(const std::vector<std::string>& cells, const Set& set) {
+    std::vector<std::string> typeset;
+    for (std::size_t column = 0; column < cells.size(); ++column)
+        typeset.push_back(set(column, cells[column]));
+    return fmt::format("{} \\\\\n", fmt::join(typeset, " & "));
 }
 
 }  // namespace
@@ -138,14 +184,51 @@ std::string to_csv(const DataTable& table) {
     return text;
 }
 
-std::string to_latex(const DataTable& table) {
-    std::string text = fmt::format("\\begin{{tabular}}{{l{}}}\n\\toprule\n{}\\midrule\n",
-                                   std::string(table.head.empty() ? 0 : table.head.size() - 1,
-                                               table.cells == DataTable::Cells::words ? 'l' : 'r'),
-                                   latex_line(table.head));
-    for (const auto& row : table.rows)
-        text += latex_line(row);
-    return text + "\\bottomrule\n\\end{tabular}\n";
+std::string latex_escaped(const std::string& text) {
+    static const std::vector<std::pair<std::string_view, std::string_view>> words = {
+        {"\\", "\\textbackslash{}"},
+        {"{", "\\{"},
+        {"}", "\\}"},
+        {"&", "\\&"},
+        {"%", "\\%"},
+        {"$", "\\$"},
+        {"#", "\\#"},
+        {"_", "\\_"},
+        {"~", "\\textasciitilde{}"},
+        {"^", "\\textasciicircum{}"},
+        {"<", "$<$"},
+        {">", "$>$"},
+        {minus, "$-$"},
+        {dash, "--"},
+        {"\u00b1", "$\\pm$"}};
+    std::string result;
+    for (std::size_t at = 0; at < text.size();) {
+        const auto found = std::ranges::find_if(
+            words, [&](const auto& word) { return text.compare(at, word.first.size(), word.first) == 0; });
+        result += found == words.end() ? std::string_view(text).substr(at, 1) : found->second;
+        at += found == words.end() ? 1 : found->first.size();
+    }
+    return result;
+}
+
+std::string to_latex(const Table& table) {
+    const DataTable& data = table.data;
+    const std::vector<Column> columns = columns_of(data);
+    std::string types;
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+        const bool words = column == 0 || data.cells == DataTable::Cells::words;
+        types += (column == 0 ? "" : " ") + columns[column].type(words ? "l" : "r");
+    }
+    std::string text = fmt::format(
+        "% needs \\usepackage{{booktabs,siunitx}}\n\\begin{{table}}\n\\centering\n\\caption{{{}}}\n"
+        "\\label{{tab:{}}}\n\\begin{{tabular}}{{{}}}\n\\toprule\n{}\\midrule\n",
+        latex_escaped(table.caption), table.name, types,
+        latex_line(data.head,
+                   [&](std::size_t at, const std::string& cell) { return columns[at].head(cell); }));
+    for (const auto& row : data.rows)
+        text +=
+            latex_line(row, [&](std::size_t at, const std::string& cell) { return columns[at].body(cell); });
+    return text + "\\bottomrule\n\\end{tabular}\n\\end{table}\n";
 }
 
 }  // namespace clearway::report::detail

@@ -11,8 +11,12 @@ namespace clearway::report::detail {
 /// three. The page's script writes the same bytes.
 std::string to_csv(const DataTable& table);
 
-/// A table as LaTeX: a `tabular` with the lines of the package booktabs. All cells are escaped. The page's
-/// script writes the same bytes.
-std::string to_latex(const DataTable& table);
+/// A table as LaTeX, for the packages booktabs and siunitx: a `table` with its caption and the label
+/// `tab:NAME`. Numbers stand in columns of type S; the interval of `1.2 [0.9, 1.5]` has a column of its own.
+/// All text is escaped. The page's script writes the same bytes.
+std::string to_latex(const Table& table);
+
+/// Text with what is special in LaTeX escaped.
+std::string latex_escaped(const std::string& text);
 
 }  // namespace clearway::report::detail

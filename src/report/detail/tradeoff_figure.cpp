@@ -121,8 +121,8 @@ std::vector<Point> by_number(std::vector<Point> points) {
 }
 
 DataTable data_of(const std::vector<Point>& points) {
-    DataTable table{{"Condition", "number", "gain of EVs, s [95 %]", "cost to the others, s each [95 %]",
-                     "pairs", "objection"},
+    DataTable table{{"Condition", "number", labelled(gain, "gain") + " [95 %]",
+                     labelled(cost, "difference") + " [95 %]", "pairs", "objection"},
                     {}};
     for (const Point& point : by_number(points)) {
         const MaybeEstimate gained = point.gained();
@@ -162,8 +162,8 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
     }
     const std::string title =
         fmt::format("{}: gain of emergency vehicles and cost to the others", scenario.name);
-    Chart plot(title, 330.0, padded(costs, 0.1), "others lose, s each", padded(gains, 0.1),
-               "emergency vehicles gain, s a trip");
+    Chart plot(title, 330.0, padded(costs, 0.1), labelled(cost, "difference"), padded(gains, 0.1),
+               labelled(gain, "gain"));
     const double top = plot.y().place(scenario.least_relevant_s);
     plot.rectangle(left_edge, top, right_edge - left_edge, plot.y().place(-scenario.least_relevant_s) - top,
                    "uncounted");

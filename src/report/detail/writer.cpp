@@ -6,6 +6,24 @@
 #include <fmt/format.h>
 
 namespace clearway::report::detail {
+namespace {
+
+/// Drops columns in which no row has a value, and the rows where only names are left.
+void drop_unused(DataTable& table) {
+    for (std::size_t column = table.head.size(); column-- > 1;) {
+        const bool is_used = std::ranges::any_of(table.rows, [&](const auto& row) {
+            return column < row.size() && !row[column].empty() && row[column] != missing(Script::typeset);
+        });
+        if (is_used) continue;
+        const auto at = static_cast<std::ptrdiff_t>(column);
+        table.head.erase(table.head.begin() + at);
+        for (auto& row : table.rows)
+            if (column < row.size()) row.erase(row.begin() + at);
+    }
+    if (table.head.size() < 2) table.rows.clear();
+}
+
+}  // namespace
 
 std::string Writer::file_name(const std::string& wanted) {
     constexpr std::size_t longest = 80;  // names of scenarios come from files and have no limit
@@ -27,6 +45,7 @@ std::string Writer::file_name(const std::string& wanted) {
 
 void Writer::figure(Figure figure) {
     if (figure.drawing.empty()) return;
+    drop_unused(figure.data);
     figure.name = file_name(figure.name);
     put(figure);
 }
@@ -41,6 +60,7 @@ void Writer::figures(std::vector<Figure> figures) {
 }
 
 void Writer::table(Table table) {
+    drop_unused(table.data);
     if (table.data.rows.empty()) return;
     table.name = file_name(table.name);
     put(table);

@@ -23,7 +23,8 @@ class Writer {
     void figure(Figure figure);
     /// Side by side if there is room; nothing if none has a drawing.
     void figures(std::vector<Figure> figures);
-    /// Nothing for a table without rows.
+    /// Nothing for a table without rows. Of tables and of the data of figures, columns without a value are
+    /// left out.
     void table(Table table);
 
     void heading(const std::string& text);

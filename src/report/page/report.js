@@ -67,13 +67,46 @@
     return lines.map(line => line.map(quoted).join(',') + '\n').join('');
   };
 
-  const latex = table => {
+  // The rules of to_latex.
+  const escaped = text => {
     const words = {'\\': '\\textbackslash{}', '{': '\\{', '}': '\\}', '&': '\\&', '%': '\\%', '$': '\\$', '#': '\\#', '_': '\\_',
-      '~': '\\textasciitilde{}', '^': '\\textasciicircum{}', '\u2212': '$-$', '\u2013': '--', '\u00b1': '$\\pm$'};
-    const escaped = text => [...text].map(letter => words[letter] ?? letter).join('');
-    const [head, ...rows] = cellsOf(table).map(row => row.map(escaped).join(' & ') + ' \\\\\n');
-    const columns = 'l' + (table.classList.contains('words') ? 'l' : 'r').repeat(table.rows[0].cells.length - 1);
-    return `\\begin{tabular}{${columns}}\n\\toprule\n${head}\\midrule\n${rows.join('')}\\bottomrule\n\\end{tabular}\n`;
+      '~': '\\textasciitilde{}', '^': '\\textasciicircum{}', '<': '$<$', '>': '$>$', '\u2212': '$-$', '\u2013': '--', '\u00b1': '$\\pm$'};
+    return [...text].map(letter => words[letter] ?? letter).join('');
+  };
+  const number = text => {
+    const value = text.replaceAll('\u2212', '-');
+    const bare = /^[+-]?\d{1,3}(,\d{3})+(\.\d+)?$/.test(value) ? value.replaceAll(',', '') : value;
+    return /^[+-]?\d+(\.\d+)?$/.test(bare) ? bare : null;
+  };
+  const numberOf = cell => number((interval(cell) ?? [cell, cell])[1]);
+  const latex = (name, caption, table) => {
+    const [head, ...rows] = cellsOf(table);
+    const words = table.classList.contains('words');
+    const columns = head.map((_, at) => {
+      const cells = at === 0 || words ? [] : rows.map(row => row[at]).filter(cell => numberOf(cell) !== null);
+      const numbers = cells.map(numberOf);
+      const has = sign => numbers.some(value => value.startsWith(sign));
+      const most = of => Math.max(...numbers.map(value => (of(value.replace(/^[+-]/, '').split('.')) ?? '').length));
+      const intervals = cells.some(cell => interval(cell));
+      if (numbers.length === 0)
+        return {type: at === 0 || words ? 'l' : 'r', head: escaped, body: escaped};
+      const plus = has('+');
+      const format = `${plus ? '+' : has('-') ? '-' : ''}${most(parts => parts[0])}.${most(parts => parts[1])}`;
+      const end = text => `\\num{${text.replaceAll('\u2212', '-')}}`;
+      return {
+        type: `S[table-format=${format}${plus ? ',retain-explicit-plus' : ''}]${intervals ? '@{\\,}l' : ''}`,
+        head: text => (intervals ? `\\multicolumn{2}{c}{${escaped(text)}}` : `{${escaped(text)}}`),
+        body: cell => {
+          const text = numberOf(cell) ?? `{${escaped(cell)}}`;
+          const parts = interval(cell);
+          return text + (!intervals ? '' : parts ? ` & [${end(parts[2])}, ${end(parts[3])}]` : ' &');
+        },
+      };
+    });
+    const line = (row, part) => row.map((cell, at) => columns[at][part](cell)).join(' & ') + ' \\\\\n';
+    return `% needs \\usepackage{booktabs,siunitx}\n\\begin{table}\n\\centering\n\\caption{${escaped(caption)}}\n\\label{tab:${name}}\n` +
+      `\\begin{tabular}{${columns.map(column => column.type).join(' ')}}\n\\toprule\n${line(head, 'head')}\\midrule\n` +
+      `${rows.map(row => line(row, 'body')).join('')}\\bottomrule\n\\end{tabular}\n\\end{table}\n`;
   };
 
   const addButtons = (place, name, ways) => {
@@ -99,10 +132,11 @@
   }
   for (const part of document.querySelectorAll('.table[id]')) {
     const data = part.querySelector('table.data');
+    const caption = part.querySelector('.caption').textContent;
     const place = document.createElement('div');
     part.append(place);
     addButtons(place, part.id, [['csv', () => offer(part.id + '.csv', 'text/csv', csv(data))],
-      ['tex', () => offer(part.id + '.tex', 'application/x-tex', latex(data))]]);
+      ['tex', () => offer(part.id + '.tex', 'application/x-tex', latex(part.id, caption, data))]]);
   }
 
   let unfolded = [];

@@ -23,7 +23,7 @@ void calibration_section(const StudyFacts& study, Writer& writer) {
         writer.heading(scenario.name);
         writer.markup(fmt::format("<p>{} of {} places have a GEH below {}.</p>\n", met, scenario.flows.size(),
                                   analysis::geh_limit));
-        writer.table({"flows-" + scenario.name, "", std::move(table)});
+        writer.table({"flows-" + scenario.name, scenario.name + ": flows against counts", std::move(table)});
     }
 }
 

@@ -41,10 +41,10 @@ Figure precision_figure(const ScenarioFacts& scenario, const Looks& looks) {
     constexpr double height = 270.0;
     widths.high *= 1.05;
     Chart plot(fmt::format("{}: width of the interval over replications", scenario.name), height,
-               replications, "replications", widths, "half width of the interval, s");
+               replications, "replications, number", widths, labelled(primary, "half width of the interval"));
     if (scenario.least_relevant_s > 0.0) plot.horizontal(scenario.least_relevant_s);
     std::vector<LegendEntry> entries;
-    DataTable data{{"Condition, replications", "half width, s"}, {}};
+    DataTable data{{"Condition, replications", labelled(primary, "half width of the interval")}, {}};
     for (const std::size_t row : drawing_order(looks)) {
         const ConditionFacts& condition = scenario.conditions[row];
         if (!condition.precision || condition.precision->points.empty()) continue;
@@ -95,7 +95,8 @@ void enough_section(const StudyFacts& study, Writer& writer) {
         "(FHWA: n = (t s / e)\u00b2, at least 10).</p>\n");
     writer.figures(figures_of(study, precision_figure));
     for (const ScenarioFacts& scenario : study.scenarios)
-        writer.table({"replications-" + scenario.name, scenario.name, precision_table(scenario)});
+        writer.table({"replications-" + scenario.name, scenario.name + ": replications needed",
+                      precision_table(scenario)});
 }
 
 }  // namespace clearway::report::detail

@@ -112,7 +112,7 @@ DataTable data_of(const std::vector<Made>& made, const std::vector<Factor>& fact
     DataTable table{{"Condition", "scenario"}, {}};
     for (const Factor& factor : factors)
         table.head.push_back(factor.name);
-    table.head.push_back("difference, s [95 %]");
+    table.head.push_back(labelled(measure, "difference") + " [95 %]");
     table.head.emplace_back("objection");
     for (const Made& one : made) {
         std::vector<std::string>& row = table.rows.emplace_back();
@@ -156,9 +156,9 @@ void factors_section(const StudyFacts& study, Writer& writer) {
         "without "
         "safety checks. With many cells, one interval in twenty excludes 0 by chance.</p>\n");
     writer.figures({factors_figure(made, factors, Measure::emergency_restricted_time, "factors-emergency",
-                                   "EV travel time against the baseline, s"),
+                                   labelled(Measure::emergency_restricted_time, "difference")),
                     factors_figure(made, factors, Measure::other_time_loss, "factors-others",
-                                   "Time loss of the others against the baseline, s")});
+                                   labelled(Measure::other_time_loss, "difference"))});
 }
 
 }  // namespace clearway::report::detail

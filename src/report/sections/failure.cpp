@@ -16,7 +16,7 @@ constexpr double percent = 100.0;
 using Member = MaybeEstimate FailurePoint::*;
 
 DataTable data_of(const FailureCurve& curve) {
-    DataTable table{{"Repair", "dark, %", "EV travel time, difference, s", "pairs", "link F1"}, {}};
+    DataTable table{{"Repair", "dark, %", labelled(primary, "difference"), "pairs", "link F1"}, {}};
     for (const FailureLine& line : curve.lines) {
         for (const FailurePoint& point : line.points) {
             table.rows.push_back(
@@ -103,9 +103,9 @@ void failure_section(const StudyFacts& study, Writer& writer) {
         "Break-even is the first share at which the interval reaches 0.</p>\n");
     std::vector<Figure> figures;
     for (const FailureCurve& curve : study.failure_curves) {
-        figures.push_back(curve_figure(curve, &FailurePoint::travel_time, "failure-time",
-                                       "EV travel time against the baseline, s"));
-        figures.push_back(curve_figure(curve, &FailurePoint::link_f1, "failure-links", "link F1"));
+        figures.push_back(
+            curve_figure(curve, &FailurePoint::travel_time, "failure-time", labelled(primary, "difference")));
+        figures.push_back(curve_figure(curve, &FailurePoint::link_f1, "failure-links", "link F1, 0 to 1"));
     }
     writer.figures(std::move(figures));
     writer.table({"break-even", "Break-even", break_even_table(study)});

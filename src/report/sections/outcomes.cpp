@@ -59,7 +59,9 @@ void write_failures(const ScenarioFacts& scenario, Writer& writer) {
         writer.markup(fmt::format("<details open><summary>{}, {}: {} failed</summary>\n",
                                   escaped(scenario.name), condition_label(condition),
                                   counted(condition.failed.size(), "run")));
-        writer.table({fmt::format("failed-{}-{}", scenario.name, condition.name()), "", std::move(table)});
+        writer.table({fmt::format("failed-{}-{}", scenario.name, condition.name()),
+                      fmt::format("{}, {}: failed runs", scenario.name, condition.label()),
+                      std::move(table)});
         if (condition.failed.size() > shown_failures)
             writer.markup(fmt::format("<p class=\"note\">The first {} are listed.</p>", shown_failures));
         writer.close_fold();
@@ -77,9 +79,11 @@ void outcomes_section(const StudyFacts& study, Writer& writer) {
         "road; the third lists the actions and the reasons for refusals.</p>\n");
     for (const ScenarioFacts& scenario : study.scenarios) {
         writer.heading(scenario.name);
-        writer.table({"outcomes-" + scenario.name, "", endings_of(scenario)});
-        writer.table({"events-" + scenario.name, "", events_of(scenario)});
-        writer.table({"actions-" + scenario.name, "", leases_of(scenario)});
+        writer.table(
+            {"outcomes-" + scenario.name, scenario.name + ": how vehicles ended", endings_of(scenario)});
+        writer.table({"events-" + scenario.name, scenario.name + ": actions and what went wrong",
+                      events_of(scenario)});
+        writer.table({"actions-" + scenario.name, scenario.name + ": actions by kind", leases_of(scenario)});
         write_failures(scenario, writer);
     }
 }

@@ -67,8 +67,8 @@ std::string tornado(const Sensitivity& sensitivity, const Rows& rows, Member mem
 }
 
 DataTable data_of(const Rows& rows) {
-    DataTable table{{"Setting", "shipped", "turned to", "EV travel time, s [95 %]",
-                     "others\u2019 time loss, s [95 %]", "pairs", "objection"},
+    DataTable table{{"Setting", "shipped", "turned to", labelled(primary, "difference") + " [95 %]",
+                     labelled(Measure::other_time_loss, "difference") + " [95 %]", "pairs", "objection"},
                     {}};
     for (const SensitivityRow* const row : rows) {
         for (const SensitivityLevel& level : row->levels)
@@ -84,11 +84,12 @@ void write_figures(const Sensitivity& sensitivity, const Rows& rows, Writer& wri
     const std::string of = fmt::format("{}-{}", sensitivity.scenario, sensitivity.condition);
     writer.figures(
         {{"sensitivity-emergency-" + of, "Emergency vehicles",
-          tornado(sensitivity, rows, &SensitivityLevel::emergency, "EV travel time, difference, s"), "",
+          tornado(sensitivity, rows, &SensitivityLevel::emergency, labelled(primary, "difference")), "",
           data_of(rows)},
          {"sensitivity-others-" + of, "The others",
-          tornado(sensitivity, rows, &SensitivityLevel::others, "time loss of the others, difference, s"), "",
-          data_of(rows)}});
+          tornado(sensitivity, rows, &SensitivityLevel::others,
+                  labelled(Measure::other_time_loss, "difference")),
+          "", data_of(rows)}});
 }
 
 void write_chart(const Sensitivity& sensitivity, Writer& writer) {

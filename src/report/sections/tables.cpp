@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <span>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -120,9 +122,22 @@ DataTable plain_table(const ScenarioFacts& scenario, std::span<const Measure> co
     return table;
 }
 
-/// A table as readers see it, and its plain cells for downloads.
-Table measures_of(const ScenarioFacts& scenario, std::span<const Measure> columns, const char* name,
+/// Those with a value under some condition, or without one because it lost EVs.
+std::vector<Measure> used(const ScenarioFacts& scenario, std::span<const Measure> columns) {
+    std::vector<Measure> measures;
+    std::ranges::copy_if(columns, std::back_inserter(measures), [&](Measure measure) {
+        return std::ranges::any_of(scenario.conditions, [&](const auto& one) {
+            return one.value(measure) || is_void_for_lost(one, measure);
+        });
+    });
+    return measures;
+}
+
+/// A table as readers see it, and its plain cells for downloads. Without rows if no measure has a value.
+Table measures_of(const ScenarioFacts& scenario, std::span<const Measure> wanted, const char* name,
                   const std::string& caption, bool with_published = false) {
+    const std::vector<Measure> columns = used(scenario, wanted);
+    if (columns.empty()) return {};
     return {fmt::format("{}-{}", name, scenario.name), caption,
             plain_table(scenario, columns, with_published), measure_table(scenario, columns, with_published)};
 }
@@ -133,8 +148,10 @@ void write_statistics(const ScenarioFacts& scenario, Writer& writer) {
                                   Measure::other_time_loss, Measure::collisions}) {
         DataTable table = statistics_table(scenario, measure);
         if (!table.rows.empty())
-            tables.push_back(
-                {fmt::format("statistics-{}-{}", scenario.name, info(measure).field), "", std::move(table)});
+            tables.push_back({fmt::format("statistics-{}-{}", scenario.name, info(measure).field),
+                              fmt::format("{}: {}, paired differences, {}", scenario.name,
+                                          info(measure).title, info(measure).unit),
+                              std::move(table)});
     }
     if (tables.empty()) return;
     writer.open_fold("Statistics of the paired differences");
@@ -184,11 +201,13 @@ void tables_section(const StudyFacts& study, Writer& writer) {
     for (const ScenarioFacts& scenario : study.scenarios) {
         const std::string caption = published_caption(scenario);
         writer.heading(scenario.name);
-        writer.table(measures_of(scenario, published_columns, "waiting",
-                                 caption.empty() ? "Waiting time and depart delay" : caption,
-                                 !caption.empty()));
-        writer.table(measures_of(scenario, emergency_columns, "times", "What these columns hide"));
-        writer.table(measures_of(scenario, event_columns, "events-mean", ""));
+        writer.table(measures_of(
+            scenario, published_columns, "waiting",
+            caption.empty() ? scenario.name + ": waiting time and depart delay" : caption, !caption.empty()));
+        writer.table(
+            measures_of(scenario, emergency_columns, "times", scenario.name + ": travel time and time loss"));
+        writer.table(
+            measures_of(scenario, event_columns, "events-mean", scenario.name + ": depart delay and events"));
         write_statistics(scenario, writer);
     }
 }

@@ -54,7 +54,7 @@ Figure loss_figure(const LossCurve& curve) {
         epochs.include(epoch);
     }
     if (epochs.high <= epochs.low) epochs = padded(epochs, 0.0);
-    Chart plot(fmt::format("Train and test loss: {}", curve.title), 270.0, {epochs, "epoch"},
+    Chart plot(fmt::format("Train and test loss: {}", curve.title), 270.0, {epochs, "epoch, number"},
                loss_axis(curve));
     std::vector<LegendEntry> entries = {line_entry({1}, "train"), line_entry({2}, curve.held_out)};
     if (curve.constant_loss) {

@@ -99,7 +99,9 @@ Pair mean_pair(const std::vector<Pair>& pairs) {
 }
 
 DataTable slopes_data(const ScenarioFacts& scenario) {
-    DataTable table{{"Condition, pair", "baseline, s", "condition, s", "difference, s"}, {}};
+    DataTable table{{"Condition, pair", labelled(primary, "baseline"), labelled(primary, "condition"),
+                     labelled(primary, "difference")},
+                    {}};
     for (const ConditionFacts& condition : scenario.conditions) {
         std::size_t place = 0;
         for (const Pair& pair : thinned(pairs_of(condition))) {
@@ -120,7 +122,7 @@ Figure distribution_figure(const ScenarioFacts& scenario, const Looks& looks) {
     }
     if (range.empty()) return {};
     Chart plot(fmt::format("{}: distribution of EV travel time", scenario.name), 300.0, padded(range, 0.04),
-               "EV travel time, s", Range(0.0, 1.0), "share of EVs that arrived within");
+               "EV travel time, s", Range(0.0, 1.0), "share of EVs that arrived within, 0 to 1");
     std::vector<LegendEntry> entries;
     for (std::size_t row = 0; row < scenario.conditions.size(); ++row)
         entries.push_back(line_entry(looks[row], scenario.conditions[row].label()));
@@ -152,7 +154,7 @@ Figure slopes_figure(const ScenarioFacts& scenario, const Looks& looks) {
     constexpr double panel = 0.62;  // of a condition's share of the width; the rest keeps panels apart
     Plot plot(fmt::format("{}: EV travel time of each replication, baseline and condition", scenario.name),
               height, {Range(0.0, static_cast<double>(drawn.size())), "", left_edge, right_edge},
-              {padded(seconds, 0.04), "EV travel time, s: baseline to condition", height - 16.0, top_edge});
+              {padded(seconds, 0.04), labelled(primary), height - 16.0, top_edge});
     plot.grid_y();
     std::vector<LegendEntry> entries;
     double from = 0.5 * (1.0 - panel);
@@ -204,7 +206,8 @@ void response_tables(const StudyFacts& study, Writer& writer) {
         "Intervals come from resampling whole replications; differences are paired.</p>\n");
     for (const ScenarioFacts& scenario : study.scenarios) {
         if (has_trips(scenario))
-            writer.table({"response-" + scenario.name, scenario.name, response_data(scenario)});
+            writer.table(
+                {"response-" + scenario.name, scenario.name + ": response time", response_data(scenario)});
     }
 }
 
