@@ -93,7 +93,8 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
     text = _study_text(scenario_word, place.stem, names, own, seeds, seed, overrides)
     if out is None:
         name = re.sub(r"[^A-Za-z0-9_-]+", "-", place.stem)
-        out = Path("runs") / f"{name}-{hashlib.sha256(text.encode()).hexdigest()[:6]}"
+        here = text.replace(f"{Path.cwd().resolve()}/", "")  # the same files elsewhere are the same study
+        out = Path("runs") / f"{name}-{hashlib.sha256(here.encode()).hexdigest()[:6]}"
     with tempfile.TemporaryDirectory(prefix="clearway-") as folder:
         file = Path(folder) / "study.toml"
         file.write_text(text, encoding="utf-8")
@@ -120,7 +121,7 @@ def study(file: str | Path, *, out: str | Path | None = None, jobs: int = 0, rec
     code, _ = _program.call(words, progress=progress, accept=(_program.RUNS_FAILED,))
     results = Results(out)
     if code == _program.RUNS_FAILED:
-        warnings.warn(f"{results.errors.row_count} runs failed; see `errors` of these results", RuntimeWarning, stacklevel=2)
+        warnings.warn(f"{_program.counted(results.errors.row_count, 'run')} failed; see `errors` of these results", RuntimeWarning, stacklevel=2)
     return results
 
 

@@ -1,9 +1,36 @@
 #include "experiment/condition.hpp"
 
+#include <filesystem>
+#include <optional>
+
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
+#include "python/part_name.hpp"
 
 namespace clearway::experiment {
+
+namespace {
+
+std::string part_without_folder(const std::string& word) {
+    std::optional<python::PartName> name = python::part_name_from(word);
+    if (!name) return word;
+    name->file = name->file.filename();
+    return python::to_text(*name);
+}
+
+}  // namespace
+
+ConditionSpec without_folders(ConditionSpec condition) {
+    condition.predictor = part_without_folder(condition.predictor);
+    for (std::string& policy : condition.policies)
+        policy = part_without_folder(policy);
+    condition.model_file = std::filesystem::path(condition.model_file).filename().string();
+    return condition;
+}
+
+bool ConditionSpec::operator==(const ConditionSpec& other) const {
+    return to_json(without_folders(*this)) == to_json(without_folders(other));
+}
 
 core::Json to_json(const ConditionSpec& condition) {
     core::Json object;

@@ -48,7 +48,7 @@ struct ConditionSpec {
     /// Whether anything is done for emergency vehicles. Otherwise the condition can be a baseline.
     bool acts() const { return !policies.empty() || bluelight == traffic::BlueLight::on; }
 
-    bool operator==(const ConditionSpec&) const = default;
+    bool operator==(const ConditionSpec& other) const;  ///< Equal after `without_folders`.
 
     /// Keys of `[[condition]]` in study files and of `condition.` factors, and of stored conditions. `name`,
     /// `policy` (a list), `set` and `model` stand beside them.
@@ -64,5 +64,9 @@ struct ConditionSpec {
             Field{"bluelight", "", &S::bluelight, 0, 0, "SUMO's device.bluelight on every EV", "off"});
     }
 };
+
+/// The condition with its model and its parts in Python named without their folders, which do not count:
+/// files of the same names and contents elsewhere make the same condition.
+ConditionSpec without_folders(ConditionSpec condition);
 
 }  // namespace clearway::experiment

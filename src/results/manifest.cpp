@@ -144,6 +144,12 @@ std::string manifest_hash(const Manifest& manifest) {
     return core::content_hash(core::to_text(to_object(manifest)));
 }
 
+std::string study_hash(Manifest manifest) {
+    for (experiment::ConditionSpec& condition : manifest.conditions)
+        condition = experiment::without_folders(condition);
+    return manifest_hash(manifest);
+}
+
 std::string to_json(const Manifest& manifest) {
     core::Json object = to_object(manifest);
     object["hash"] = manifest_hash(manifest);

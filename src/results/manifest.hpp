@@ -83,7 +83,9 @@ std::string to_json(const Manifest& manifest);
 /// Throws core::InputError, naming `where`, for text that is not a manifest of this format or does not match
 /// its hash.
 Manifest manifest_from_json(const std::string& text, const std::string& where);
-/// 32 hex digits. Equal hashes: the same study.
+/// 32 hex digits. Equal hashes: the same study, with files of the user in the same folders.
 std::string manifest_hash(const Manifest& manifest);
+/// 32 hex digits, wherever the user's files are (experiment::without_folders). Equal hashes: the same study.
+std::string study_hash(Manifest manifest);
 
 }  // namespace clearway::results

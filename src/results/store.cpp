@@ -142,7 +142,7 @@ Store Store::create(const fs::path& folder, const Manifest& manifest) {
     if (fs::exists(file)) {
         const Store store = open(folder);
         require_continues(manifest, store.manifest(), folder);
-        if (manifest == store.manifest()) return store;
+        if (to_json(manifest) == to_json(store.manifest())) return store;
         core::write_atomically(file, to_json(manifest));
         return {folder, manifest};
     }

@@ -221,6 +221,25 @@ class EqualPartsTest(FolderCase):
         file.write_text(PREEMPT + "# changed\n")
         program(*arguments, code=3)
 
+    def test_a_folder_that_is_moved_continues_its_studies(self) -> None:
+        def run_both() -> dict[Path, int]:
+            """Times of all records after two studies, one of the command line and one of Python."""
+            program("run", "intersection", "--policy", "mine.py:Preempt", "--seeds", "1", "--no-solo")
+            clearway.run("intersection", [clearway.Condition("own", policy="mine.py:Preempt")], seeds=1)
+            return {file: file.stat().st_mtime_ns for file in Path("runs").glob("*/runs/*/*/*/run.json")}
+        Path("first").mkdir()
+        self.write("first/mine.py", PREEMPT)
+        os.chdir("first")
+        before = run_both()
+        self.assertEqual(len(before), 4)
+        os.chdir(self.folder)
+        Path("first").rename("second")
+        os.chdir("second")
+        self.assertEqual(run_both(), before, "no run is made again, nor another folder")
+        for manifest in Path("runs").glob("*/manifest.json"):
+            self.assertIn("/second/mine.py:Preempt@", manifest.read_text(), "where it is now, for what repeats the runs")
+        program("verify", str(next(manifest.parent for manifest in Path("runs").glob("intersection-*/manifest.json"))), "--sample", "1")
+
 
 SLOW = """
 from clearway import Lease
