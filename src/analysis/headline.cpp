@@ -85,10 +85,10 @@ std::string Headline::text() const {
     if (!now) return "";
     const std::string mean =
         baseline_.empty() ? fmt::format("{:.1f}", now->mean) : fmt::format("{:+.1f}", now->mean);
-    std::string text = fmt::format("{} {}: EV travel time {} s", scenario_, condition_, mean);
+    std::string text = fmt::format("EV travel time {} s", mean);
     if (now->interval && now->n >= fewest_for_interval)
         text += fmt::format(" [{:.1f}, {:.1f}]", now->interval->low, now->interval->high);
-    text += fmt::format(", n {}", now->n);
+    text += fmt::format(", n {}: {} {}", now->n, scenario_, condition_);
     if (objections_.on_emergency()) text += "; " + emergency_objections(objections_);
     return text;
 }

@@ -26,7 +26,7 @@ class Headline {
     const std::string& condition() const { return condition_; }
     /// Empty if nothing is compared.
     const std::string& baseline() const { return baseline_; }
-    /// `city graph_simulation: EV travel time -28.5 s [-33.2, -23.7], n 20`, then the objections on the side
+    /// `EV travel time -28.5 s [-33.2, -23.7], n 20: city graph_simulation`, then the objections on the side
     /// of emergency vehicles, if any; empty before the first pair.
     std::string text() const;
 

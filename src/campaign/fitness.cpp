@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "campaign/detail/abort_cure.hpp"
+#include "core/counted.hpp"
 #include "core/files.hpp"
+#include "core/terminal.hpp"
 #include "experiment/conditions.hpp"
 #include "scenario/network.hpp"
 
@@ -31,9 +33,8 @@ Finding insertion_finding(const metrics::RunMetrics& run, const std::string& les
     constexpr double most_left_outside = 0.1;  // Above it, queues reach the boundary.
     const bool is_short = share(run.not_inserted, run.vehicle_count) > most_left_outside;
     return {"inserts", is_short ? Grade::falls_short : Grade::ok,
-            fmt::format("{} of {} vehicles entered, {:.1f} s late on average",
-                        run.vehicle_count - run.not_inserted, run.vehicle_count,
-                        run.depart_delay_s.value_or(0.0)),
+            fmt::format("{} of {} entered, {:.1f} s late on average", run.vehicle_count - run.not_inserted,
+                        core::counted(run.vehicle_count, "vehicle"), run.depart_delay_s.value_or(0.0)),
             is_short ? less : ""};
 }
 
@@ -46,8 +47,9 @@ Finding emergency_finding(const results::RunRecord& record, const std::string& l
         arrived += row.outcome == metrics::VehicleOutcome::arrived ? 1 : 0;
     }
     const std::uint64_t count = record.metrics.emergency_count;
-    Finding finding{"emergency", Grade::ok,
-                    fmt::format("{} EVs with a route, {} entered, {} arrived", count, entered, arrived)};
+    Finding finding{
+        "emergency", Grade::ok,
+        fmt::format("{} with a route, {} entered, {} arrived", core::counted(count, "EV"), entered, arrived)};
     if (count == 0) finding.advice = "set demand.emergency in scenario.toml";
     if (arrived < count)
         finding.advice = less + ", or a longer --horizon, if EVs cannot enter or do not arrive";
@@ -94,8 +96,9 @@ Finding routes_finding(const std::filesystem::path& demand) {
     const RouteCount emergency = emergency_routes(core::read_file(demand / "emergency.csv"));
     const bool is_short = traffic.mostly_single() || emergency.mostly_single();
     return {"routes", is_short ? Grade::falls_short : Grade::ok,
-            fmt::format("{} of {} vehicles and {} of {} EVs drive a single edge, through no junction",
-                        traffic.single, traffic.all, emergency.single, emergency.all),
+            fmt::format("{} of {} and {} of {} drive a single edge, through no junction", traffic.single,
+                        core::counted(traffic.all, "vehicle"), emergency.single,
+                        core::counted(emergency.all, "EV")),
             is_short ? "a larger part of the map, or longer trips: trips.minimum_length_m, and "
                        "trips.emergency_minimum_length_m for EVs"
                      : ""};
@@ -104,15 +107,16 @@ Finding routes_finding(const std::filesystem::path& demand) {
 Finding jams_finding(const metrics::RunMetrics& run, const RoadUse& use, const Checked& checked) {
     constexpr const char* words[] = {"fits", "too empty", "too full", "gridlock"};
     const bool is_full = use.state == TrafficState::too_full || use.state == TrafficState::gridlock;
-    return {"jams",
-            is_full                                ? Grade::falls_short
-            : use.state == TrafficState::too_empty ? Grade::note
-                                                   : Grade::ok,
-            fmt::format("{}: {} teleports, {} still on the road at {:.0f} s, {:.1f} s mean time loss, {:.1f} "
-                        "vehicles per km of lane",
-                        words[static_cast<std::size_t>(use.state)], run.teleports, run.unfinished,
-                        run.simulated_s, run.others_time_loss_s.value_or(0.0), use.per_lane_km),
-            use.state == TrafficState::fits ? "" : density_advice(checked, use.factor)};
+    return {
+        "jams",
+        is_full                                ? Grade::falls_short
+        : use.state == TrafficState::too_empty ? Grade::note
+                                               : Grade::ok,
+        fmt::format("{}: {}, {} still on the road at {:.0f} s, {:.1f} s mean time loss, {:.1f} "
+                    "vehicles per km of lane",
+                    words[static_cast<std::size_t>(use.state)], core::counted(run.teleports, "teleport"),
+                    run.unfinished, run.simulated_s, run.others_time_loss_s.value_or(0.0), use.per_lane_km),
+        use.state == TrafficState::fits ? "" : density_advice(checked, use.factor)};
 }
 
 Finding signals_finding(const roads::Network& network) {
@@ -132,14 +136,34 @@ double lane_km(const roads::Network& network) {
     return sum_m / 1000.0;
 }
 
-Printout printout_of(const std::vector<Finding>& findings) {
+/// What the findings come to.
+std::string conclusion_of(const std::string& scenario, const std::vector<Finding>& findings) {
+    std::vector<std::string> failed;
+    std::vector<std::string> short_of;
+    for (const Finding& finding : findings) {
+        if (finding.grade == Grade::failed) failed.push_back(finding.name);
+        if (finding.grade == Grade::falls_short) short_of.push_back(finding.name);
+    }
+    if (!failed.empty()) return fmt::format("{} cannot be run: {}.", scenario, core::listed(failed));
+    if (short_of.empty()) return scenario + " is fit for a study.";
+    return fmt::format("{} is not fit for a study as it is: {}.", scenario, core::listed(short_of));
+}
+
+Printout printout_of(const std::string& scenario, const std::vector<Finding>& findings) {
     Table table{"", {{"grade", "grade"}, {"finding", "finding"}, {"text", "text"}, {"advice", ""}}, {}};
     for (const Finding& finding : findings) {
         Row row{{word_of(finding.grade), finding.name, finding.text, finding.advice}};
         if (!finding.advice.empty()) row.below.push_back("try: " + finding.advice);
         table.rows.push_back(std::move(row));
     }
-    return {.tables = {table}};
+    return {.tables = {table}, .text = "\n" + core::wrapped(conclusion_of(scenario, findings), 0) + "\n"};
+}
+
+/// Removes the run folder, and `runs` where nothing else is in it.
+void remove_runs(const std::filesystem::path& folder) {
+    std::error_code not_empty;
+    std::filesystem::remove_all(folder);
+    std::filesystem::remove(folder.parent_path(), not_empty);
 }
 
 core::ExitCode verdict_on(const std::vector<Finding>& findings) {
@@ -218,8 +242,8 @@ Finding error_finding(const results::RunError& error, const std::filesystem::pat
 
 Finding lock_finding(const LockTrials& trials) {
     const auto runs = [&](std::size_t locked) {
-        return locked == 0 ? fmt::format("none of {} trial runs", trials.trials)
-                           : fmt::format("{} of {} trial runs", locked, trials.trials);
+        return fmt::format("{} of {}", locked == 0 ? "none" : std::to_string(locked),
+                           core::counted(trials.trials, "trial run"));
     };
     const std::string text =
         fmt::format("this network locks by itself in {}; with time.ignore_junction_blocker_s = {:g} in {}",
@@ -263,7 +287,7 @@ LockTrials try_locks(const scenario::ScenarioConfig& scenario, std::uint64_t see
         if (!record || record->metrics.locks == 0) continue;
         ++(key.scenario == with.name ? trials.locked_with : trials.locked_without);
     }
-    std::filesystem::remove_all(options.folder);
+    remove_runs(options.folder);
     return trials;
 }
 
@@ -295,13 +319,13 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double a
              fmt::format("{:.1f} times real time, including loading", record->metrics.simulated_s / wall_s)});
         const results::RunTiming timing = store.read_timing(key).value_or(results::RunTiming{});
         findings.push_back({"memory", Grade::ok, fmt::format("{} MiB", timing.peak_kib / 1024)});
-        std::filesystem::remove_all(options.folder);
+        remove_runs(options.folder);
         if (lock_trials > 0)
             findings.push_back(lock_finding(try_locks(scenario, seed, lock_trials, options)));
     } else {
         findings = {error_finding(store.read_error(key).value_or(results::RunError{}), options.folder)};
     }
-    print(printout_of(findings), options.publish.printing);
+    print(printout_of(scenario.name, findings), options.publish.printing);
     return verdict_on(findings);
 }
 

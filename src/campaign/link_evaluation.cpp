@@ -329,7 +329,7 @@ core::ExitCode complete_runs(const links::LinkPlan& plan, const links::LinkRunFi
                         .job = job,
                         .file = file.string() + ".json",
                         .log = file.string() + ".log",
-                        .work = job.work_folder});
+                        .work = {job.work_folder}});
     }
     return work.empty() ? core::ExitCode::ok : work_on(work, jobs, "runs").exit_code;
 }

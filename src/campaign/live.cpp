@@ -12,6 +12,7 @@
 #include "campaign/programs.hpp"
 #include "campaign/shown_run.hpp"
 #include "campaign/worker_jobs.hpp"
+#include "core/counted.hpp"
 #include "core/files.hpp"
 #include "core/interruption.hpp"
 #include "core/process.hpp"
@@ -125,8 +126,9 @@ core::ExitCode show(const std::vector<experiment::RunJob>& units, server::LiveSe
     say_addresses(config, server.port());
     server.run([&] { return interruption.signal() != 0 || workers.has_failed(); });
     const server::LiveCounts counts = server.counts();
-    fmt::print(stderr, "clearway: {} viewers, {} refused; {} frames sent, {} skipped for slow viewers\n",
-               counts.clients, counts.refused, counts.frames_sent, counts.frames_dropped);
+    fmt::print(stderr, "clearway: {}, {} refused; {} sent, {} skipped for slow viewers\n",
+               core::counted(counts.clients, "viewer"), counts.refused,
+               core::counted(counts.frames_sent, "frame"), counts.frames_dropped);
     if (interruption.signal() != 0) return interruption.exit_code(core::ExitCode::ok);
     if (workers.has_failed()) workers.end();
     workers.wait();

@@ -9,7 +9,9 @@
 #include <fmt/ranges.h>
 
 #include "campaign/detail/run_cost.hpp"
+#include "core/counted.hpp"
 #include "core/progress.hpp"
+#include "core/terminal.hpp"
 #include "experiment/settings.hpp"
 #include "results/store.hpp"
 
@@ -93,7 +95,7 @@ std::string size_text(double bytes) {
 std::string precision_text(const results::PrecisionTarget& target) {
     return fmt::format(
         "replications: those of this round; further rounds follow until {} is known to +- {:g}, with {} "
-        "replications at most\n",
+        "replications at most",
         target.metric, target.half_width, target.at_most);
 }
 
@@ -141,15 +143,19 @@ Table table_of(const std::vector<Cell>& cells) {
 Printout plan_printout(const study::Plan& plan, const std::filesystem::path& folder, unsigned workers) {
     const std::vector<Cell> cells = cells_of(plan, folder);
     const Rest rest = rest_of(cells, workers);
-    std::string text =
-        fmt::format("\n{} cells, {} runs in {} processes, {} complete in {}\nthe rest: ", cells.size(),
-                    plan.run_count(), plan.units.size(), rest.complete, folder.string());
+    const std::string head =
+        fmt::format("{}, {} in {}, {} complete in {}", core::counted(cells.size(), "cell"),
+                    core::counted(plan.run_count(), "run"),
+                    plan.units.size() == 1 ? "1 process" : fmt::format("{} processes", plan.units.size()),
+                    rest.complete, folder.string());
+    std::string text = "the rest: ";
     text += rest.wall_s ? fmt::format("about {} (h:m:s)", core::clock_text(*rest.wall_s))
                         : "time unknown: the size of measured demand is only in its files";
     text += fmt::format(
-        ", about {} on the disk ({})\n", size_text(rest.disk_bytes),
+        ", about {} on the disk ({})", size_text(rest.disk_bytes),
         rest.measured ? "from runs of these scenarios here" : "rough: accurate to a factor of about three");
-    if (plan.manifest.precision) text += precision_text(*plan.manifest.precision);
+    text = "\n" + core::wrapped(head, 4) + "\n" + core::wrapped(text, 4) + "\n";
+    if (plan.manifest.precision) text += core::wrapped(precision_text(*plan.manifest.precision), 4) + "\n";
     return {{{"study", plan.manifest.study},
              {"folder", folder.string()},
              {"study_seed", plan.manifest.study_seed},

@@ -35,10 +35,25 @@ Json json_of(const Table& table) {
     return rows;
 }
 
+/// A line of a table on a terminal: a last cell of several words goes on below itself, or, where it begins
+/// far to the right, below the row.
+std::string fitted(const std::string& line, std::size_t last_cell) {
+    constexpr std::size_t rightmost = 56;
+    constexpr std::size_t below = 4;
+    if (line.find(' ', last_cell) == std::string::npos || line.find('\n') != std::string::npos) return line;
+    return core::wrapped(line, last_cell <= rightmost ? last_cell : below);
+}
+
+/// A line under a row; one with a command is not broken.
+std::string below_row(const std::string& line) {
+    return line.find('`') == std::string::npos ? core::wrapped("    " + line, 8) : "    " + line;
+}
+
 }  // namespace
 
 std::string text_of(const Table& table) {
     std::vector<std::string> lines(table.rows.size() + 1);
+    std::vector<std::size_t> last_cells(lines.size());
     for (std::size_t at = 0; at < table.columns.size(); ++at) {
         if (table.columns[at].title.empty()) continue;
         std::vector<std::string> cells = {table.columns[at].title};
@@ -53,16 +68,17 @@ std::string text_of(const Table& table) {
         for (std::size_t line = 0; line < lines.size(); ++line) {
             const std::string gap(width - core::characters_in(cells[line]), ' ');
             if (!lines[line].empty()) lines[line] += "  ";
+            last_cells[line] = lines[line].size();
             lines[line] += numbers ? gap + cells[line] : cells[line] + gap;
         }
     }
     std::string text;
     for (std::size_t line = 0; line < lines.size(); ++line) {
         lines[line].erase(lines[line].find_last_not_of(' ') + 1);
-        text += lines[line] + "\n";
+        text += fitted(lines[line], last_cells[line]) + "\n";
         if (line == 0) continue;
         for (const std::string& below : table.rows[line - 1].below)
-            text += "    " + below + "\n";
+            text += below_row(below) + "\n";
     }
     return text;
 }

@@ -24,7 +24,7 @@ struct Row {
 };
 
 /// Rows that a verb prints. In text, numbers stand to the right, null is `-`, lists are joined by
-/// `+`, and an object is `key=value key=value`.
+/// `+`, an object is `key=value key=value`, and a last column of words keeps to core::help_columns.
 struct Table {
     std::string key;  ///< Of the list of rows in JSON; empty: the list is all that is printed.
     std::vector<Column> columns;

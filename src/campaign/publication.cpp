@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/build_stamp.hpp"
+#include "core/counted.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/process.hpp"
@@ -84,7 +85,7 @@ void write(const Publication& publication, const std::vector<report::ResultRow>&
     const std::string existing =
         fs::exists(publication.file) ? core::read_file(publication.file) : std::string();
     core::write_atomically(publication.file, report::with_rows(existing, publication.file, rows));
-    fmt::print(stderr, "{}: {} rows\n", publication.file, rows.size());
+    fmt::print(stderr, "{}: {}\n", publication.file, core::counted(rows.size(), "row"));
 }
 
 /// Rows of a part of the runs would stand beside those of others as if they were the whole.

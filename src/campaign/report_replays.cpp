@@ -11,6 +11,7 @@
 
 #include "campaign/detail/replay_trips.hpp"
 #include "campaign/worker_jobs.hpp"
+#include "core/counted.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "scenario/config.hpp"
@@ -72,7 +73,8 @@ class MissingRecordings {
     /// Throws core::Error when a run cannot be made or differs from the stored one.
     void make() {
         if (jobs_.empty()) return;
-        fmt::print(stderr, "clearway: repeating {} runs to show them in the report\n", made_.size());
+        fmt::print(stderr, "clearway: repeating {} for the replays of the report\n",
+                   core::counted(made_.size(), "run"));
         const WorkerResult result = work_on(jobs_, 0, "replays");
         if (result.exit_code != core::ExitCode::ok)
             throw core::Error(result.exit_code, "the replays of the report could not be made");
@@ -93,7 +95,7 @@ class MissingRecordings {
                          .job = job,
                          .file = store_.unit_file(name),
                          .log = store_.log_file(name),
-                         .work = folder / "work" / name});
+                         .work = {folder / "work" / name}});
     }
     void remove_empty_folders() const {
         std::error_code ignored;

@@ -36,9 +36,12 @@ core::ExitCode show(const experiment::RunJob& unit) {
         experiment::to_text({unit.scenario, unit.conditions.front().name, unit.replication});
     const std::filesystem::path work = unit.output / "work" / fmt::format("window-{}", ::getpid());
     fmt::print(stderr, "clearway: {} in sumo-gui\n", label);
-    const WorkerResult result = work_on(
-        {{.label = label, .job = unit, .file = work / "job.json", .log = work / "worker.log", .work = work}},
-        1, "shown");
+    const WorkerResult result = work_on({{.label = label,
+                                          .job = unit,
+                                          .file = work / "job.json",
+                                          .log = work / "worker.log",
+                                          .work = {work}}},
+                                        1, "shown");
     std::error_code ignored;
     std::filesystem::remove_all(work, ignored);
     return result.exit_code;

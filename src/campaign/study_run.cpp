@@ -15,6 +15,7 @@
 #include "campaign/detail/abort_cure.hpp"
 #include "campaign/names.hpp"
 #include "campaign/programs.hpp"
+#include "core/counted.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
 #include "core/shipped_files.hpp"
@@ -57,9 +58,10 @@ class PresentEstimate {
   public:
     explicit PresentEstimate(const results::Store& store) : headline_(store) {}
 
-    const std::string& text() {
+    /// `done`: runs that have ended; all of them are read at the end.
+    const std::string& text(std::size_t done, std::size_t total) {
         const auto now = std::chrono::steady_clock::now();
-        if (now - read_ < std::chrono::seconds(2)) return text_;
+        if (now - read_ < std::chrono::seconds(2) && done < total) return text_;
         headline_.refresh();
         text_ = headline_.text();
         read_ = now;
@@ -85,8 +87,8 @@ bool is_absent_or_empty(const std::filesystem::path& folder) {
 void say_how_to_continue(const std::filesystem::path& folder, const StudyProgress& progress,
                          const std::string& command) {
     fmt::print(stderr,
-               "clearway: interrupted with {} of {} runs complete; they are kept in {}. To continue:\n  {}\n",
-               progress.done, progress.total, folder.string(), command);
+               "clearway: interrupted with {} of {} complete; they are kept in {}. To continue:\n  {}\n",
+               progress.done, core::counted(progress.total, "run"), folder.string(), command);
 }
 
 void write_report(const report::StudyFacts& facts, const ReportReplays& replays,
@@ -109,8 +111,8 @@ std::string last_words(std::string log) {
 void name_errors(const results::Store& store, const results::Results& results) {
     const std::size_t count = results.errors.size();
     if (count == 0) return;
-    fmt::print(stderr, "clearway: {} of {} runs failed; their logs are in {}\n", count,
-               results.manifest.runs().size(), (store.folder() / "logs").string());
+    fmt::print(stderr, "clearway: {} of {} failed; their logs are in {}\n", count,
+               core::counted(results.manifest.runs().size(), "run"), (store.folder() / "logs").string());
     std::set<std::string> cures;
     for (std::size_t i = 0; i < std::min(count, named_errors); ++i) {
         const results::RunError& error = results.errors[i];
@@ -142,9 +144,9 @@ Round judge(const results::Store& store, const results::PrecisionTarget& target)
     const auto wanted =
         static_cast<std::uint32_t>(std::min<std::size_t>(found->required + found->lost, target.at_most));
     Round round;
-    round.text =
-        fmt::format("{} of {}/{} is known to +- {:.3g} after {} replications; wanted: +- {:g}", target.metric,
-                    found->scenario, found->condition, found->half_width, now, target.half_width);
+    round.text = fmt::format("{} of {}/{} is known to +- {:.3g} after {}; wanted: +- {:g}", target.metric,
+                             found->scenario, found->condition, found->half_width,
+                             core::counted(now, "replication"), target.half_width);
     round.next = std::max(wanted, now);
     if (found->required <= found->n) {
         round.outcome = Outcome::reached;
@@ -170,8 +172,8 @@ void print_shard(const study::Shard& shard, const StudyProgress& progress, const
             {"complete_runs", progress.done},
             {"failed_runs", progress.failed}},
            {},
-           fmt::format("shard {}: {} of {} runs complete, {} failed, in {}\n", study::to_text(shard),
-                       progress.done, progress.total, progress.failed, folder)},
+           fmt::format("shard {}: {} of {} complete, {} failed, in {}\n", study::to_text(shard),
+                       progress.done, core::counted(progress.total, "run"), progress.failed, folder)},
           printing);
 }
 
@@ -202,7 +204,7 @@ study::Plan plan_for(const study::StudyConfig& config, RunOptions& options) {
     if (options.folder.empty()) {
         const results::Manifest manifest = study::make_plan(config, versions, "runs").manifest;
         options.folder = std::filesystem::path("runs") /
-                         fmt::format("{}-{}", config.name, results::manifest_hash(manifest).substr(0, 6));
+                         fmt::format("{}-{}", config.name, results::study_hash(manifest).substr(0, 6));
     }
     study::Plan plan = study::make_plan(config, versions, options.folder);
     for (study::PlannedUnit& planned : plan.units) {
@@ -219,8 +221,8 @@ results::Store prepare_run_folder(const study::Plan& plan, const RunOptions& opt
         study::complete_scenarios(plan, store);
         study::keep_command(store, options.command, before);
         if (before != 0 && !plan.manifest.precision && before != store.manifest().replications)
-            fmt::print(stderr, "clearway: {}: extended from {} to {} replications\n", options.folder.string(),
-                       before, store.manifest().replications);
+            fmt::print(stderr, "clearway: {}: extended from {} to {}\n", options.folder.string(), before,
+                       core::counted(store.manifest().replications, "replication"));
         if (const auto trainings = core::shipped(std::filesystem::path("models") / "training"))
             study::copy_trainings(*trainings, store);
         return store;
@@ -248,12 +250,15 @@ StudyResult run_part(const study::Plan& plan, const results::Store& store, const
 }
 
 StudyResult run_missing(const study::Plan& plan, const results::Store& store, const RunOptions& options) {
-    fmt::print(stderr, "clearway: {} runs into {}\n", plan.run_count(), options.folder.string());
+    fmt::print(stderr, "clearway: {} into {}\n", core::counted(plan.run_count(), "run"),
+               options.folder.string());
     core::Progress progress("runs", plan.run_count(), core::Progress::style_for_stderr());
     PresentEstimate estimate(store);
     StudyResult result = run_part(plan, store, options, [&](const StudyProgress& now) {
         progress.begin_at(now.resumed);
-        progress.update(now.done + now.failed, now.failed, estimate.text());
+        const std::size_t ended = now.done + now.failed;
+        progress.set_work(now.work);
+        progress.update(ended, now.failed, estimate.text(ended, now.total));
     });
     progress.finish();
     if (is_interrupted(result.exit_code))
@@ -311,21 +316,21 @@ core::ExitCode run_study(study::StudyConfig config, RunOptions options) {
 }
 
 core::ExitCode publish(const results::Store& store, const PublishOptions& options) {
-    if (!results::tables_are_current(store)) results::write_tables(store);
     const results::Results results = results::read_results(store, results::VehicleRows::emergency);
     const analysis::Summary summary =
         analysis::summarise(results, analysis::usual_level, options.response_threshold_s);
     const report::StudyFacts facts = report::facts_of(store, results, summary, options.least_relevant_s);
-    write_report(facts, replays_of(store, results, options.replays), store.folder() / "report.html");
     fmt::print("{}", options.printing == Printing::json ? report::json_tables(facts)
                                                         : report::console_tables(facts, options.tables));
     name_errors(store, results);
+    if (!results::tables_are_current(store)) results::write_tables(store);
+    write_report(facts, replays_of(store, results, options.replays), store.folder() / "report.html");
     fmt::print(stderr, "clearway: written: {}\n", (store.folder() / "report.html").string());
     if (!results.missing.empty()) {
         fmt::print(stderr,
-                   "clearway: {} of {} runs are missing; repeat the command that started them to "
+                   "clearway: {} of {} are missing; repeat the command that started them to "
                    "continue\n",
-                   results.missing.size(), results.manifest.runs().size());
+                   results.missing.size(), core::counted(results.manifest.runs().size(), "run"));
         return core::ExitCode::incomplete;
     }
     return results.errors.empty() ? core::ExitCode::ok : core::ExitCode::runs_failed;

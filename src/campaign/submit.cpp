@@ -13,6 +13,7 @@
 
 #include "campaign/plan_text.hpp"
 #include "campaign/study_run.hpp"
+#include "core/counted.hpp"
 #include "core/files.hpp"
 #include "core/process.hpp"
 

@@ -286,6 +286,7 @@ std::pair<results::Store, core::ExitCode> repeat(const results::Store& stored,
     WorkersOptions options;
     options.workers = jobs;
     const StudyResult result = run_units(plan, again, options, [&](const StudyProgress& now) {
+        progress.set_work(now.work);
         progress.update(now.done + now.failed, now.failed);
     });
     progress.finish();

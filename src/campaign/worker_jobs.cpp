@@ -81,7 +81,8 @@ class JobList : public core::TaskList {
 
     static void remove_work(const WorkerJob& job) {
         std::error_code ignored;
-        std::filesystem::remove_all(job.work, ignored);
+        for (const std::filesystem::path& place : job.work)
+            std::filesystem::remove_all(place, ignored);
     }
 
     const std::vector<WorkerJob>& jobs_;
@@ -137,7 +138,7 @@ WorkerResult record_jobs(const std::vector<experiment::DatasetJob>& jobs, unsign
                         .job = job,
                         .file = file,
                         .log = std::filesystem::path(file).replace_extension(".log"),
-                        .work = job.output / fmt::format("work-{}-{}", job.scenario, job.replication)});
+                        .work = {job.output / fmt::format("work-{}-{}", job.scenario, job.replication)}});
     }
     return work_on(work, processes, "recordings");
 }

@@ -28,9 +28,9 @@ core::ExitCode exit_code_of(const core::Exit& exit);
 struct WorkerJob {
     std::string label;  ///< `merge replication 3`, for messages.
     experiment::Job job;
-    std::filesystem::path file;  ///< Written before the worker starts.
-    std::filesystem::path log;   ///< Both streams of the worker.
-    std::filesystem::path work;  ///< Removed when the worker fails or is ended.
+    std::filesystem::path file;               ///< Written before the worker starts.
+    std::filesystem::path log;                ///< Both streams of the worker.
+    std::vector<std::filesystem::path> work;  ///< Removed when the worker fails or is ended.
 };
 
 /// How the work ended.

@@ -1,10 +1,14 @@
 #include "campaign/workers.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <deque>
+#include <map>
 
 #include <fmt/format.h>
 
+#include "campaign/detail/run_cost.hpp"
+#include "campaign/detail/work_estimate.hpp"
 #include "campaign/programs.hpp"
 #include "core/files.hpp"
 #include "core/supervisor.hpp"
@@ -34,17 +38,42 @@ ErrorCause cause_of(const core::TaskEnd& end) {
     return ErrorCause::other;
 }
 
+/// Of a run whose demand is measured or not in the plan, s. Assumed: only the first ones are judged by it.
+constexpr double usual_run_s = 10.0;
+
+/// Expected wall time of a run in each cell: scenarios in the order of the manifest, with all conditions
+/// each.
+std::vector<double> expected_costs(const study::Plan& plan) {
+    std::vector<double> expected_s;
+    for (std::size_t row = 0; row < plan.manifest.scenarios.size(); ++row) {
+        for (const experiment::ConditionSpec& condition : plan.manifest.conditions) {
+            std::optional<double> run_s;
+            if (row < plan.scenarios.size())
+                run_s = rough_cost(plan.scenarios[row], condition.traffic_model).wall_s;
+            expected_s.push_back(run_s.value_or(usual_run_s));
+        }
+    }
+    return expected_s;
+}
+
 /// The state of one call of `run_units`.
 class Workers : private core::TaskList {
   public:
     Workers(const study::Plan& plan, const results::Store& store, const WorkersOptions& options,
             const std::function<void(const StudyProgress&)>& on_progress)
-        : plan_(plan), store_(store), options_(options), on_progress_(on_progress), lock_(store.folder()) {
+        : plan_(plan),
+          store_(store),
+          options_(options),
+          on_progress_(on_progress),
+          lock_(store.folder()),
+          work_(expected_costs(plan)) {
         if (options_.worker_program.empty())
             options_.worker_program = core::program_folder() / "clearway-run";
         core::make_folder(store.unit_file("").parent_path());
         core::make_folder(store.log_file("").parent_path());
         attempts_.resize(plan.units.size(), 0);
+        began_.resize(plan.units.size());
+        open_cells_.resize(plan.units.size());
         set_damaged_aside();
         queue_units();
     }
@@ -85,12 +114,47 @@ class Workers : private core::TaskList {
             const experiment::RunJob& unit = plan_.units[job].unit;
             const auto open = open_conditions(unit);
             if (!open.empty()) queue_.push_back(job);
+            for (const experiment::ConditionSpec& condition : open) {
+                open_cells_[job].emplace(condition.name, cell_of(unit.scenario, condition.name));
+                work_.add(open_cells_[job].at(condition.name));
+            }
             forget_errors(unit, open);
             count(unit, settled_);
         }
         progress_.total = plan_.run_count();
         progress_.resumed = settled_.complete;
         lock_.note(settled_.complete + settled_.failed);
+    }
+
+    std::size_t cell_of(const std::string& scenario, const std::string& condition) const {
+        const auto& scenarios = plan_.manifest.scenarios;
+        const auto row = std::ranges::find(scenarios, scenario, &results::ScenarioEntry::name);
+        const auto& conditions = plan_.manifest.conditions;
+        const auto column = std::ranges::find(conditions, condition, &experiment::ConditionSpec::name);
+        return static_cast<std::size_t>(row - scenarios.begin()) * conditions.size() +
+               static_cast<std::size_t>(column - conditions.begin());
+    }
+
+    /// Moves the runs of a unit that have ended from what is open to what is done.
+    void end_work(std::size_t row) {
+        std::erase_if(open_cells_[row], [&](const auto& open) {
+            const RunKey key{plan_.units[row].unit.scenario, open.first, plan_.units[row].unit.replication};
+            const bool is_complete = store_.complete(key);
+            if (!is_complete && !store_.read_error(key)) return false;
+            const auto timing = is_complete ? store_.read_timing(key) : std::nullopt;
+            work_.end(open.second, timing ? timing->wall_s : work_.run_s(open.second));
+            return true;
+        });
+    }
+
+    /// What a unit that runs has done: its time so far, but never all of what it is expected to take.
+    double running_work_s(std::size_t row) const {
+        constexpr double most = 0.9;
+        double expected_s = 0.0;
+        for (const auto& [condition, cell] : open_cells_[row])
+            expected_s += work_.run_s(cell);
+        const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - began_[row];
+        return std::min(so_far.count(), most * expected_s);
     }
 
     void forget_errors(const experiment::RunJob& unit,
@@ -110,6 +174,7 @@ class Workers : private core::TaskList {
         job.limits = options_.limits;
         forget_errors(job, job.conditions);
         ++attempts_[row];
+        began_[row] = std::chrono::steady_clock::now();
         const auto file = store_.unit_file(planned.name);
         core::write_atomically(file, experiment::to_json(job));
         const auto places = static_cast<double>(job.conditions.size() + 1);  // one for the shared warm-up
@@ -136,6 +201,7 @@ class Workers : private core::TaskList {
         }
         if (retry) queue_.push_front(end.id);
         count(unit, settled_);
+        end_work(end.id);
     }
 
     /// Records why a run has no result, or returns true when it should be tried again.
@@ -228,8 +294,13 @@ class Workers : private core::TaskList {
     void report(std::span<const std::size_t> running) {
         reported_ = std::chrono::steady_clock::now();
         Counts counts = settled_;
-        for (const std::size_t row : running)
+        double work_s = work_.done_s();
+        for (const std::size_t row : running) {
             count(plan_.units[row].unit, counts);
+            work_s += running_work_s(row);
+        }
+        const double all_s = work_.total_s();
+        progress_.work = all_s > 0.0 ? std::min(1.0, work_s / all_s) : 1.0;
         progress_.done = counts.complete;
         progress_.failed = counts.failed;
         progress_.elapsed_s = std::chrono::duration<double>(reported_ - started_).count();
@@ -242,9 +313,12 @@ class Workers : private core::TaskList {
     const std::function<void(const StudyProgress&)>& on_progress_;
     study::FolderLock lock_;
     core::InterruptionWatch interruption_;
-    std::deque<std::size_t> queue_;  ///< Rows of the plan's units.
-    std::vector<int> attempts_;      ///< By unit, in this call.
-    Counts settled_;                 ///< Runs of the units that no worker is working on.
+    std::deque<std::size_t> queue_;                               ///< Rows of the plan's units.
+    std::vector<int> attempts_;                                   ///< By unit, in this call.
+    std::vector<std::chrono::steady_clock::time_point> began_;    ///< By unit: its last attempt.
+    std::vector<std::map<std::string, std::size_t>> open_cells_;  ///< By unit: cells of open conditions.
+    WorkEstimate work_;
+    Counts settled_;  ///< Runs of the units that no worker is working on.
     StudyProgress progress_;
     std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
     std::chrono::steady_clock::time_point reported_{};

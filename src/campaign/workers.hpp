@@ -28,6 +28,8 @@ struct StudyProgress {
     std::size_t total = 0;
     std::size_t resumed = 0;  ///< Runs that were complete before this call.
     double elapsed_s = 0.0;
+    double work =
+        0.0;  ///< Share of the work of this call that is done, 0 to 1, that of running runs included.
 };
 
 /// How a study ended. `exit_code` is ok, runs_failed, interrupted or terminated.

@@ -58,9 +58,13 @@ core::ExitCode attach(const Arguments& arguments) {
                             .job = job,
                             .file = jobs / "attach.json",
                             .log = jobs / "attach.log",
-                            .work = job.output}},
+                            .work = {job.output, jobs}}},
                           1, "simulations");
-    if (result.exit_code != core::ExitCode::ok) return result.exit_code;
+    if (result.exit_code != core::ExitCode::ok) {
+        std::error_code not_empty;
+        if (arguments.folder.empty()) std::filesystem::remove("runs", not_empty);
+        return result.exit_code;
+    }
     std::filesystem::remove_all(jobs);
     return campaign::publish(results::Store::open(job.output), arguments.publish);
 }

@@ -143,6 +143,17 @@ std::optional<std::string> part_problem(const Verb& verb, const std::string& wor
                        word, near);
 }
 
+/// What to do instead of an option that other programs have.
+std::string other_way(const std::string& message) {
+    for (const char* const quiet : {"-q", "--quiet", "--silent"})
+        if (message.find(fmt::format(": {} is not known", quiet)) != std::string::npos)
+            return "Progress goes to standard error, which 2>/dev/null hides\n";
+    if (message.starts_with("clearway study: --seeds ") ||
+        message.starts_with("clearway study: --replications "))
+        return "The study file has the number of seeds: replications = 30\n";
+    return "";
+}
+
 /// The message for a command line that cannot be parsed, as the verb that was called states it.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::App* deepest = &app;
@@ -151,7 +162,8 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
         deepest = deepest->get_subcommands().front();
         name += " " + deepest->get_name();
     }
-    return core::usage_message(*deepest, name, error);
+    const std::string message = core::usage_message(*deepest, name, error);
+    return other_way(message) + message;
 }
 
 /// What is wrong with the words that should be a verb and, where it needs one, a part of it.
@@ -215,7 +227,7 @@ void declare(CLI::App& app, std::span<const Verb> verbs, Action& action) {
 void declare(CLI::App& app, Action& action) {
     app.name("clearway");
     app.footer(footer);
-    app.set_version_flag("--version",
+    app.set_version_flag("-V,--version",
                          fmt::format("clearway " CLEARWAY_VERSION "\nbuild {}", core::build_stamp()));
     app.formatter(std::make_shared<core::HelpFormatter>());
     app.require_subcommand(1);
@@ -249,6 +261,20 @@ core::ExitCode act(const Action& action, const Invocation& invocation) {
     }
 }
 
+/// `help run` is `run --help`; `version` and `run --version` are `--version`.
+std::vector<const char*> meant_arguments(std::vector<const char*> words) {
+    const auto is = [&](std::size_t at, std::string_view word) {
+        return words.size() > at && words[at] == word;
+    };
+    if (is(1, "help")) {
+        words.erase(words.begin() + 1);
+        words.push_back("--help");
+    }
+    const auto asks = [](std::string_view word) { return word == "--version"; };
+    if (is(1, "version") || std::ranges::any_of(words, asks)) return {words.front(), "--version"};
+    return words;
+}
+
 }  // namespace
 
 std::span<const Verb> verbs() {
@@ -256,13 +282,9 @@ std::span<const Verb> verbs() {
 }
 
 int run_command_line(int argument_count, const char* const* arguments) {
-    std::vector<const char*> asked;
-    if (argument_count > 1 && std::string_view(arguments[1]) == "help") {  // `help run` is `run --help`
-        asked.assign(arguments, arguments + argument_count);
-        asked.erase(asked.begin() + 1);
-        asked.push_back("--help");
-        arguments = asked.data();
-    }
+    const std::vector<const char*> meant = meant_arguments({arguments, arguments + argument_count});
+    argument_count = static_cast<int>(meant.size());
+    arguments = meant.data();
     // Line buffering for pipes too, so that messages on standard error never land within a line of output.
     std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
     const int usage = static_cast<int>(core::ExitCode::usage);

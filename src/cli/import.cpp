@@ -8,7 +8,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
@@ -35,7 +34,7 @@ class Stages {
     void show(const std::string& stage) {
         const auto now = std::chrono::steady_clock::now();
         const double elapsed_s = std::chrono::duration<double>(now - started_).count();
-        const bool is_terminal = ::isatty(STDERR_FILENO) != 0;
+        const bool is_terminal = core::can_redraw();
         const auto interval = is_terminal ? std::chrono::milliseconds(200) : std::chrono::seconds(10);
         if (now - shown_ < interval) return;
         shown_ = now;

@@ -10,6 +10,7 @@
 
 #include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
+#include "core/counted.hpp"
 #include "core/error.hpp"
 #include "core/progress.hpp"
 

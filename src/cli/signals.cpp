@@ -9,10 +9,12 @@
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
+#include "core/counted.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/temporary_folder.hpp"
+#include "core/terminal.hpp"
 #include "report/text.hpp"
 #include "scenario/network.hpp"
 #include "scenario/picture.hpp"
@@ -164,10 +166,14 @@ campaign::Printout printout_of(const std::string& name, const std::vector<Signal
     const std::string text =
         sheets.empty()
             ? "The network has no signals.\n"
-            : fmt::format(
-                  "\n{}. Yellow, red clearance and least green as their programs show them; -: none, "
-                  "so that a\nhold takes them from a formula (actuation.clearance) or setting.\n",
-                  report::counted(sheets.size(), "signal"));
+            : "\n" +
+                  core::wrapped(
+                      fmt::format("{}. Yellow, red clearance and least green as their programs show them; -: "
+                                  "none, so that a hold takes them from a formula (actuation.clearance) or "
+                                  "setting.",
+                                  core::counted(sheets.size(), "signal")),
+                      0) +
+                  "\n";
     return {{{"scenario", name}}, {table_of(sheets)}, text};
 }
 

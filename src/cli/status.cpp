@@ -13,6 +13,7 @@
 #include "analysis/summary.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
+#include "core/counted.hpp"
 #include "core/progress.hpp"
 #include "study/merge.hpp"
 
@@ -103,7 +104,8 @@ std::string text_of(const StudyStatus& status, const std::string& headline) {
         text = "(!): the simulator's safety checks were off in this condition.\n";
     text += fmt::format("\n{}: {}", status.folder.string(), study::name(status.state));
     if (!status.holder.empty()) text += fmt::format(" ({})", status.holder);
-    text += fmt::format("; {} of {} runs complete, {} failed", status.complete, status.runs, status.failed);
+    text += fmt::format("; {} of {} complete, {} failed", status.complete, core::counted(status.runs, "run"),
+                        status.failed);
     if (status.time_left_s) text += ", " + core::clock_text(*status.time_left_s) + " left";
     return text + "\n" + (headline.empty() ? "" : headline + "\n");
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/verb.hpp"
+#include "core/counted.hpp"
 #include "core/files.hpp"
 #include "core/number_range.hpp"
 #include "results/run_name.hpp"

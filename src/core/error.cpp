@@ -1,7 +1,10 @@
 #include "core/error.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <numeric>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,12 +12,43 @@
 namespace clearway::core {
 namespace {
 
+/// A problem that several parts of an input share is told once.
+std::vector<Problem> each_once(std::vector<Problem> problems) {
+    std::set<std::string> told;
+    std::erase_if(problems, [&](const Problem& one) { return !told.insert(format_problem(one)).second; });
+    return problems;
+}
+
 std::string format_all(const std::vector<Problem>& problems) {
     std::string text;
-    for (const Problem& problem : problems) {
+    for (const Problem& problem : each_once(problems)) {
         text += (text.empty() ? "" : "\n") + format_problem(problem);
     }
     return text;
+}
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char letter) { return std::tolower(letter); });
+    return text;
+}
+
+/// The command line says `--seeds` and study files `replications`; `seed` is neither.
+bool counts_runs(const std::string& word) {
+    constexpr std::array words = {"seeds", "replications", "repetitions"};
+    return std::ranges::find(words, word.substr(std::min(word.find_first_not_of('-'), word.size()))) !=
+           words.end();
+}
+
+/// `Did you mean 'a', 'b' or 'c'?` with candidates that contain the word, three at most; empty without one.
+std::string question_of_parts(const std::string& word, const std::vector<std::string>& candidates) {
+    constexpr std::size_t least_letters = 4;
+    constexpr std::size_t most_candidates = 3;
+    std::vector<std::string> found;
+    for (const std::string& candidate : candidates)
+        if (word.size() >= least_letters && candidate.find(word) != std::string::npos &&
+            found.size() < most_candidates)
+            found.push_back("'" + candidate + "'");
+    return found.empty() ? "" : fmt::format("Did you mean {}?", fmt::join(found, " or "));
 }
 
 /// Levenshtein distance, one row at a time.
@@ -36,7 +70,7 @@ std::size_t edit_distance(const std::string& left, const std::string& right) {
 }  // namespace
 
 InputError::InputError(std::vector<Problem> problems)
-    : Error(ExitCode::bad_input, format_all(problems)), problems_(std::move(problems)) {}
+    : Error(ExitCode::bad_input, format_all(problems)), problems_(each_once(std::move(problems))) {}
 
 InputError::InputError(Problem problem) : InputError(std::vector<Problem>{std::move(problem)}) {}
 
@@ -61,7 +95,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
     const std::size_t most = std::max(std::min<std::size_t>(2, word.size() / 2), word.size() / 3);
     std::size_t best_distance = most + 1;
     for (const std::string& candidate : candidates) {
-        const std::size_t distance = edit_distance(word, candidate);
+        const std::size_t distance = edit_distance(lower(word), lower(candidate));
         if (distance < best_distance) {
             best_distance = distance;
             best = candidate;
@@ -77,8 +111,14 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates,
                          const std::string& otherwise) {
-    const std::string near = nearest(word, candidates);
-    return near.empty() ? otherwise : fmt::format("Did you mean '{}'?", near);
+    std::string near = nearest(word, candidates);
+    if (counts_runs(word)) {
+        const auto same = std::ranges::find_if(candidates, counts_runs);
+        near = same == candidates.end() ? "" : *same;
+    }
+    if (!near.empty()) return fmt::format("Did you mean '{}'?", near);
+    const std::string question = question_of_parts(word, candidates);
+    return question.empty() ? otherwise : question;
 }
 
 }  // namespace clearway::core

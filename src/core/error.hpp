@@ -41,7 +41,7 @@ class Error : public std::runtime_error {
 };
 
 /// The user's input is wrong. Thrown after all problems of the input have been collected; there is at least
-/// one.
+/// one. Equal problems are kept once.
 class InputError : public Error {
   public:
     explicit InputError(std::vector<Problem> problems);
@@ -90,10 +90,10 @@ std::vector<std::string> texts_of(const Range& range, const Projection& projecti
 std::string listed(const std::vector<std::string>& words);
 
 /// The candidate nearest to `word` by edit distance; empty when all differ in more than a third of its
-/// letters (and in more than two).
+/// letters (and in more than two). Capitals do not count.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
-/// The cure of an unknown word: `Did you mean 'WORD'?` with the nearest candidate, or `otherwise`.
+/// `Did you mean 'WORD'?`: the nearest candidate, or up to three that contain the word; else `otherwise`.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates,
                          const std::string& otherwise = "");
 

@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "core/terminal.hpp"
 
@@ -15,16 +14,17 @@ namespace {
 constexpr std::size_t bar_width = 30;
 constexpr std::size_t least_bar_width = 8;
 
+enum class Elapsed : std::uint8_t { shown, left_out };
+
 std::string counts(std::size_t done, std::size_t total, std::size_t failed, double elapsed_s,
-                   std::size_t before) {
+                   std::size_t before, std::optional<double> work, Elapsed elapsed = Elapsed::shown) {
     std::string text = fmt::format("{}/{}", done, total);
     if (failed > 0) text += fmt::format(", {} failed", failed);
-    text += ", " + clock_text(elapsed_s) + " elapsed";
-    if (done > before && done < total) {
-        const double left_s =
-            elapsed_s * static_cast<double>(total - done) / static_cast<double>(done - before);
-        text += ", " + clock_text(left_s) + " left";
-    }
+    if (elapsed == Elapsed::shown) text += ", " + clock_text(elapsed_s) + " elapsed";
+    if (done <= before || done >= total) return text;
+    const double share =
+        work.value_or(static_cast<double>(done - before) / static_cast<double>(total - before));
+    if (share > 0.0) text += ", " + clock_text(elapsed_s * (1.0 - share) / share) + " left";
     return text;
 }
 
@@ -40,7 +40,7 @@ Progress::Progress(std::string label, std::size_t total, Style style)
     : label_(std::move(label)), total_(total), style_(style) {}
 
 Progress::Style Progress::style_for_stderr() {
-    return ::isatty(STDERR_FILENO) != 0 ? Style::bar : Style::lines;
+    return can_redraw() ? Style::bar : Style::lines;
 }
 
 void Progress::update(std::size_t done, std::size_t failed, const std::string& note) {
@@ -63,28 +63,35 @@ Progress::~Progress() {
 
 // NOLINTNEXTLINE(readability-function-size): what a line shows
 std::string Progress::render_bar(const std::string& label, std::size_t done, std::size_t total,
-                                 std::size_t failed, double elapsed_s, std::size_t before,
-                                 std::size_t width) {
-    const std::size_t filled = total == 0 ? width : std::min(width, width * done / total);
-    std::string bar(filled, '=');
-    if (filled < width) bar += '>';
+                                 std::size_t failed, double elapsed_s, std::size_t before, std::size_t width,
+                                 std::optional<double> work) {
+    double filled = total == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(total);
+    if (work && total > 0)
+        filled = (static_cast<double>(before) + *work * static_cast<double>(total - before)) /
+                 static_cast<double>(total);
+    std::string bar(std::min(width, static_cast<std::size_t>(filled * static_cast<double>(width))), '=');
+    if (bar.size() < width) bar += '>';
     bar.resize(width, ' ');
-    return fmt::format("{} [{}] {}", label, bar, counts(done, total, failed, elapsed_s, before));
+    return fmt::format("{} [{}] {}", label, bar, counts(done, total, failed, elapsed_s, before, work));
 }
 
 std::string Progress::line(std::size_t columns) const {
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - started_).count();
     const std::string note = note_.empty() ? "" : "  " + note_;
-    if (style_ == Style::lines)
-        return fmt::format("{}: {}{}\n", label_, counts(done_, total_, failed_, elapsed_s, before_), note);
-    const auto with_bar = [&](std::size_t width) {
-        return render_bar(label_, done_, total_, failed_, elapsed_s, before_, width) + note;
+    const auto counted = [&](Elapsed elapsed) {
+        return counts(done_, total_, failed_, elapsed_s, before_, work_, elapsed);
     };
-    // Shorten the bar first, then the note.
-    const std::size_t length = with_bar(bar_width).size();
+    if (style_ == Style::lines) return fmt::format("{}: {}{}\n", label_, counted(Elapsed::shown), note);
+    const auto with_bar = [&](std::size_t width) {
+        return render_bar(label_, done_, total_, failed_, elapsed_s, before_, width, work_);
+    };
+    const std::size_t of_note = std::min(note.size(), note.find(": "));
+    const std::size_t length = with_bar(bar_width).size() + of_note;
     const std::size_t too_long = length > columns ? length - columns : 0;
-    const std::size_t width = bar_width - std::min(too_long, bar_width - least_bar_width);
-    return cut_to_columns(with_bar(width), columns);
+    std::string line = with_bar(bar_width - std::min(too_long, bar_width - least_bar_width));
+    for (const Elapsed elapsed : {Elapsed::shown, Elapsed::left_out})
+        if (line.size() + of_note > columns) line = label_ + " " + counted(elapsed);
+    return cut_to_columns(line + note, columns);
 }
 
 void Progress::print() {

@@ -2,12 +2,14 @@
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace clearway::core {
 
 /// Progress of a long job on standard error: a bar that is redrawn on a terminal and never wraps, otherwise
-/// one line per 10 s, and a last line at the end. Times left are estimated from the work done so far.
+/// one line per 10 s, and a last line at the end. Times left are estimated from the work done so far, or from
+/// the counts where no work is given.
 class Progress {
   public:
     enum class Style { bar, lines, silent };
@@ -18,7 +20,7 @@ class Progress {
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
-    /// The bar if standard error is a terminal, else lines.
+    /// The bar where `can_redraw`, else lines.
     static Style style_for_stderr();
 
     /// Work done before this job began; it is left out of the estimate of the time left.
@@ -28,15 +30,17 @@ class Progress {
     /// Call as often as convenient; output is limited to 10 a second (bar) or one per 10 s (lines). `note` is
     /// a short extra text, for example the current estimate of the headline metric.
     void update(std::size_t done, std::size_t failed, const std::string& note = {});
+    /// Share of the work of this job that is done, 0 to 1, for bar and time left.
+    void set_work(double share) { work_ = share; }
     /// Prints the final state and ends the line.
     void finish();
 
     /// `label  [=====>    ] 120/300, 2 failed, 1:05 elapsed, 1:40 left  note`. Pure, for tests.
     static std::string render_bar(const std::string& label, std::size_t done, std::size_t total,
                                   std::size_t failed, double elapsed_s, std::size_t before = 0,
-                                  std::size_t width = 30);
-    /// The line as it is printed now. With a bar it has at most `columns` characters: the bar is shortened
-    /// first, then the note.
+                                  std::size_t width = 30, std::optional<double> work = {});
+    /// The line as it is printed now. With a bar it has at most `columns` characters: the bar is shortened,
+    /// then left out, then the time elapsed, so that the note stays up to its first `: `; then it is cut.
     std::string line(std::size_t columns) const;
 
   private:
@@ -49,6 +53,7 @@ class Progress {
     std::size_t done_ = 0;
     std::size_t before_ = 0;
     std::size_t failed_ = 0;
+    std::optional<double> work_;
     std::string note_;
     Clock::time_point started_ = Clock::now();
     Clock::time_point printed_{};

@@ -34,6 +34,11 @@ void write(std::string_view text) {
 
 }  // namespace
 
+bool can_redraw() {
+    const char* const kind = std::getenv("TERM");
+    return ::isatty(STDERR_FILENO) != 0 && (kind == nullptr || std::string_view(kind) != "dumb");
+}
+
 std::size_t terminal_columns() {
     winsize size{};
     if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col >= least_columns) return size.ws_col;

@@ -6,6 +6,9 @@
 
 namespace clearway::core {
 
+/// Whether standard error is a terminal that can redraw a line: not one with TERM=dumb.
+bool can_redraw();
+
 /// Width in columns of the terminal on standard error: as the terminal reports it, else from the variable
 /// COLUMNS, else 80.
 std::size_t terminal_columns();

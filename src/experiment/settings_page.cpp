@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/field_page.hpp"
 #include "core/terminal.hpp"
+#include "experiment/settings.hpp"
 #include "policy/policy.hpp"
 
 namespace clearway::experiment {
@@ -64,7 +65,8 @@ std::vector<std::string> names_of(const std::vector<Component>& components) {
 
 }  // namespace
 
-std::vector<Component> components_named(const std::string& name) {
+std::vector<Component> components_named(const std::string& words) {
+    const std::string name = words.substr(0, words.find('.'));  // of `preempt_signals.lead_s` the component
     const std::vector<Component>& all = components();
     if (name.empty()) return all;
     std::vector<std::string> wanted = {name};
@@ -79,7 +81,7 @@ std::vector<Component> components_named(const std::string& name) {
     });
     if (found.empty()) {
         throw core::InputError({"list settings", fmt::format("`{}` is unknown", name), core::listed(known),
-                                core::did_you_mean(name, known)});
+                                core::did_you_mean(name, known, check_setting(name, "", "").front().cure)});
     }
     return found;
 }

@@ -8,7 +8,7 @@
 namespace clearway::experiment {
 
 /// The component of this name, or the components that the policy of this name combines; all for an empty
-/// name. Throws core::InputError for an unknown name, suggesting the nearest.
+/// name. Of `preempt_signals.lead_s` the component counts. Throws core::InputError for an unknown name.
 std::vector<Component> components_named(const std::string& name);
 
 /// A line for each setting: name, default, unit and allowed values.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/terminal.hpp"
 #include "report/detail/json.hpp"
 #include "report/facts.hpp"
 #include "report/locks.hpp"
@@ -22,9 +23,9 @@ using analysis::ScenarioSummary;
 using detail::Json;
 using detail::json_of;
 
-constexpr std::size_t comparison_label_width = 34;
-constexpr std::size_t comparison_width = 100;
-constexpr const char* numbers_format = "{:>8}{:>9}  {:<17}{:>6}{:>7}{:>8}{:>9}\n";
+constexpr std::size_t comparison_label_width = 20;
+constexpr std::size_t comparison_width = core::help_columns;
+constexpr const char* numbers_format = "{:>7}{:>8}  {:<16}{:>5}{:>6}{:>7}{:>9}\n";
 
 /// Calls `visit` with every condition that is compared, and its scenario.
 template <class Visit>
@@ -187,7 +188,7 @@ void add_objections(const ScenarioSummary& scenario, const ConditionSummary& con
 
 /// Response times of the conditions that are compared; nothing where no EV arrived.
 std::string response_text(const ScenarioSummary& scenario, const LabelColumns& labels) {
-    constexpr const char* format = "{:>8}  {:<19}  {:>8}  {:<19}\n";
+    constexpr const char* format = "{:>8}  {:<19}  {:>8}  {}\n";
     std::string rows;
     double threshold_s = 0.0;
     for (const ConditionSummary& condition : scenario.conditions) {
@@ -205,8 +206,11 @@ std::string response_text(const ScenarioSummary& scenario, const LabelColumns& l
     }
     if (rows.empty()) return rows;
     return fmt::format(
-        "{}: EV response time, 90th percentile, s, and trips within {:g} s, %\n{}{}{:-<{}}\n{}\n",
-        printable(scenario.scenario), threshold_s, labels.header(),
+        "{}\n{}{}{:-<{}}\n{}\n",
+        core::wrapped(fmt::format("{}: EV response time, 90th percentile, s, and trips within {:g} s, %",
+                                  printable(scenario.scenario), threshold_s),
+                      4),
+        labels.header(),
         fmt::format(fmt::runtime(format), "90th pc.", "diff. [95 %]", "in time", "diff. [95 %]"), "",
         comparison_width, rows);
 }
@@ -229,7 +233,8 @@ Json to_json(const analysis::ResponseTime& response) {
 std::string unpaired_line(const analysis::Unpaired& lost) {
     std::string where = printable(lost.scenario);
     if (!lost.condition.empty()) where += "/" + printable(lost.condition);
-    return fmt::format("Not paired: {}{}{}\n", where, where.empty() ? "" : ": ", lost.why);
+    return core::wrapped(fmt::format("Not paired: {}{}{}", where, where.empty() ? "" : ": ", lost.why), 4) +
+           "\n";
 }
 
 /// What differs between the folders and between their conditions of one name.
@@ -237,14 +242,19 @@ std::string differing_text(const analysis::Summary& summary) {
     std::string text;
     std::string builds;
     if (summary.builds)
-        builds = fmt::format(
-            "Made by different builds of Clearway: {} in the first folder and {} in the second.\n\n",
-            printable(summary.builds->first), printable(summary.builds->second));
+        builds = core::wrapped(
+                     fmt::format(
+                         "Made by different builds of Clearway: {} in the first folder and {} in the second.",
+                         printable(summary.builds->first), printable(summary.builds->second)),
+                     4) +
+                 "\n\n";
     for (const analysis::ConditionDifference& one : summary.differing)
-        text +=
-            fmt::format("{}: {} is {} in the first folder and {} in the second.\n", printable(one.condition),
-                        printable(one.setting), printable(one.first.value_or("as shipped")),
-                        printable(one.second.value_or("as shipped")));
+        text += core::wrapped(fmt::format("{}: {} is {} in the first folder and {} in the second.",
+                                          printable(one.condition), printable(one.setting),
+                                          printable(one.first.value_or("as shipped")),
+                                          printable(one.second.value_or("as shipped"))),
+                              4) +
+                "\n";
     return builds + (text.empty() ? text : "Conditions of the same name differ:\n" + text + "\n");
 }
 
@@ -252,14 +262,16 @@ std::string differing_text(const analysis::Summary& summary) {
 std::string objections_text(const ScenarioSummary& scenario) {
     std::string text;
     for (const ConditionSummary& condition : scenario.conditions) {
-        if (const std::string locks = lock_words(condition); !locks.empty())
-            text += fmt::format("{}: {}: {}.\n", printable(scenario.scenario),
-                                printable(condition.condition.name), locks);
+        const auto add = [&](const std::string& words) {
+            text += core::wrapped(fmt::format("{}: {}: {}.", printable(scenario.scenario),
+                                              printable(condition.condition.name), words),
+                                  4) +
+                    "\n";
+        };
+        if (const std::string locks = lock_words(condition); !locks.empty()) add(locks);
         for (const std::string& why : {analysis::emergency_objections(condition.objections),
                                        analysis::other_objections(condition.objections)}) {
-            if (!why.empty())
-                text += fmt::format("{}: {}: {}.\n", printable(scenario.scenario),
-                                    printable(condition.condition.name), why);
+            if (!why.empty()) add(why);
         }
     }
     return text.empty() ? text : text + "\n";
@@ -319,11 +331,12 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
                 if (const std::string words =
                         locked_pairs_words(comparison, usual_least_relevant_s, Script::plain);
                     !words.empty())
-                    rows += "  " + words + "\n";
+                    rows += core::wrapped("  " + words, 4) + "\n";
             }
             if (metric == nullptr) continue;
-            fmt::format_to(out, "{}: {}{}\n{}", printable(scenario.scenario), metric->doc,
-                           metric->unit == "1" ? "" : ", " + metric->unit, labels.header());
+            const std::string title = fmt::format("{}: {}{}", printable(scenario.scenario), metric->doc,
+                                                  metric->unit == "1" ? "" : ", " + metric->unit);
+            fmt::format_to(out, "{}\n{}", core::wrapped(title, 4), labels.header());
             fmt::format_to(out, fmt::runtime(numbers_format), "pairs", "diff.", "95 % interval", "%", "d",
                            "p Holm", "Wilcoxon");
             fmt::format_to(out, "{:-<{}}\n{}\n", "", comparison_width, rows);

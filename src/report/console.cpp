@@ -313,7 +313,6 @@ void append_verdicts(const ScenarioFacts& scenario, std::string& text) {
                                    printable(verdict(scenario, condition, Script::plain).text())),
                        text);
     }
-    append_leases(scenario, text);
 }
 
 void append_measures(const ScenarioFacts& scenario, Tables tables, std::string& text) {
@@ -334,7 +333,6 @@ void append_measures(const ScenarioFacts& scenario, Tables tables, std::string& 
 void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& text) {
     append_head(scenario, text);
     append_wrapped(coarse_step_sentence(scenario), text);
-    append_verdicts(scenario, text);
     append_runs(scenario, text);
     if (const std::string caption = published_caption(scenario); !caption.empty()) {
         text += fmt::format("\n{}\n", printable(caption));
@@ -345,12 +343,30 @@ void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& 
     if (tables == Tables::all) append_censored(scenario, text);
     const std::string wide = wide_edges_sentence(scenario);
     if (tables == Tables::all && !wide.empty()) append_wrapped(wide, text);
+    if (tables == Tables::all) append_leases(scenario, text);
+    append_verdicts(scenario, text);  // last, where a terminal shows it
+}
+
+/// What the words of the tables mean.
+void append_legend(std::string& text) {
+    append_wrapped(
+        "here: mean and half width of its 95 % interval; (<x): upper end of an asymmetric interval, as none "
+        "reaches below 0. Travel time of emergency vehicles (EV), all: the measure of the verdicts; an EV "
+        "that "
+        "did not arrive counts with the horizon. lost EVs, hit EVs, unchecked: more EVs than in the baseline "
+        "did not "
+        "arrive or collided, or safety checks were off, so neither a benefit nor the absence of an effect "
+        "can be claimed. diff.: mean of the paired differences to the baseline of the same replication; "
+        "better or worse when its interval excludes 0; negligible when an EV's time changes by less than "
+        "--least-difference.",
+        text);
 }
 
 }  // namespace
 
 std::string console_tables(const StudyFacts& study, Tables tables) {
     std::string text = planned_table(study);
+    if (tables == Tables::all) append_legend(text);
     bool any_unsafe = false;
     for (const ScenarioFacts& scenario : study.scenarios) {
         for (const Sensitivity& sensitivity : study.sensitivities) {
@@ -365,15 +381,6 @@ std::string console_tables(const StudyFacts& study, Tables tables) {
     text += safe_table(sensitivity_table(
         study.sensitivities, tables == Tables::all ? SensitivityRows::all : SensitivityRows::with_effect));
     append_wrapped(few_seeds_sentence(study), text);
-    append_wrapped(
-        "here: mean and half width of its 95 % interval; (<x): upper end of an asymmetric interval, as none "
-        "reaches below 0. EV travel time, all: the measure of the verdicts; an EV that did not arrive "
-        "counts with the horizon. lost EVs, hit EVs, unchecked: more EVs than in the baseline did not "
-        "arrive or collided, or safety checks were off, so neither a benefit nor the absence of an effect "
-        "can be claimed. diff.: mean of the paired differences to the baseline of the same replication; "
-        "better or worse when its interval excludes 0; negligible when an EV's time changes by less than "
-        "--least-difference.",
-        text);
     if (std::ranges::any_of(study.scenarios, [](const auto& one) { return !one.published_as.empty(); }))
         append_wrapped(
             "published: the dissertation's number, one unseeded run on a network of its own; not a result of "
@@ -381,7 +388,7 @@ std::string console_tables(const StudyFacts& study, Tables tables) {
             "inputs.",
             text);
     if (tables == Tables::essential)
-        append_wrapped("All measures, medians and tails: --tables, or report.html.", text);
+        append_wrapped("All measures, actions and what the words mean: --tables, or report.html.", text);
     if (any_unsafe) append_wrapped("(!): the simulator's safety checks were off in this condition.", text);
     return text;
 }

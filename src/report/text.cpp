@@ -61,18 +61,6 @@ int decimals_of(const ScenarioFacts& scenario, Measure measure) {
     return largest < 10.0 ? 2 : 1;
 }
 
-std::string grouped(std::uint64_t count) {
-    std::string digits = std::to_string(count);
-    for (std::size_t place = digits.size(); place > 3; place -= 3) {
-        digits.insert(place - 3, ",");
-    }
-    return digits;
-}
-
-std::string counted(std::uint64_t count, std::string_view noun) {
-    return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
-}
-
 std::string wide_edges_sentence(const ScenarioFacts& scenario) {
     if (!scenario.wide_edges) return {};
     if (scenario.wide_edges->empty()) return "No edge has three or more lanes for cars.";

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/counted.hpp"
 #include "core/markup.hpp"
 #include "report/facts.hpp"
 
@@ -55,11 +56,8 @@ std::string missing(Script script);
 /// Decimals that suit a measure in one scenario: 0 for %, 2 if all of its means are below 10, else 1.
 int decimals_of(const ScenarioFacts& scenario, Measure measure);
 
-/// 12345 -> `12,345`.
-std::string grouped(std::uint64_t count);
-
-/// `1 run`, `2 runs`.
-std::string counted(std::uint64_t count, std::string_view noun);
+using core::counted;
+using core::grouped;
 
 /// A sentence on the edges with three or more lanes for cars, without names; empty if the folder does not
 /// list them.

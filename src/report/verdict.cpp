@@ -211,9 +211,9 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     const std::size_t all = condition.failed.size() + condition.complete_runs + condition.missing_runs;
     std::string absent;
     if (!condition.failed.empty())
-        absent = fmt::format("{} of {} runs failed; ", condition.failed.size(), all);
+        absent = fmt::format("{} of {} failed; ", condition.failed.size(), counted(all, "run"));
     if (condition.missing_runs > 0)
-        absent += fmt::format("{} of {} runs are missing; ", condition.missing_runs, all);
+        absent += fmt::format("{} of {} are missing; ", condition.missing_runs, counted(all, "run"));
     Verdict words = lead(scenario, condition, script);
     words.finding = absent + words.finding;
     std::string& text = words.figures;

@@ -148,7 +148,7 @@ void print_table(const Store& store, const std::string& table, TableFormat forma
     if (std::ranges::find(known, table) == known.end()) {
         throw core::InputError({"table",
                                 fmt::format("there is no `{}` in {}", table, store.folder().string()),
-                                core::listed(known), ""});
+                                core::listed(known), core::did_you_mean(table, known)});
     }
     format == TableFormat::csv ? print_csv(database, table, out) : print_json(database, table, out);
 }

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/folder_name.hpp"
 #include "scenario/config.hpp"
 #include "scenario/detail/library.hpp"
 #include "scenario/detail/tables.hpp"
@@ -202,9 +203,12 @@ void init(const std::filesystem::path& folder, const std::string& from) {
         (!std::filesystem::is_directory(folder) || !std::filesystem::is_empty(folder)))
         throw core::InputError(core::Problem{folder.string(), "exists and is not an empty folder",
                                              "a new or an empty folder", "choose another name"});
+    const std::filesystem::path named = folder.has_filename() ? folder : folder.parent_path();
+    if (!core::is_folder_name(named.filename().string()))
+        throw core::InputError(core::Problem{folder.string(), "cannot be the name of a scenario",
+                                             core::folder_name_rule, "Choose another name"});
     const std::filesystem::path source = detail::scenario_file(from);
     const ScenarioConfig config = load(from);
-    const std::filesystem::path named = folder.has_filename() ? folder : folder.parent_path();
     const std::string text = core::read_file(source);
     const std::string copy =
         unlocked(renamed(is_whole(text) ? text : to_toml(config), named.filename().string()));

@@ -1,6 +1,9 @@
+#include <sstream>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/terminal.hpp"
 #include "scenario_import/import.hpp"
 
 namespace clearway::scenario_import {
@@ -19,7 +22,17 @@ std::string list_text(const char* title, const std::vector<std::string>& lines) 
     if (lines.empty()) return {};
     std::string text = fmt::format("{}\n", title);
     for (const std::string& line : lines)
-        text += fmt::format("  - {}\n", line);
+        text += core::wrapped("  - " + line, 4) + "\n";
+    return text;
+}
+
+/// Lines `  label            text` with long texts going on below themselves.
+std::string filled(const std::string& lines) {
+    constexpr std::size_t text_column = 19;
+    std::istringstream stream(lines);
+    std::string text;
+    for (std::string line; std::getline(stream, line);)
+        text += core::wrapped(line, text_column) + "\n";
     return text;
 }
 
@@ -45,6 +58,7 @@ std::string to_text(const Findings& findings) {
     if (!findings.trial_failure.empty())
         text += fmt::format("  short            SUMO fails in a trial run of the scenario: {}\n",
                             findings.trial_failure);
+    text = filled(text);
     text += list_text("Changed:", findings.changes);
     text += list_text("Left out:", findings.left_out);
     return text;

@@ -66,7 +66,8 @@ void check(const StudyConfig& config) {
     if (config.conditions.empty()) problems.push_back({"study", "has no condition", "", "Name at least one"});
     if (config.replications == 0) problems.push_back({"replications", "0 is out of range", "1 or more", ""});
     std::set<std::string> studies;
-    check_name("study", config.name, studies, problems);
+    const bool is_of_scenario = config.scenarios.size() == 1 && config.scenarios.front().name == config.name;
+    if (!is_of_scenario) check_name("study", config.name, studies, problems);
     std::set<std::string> scenarios;
     for (const scenario::ScenarioConfig& scenario : config.scenarios)
         check_name("scenario", scenario.name, scenarios, problems);

@@ -58,7 +58,7 @@ TEST_F(HeadlineOfAStudy, IsThePairedDifferenceOfWhatIsThere) {
     write("treated", 0, 47.0);
     write("treated", 1, 12.0);  // no pair yet
     headline.refresh();
-    EXPECT_EQ(headline.text(), "alpha treated: EV travel time -3.0 s, n 1");
+    EXPECT_EQ(headline.text(), "EV travel time -3.0 s, n 1: alpha treated");
     write("baseline", 1, 13.0);
     headline.refresh();
     headline.refresh();
@@ -67,7 +67,7 @@ TEST_F(HeadlineOfAStudy, IsThePairedDifferenceOfWhatIsThere) {
     EXPECT_DOUBLE_EQ(headline.estimate()->mean, -2.0);
     // Differences -3 and -1: deviation sqrt(2), half width 12.706 * sqrt(2) / sqrt(2); too few to print.
     EXPECT_NEAR(headline.estimate()->interval->high, 10.7, 0.05);
-    EXPECT_EQ(headline.text(), "alpha treated: EV travel time -2.0 s, n 2");
+    EXPECT_EQ(headline.text(), "EV travel time -2.0 s, n 2: alpha treated");
 }
 
 TEST_F(HeadlineOfAStudy, TellsWhichConditionNeedsMost) {

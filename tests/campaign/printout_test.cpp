@@ -25,6 +25,18 @@ TEST(Printout, aligns_columns_and_leaves_out_what_has_no_title) {
         "-\n");
 }
 
+TEST(Printout, a_last_column_of_words_keeps_to_80_columns) {
+    const std::string words =
+        "nine ships of the line and a tender with tea for the whole of the long way home";
+    EXPECT_EQ(text_of({"", {{"", "grade"}, {"", "text"}}, {{{"ok", words}}}}),
+              "grade  text\n"
+              "ok     nine ships of the line and a tender with tea for the whole of the long\n"
+              "       way home\n");
+    const std::string wide(60, 'x');
+    EXPECT_EQ(text_of({"", {{"", "a"}, {"", "b"}}, {{{wide, "one two three four five six"}}}}),
+              "a" + std::string(61, ' ') + "b\n" + wide + "  one two three four\n    five six\n");
+}
+
 TEST(Printout, json_has_the_facts_and_what_has_a_key) {
     testing::internal::CaptureStdout();
     print({{{"harbour", "Aarhus"}}, {ships()}, "unheard"}, Printing::json);

@@ -78,6 +78,9 @@ TEST_F(Study, CompletesEveryRunAndReportsHowFarItIs) {
     const StudyResult result = run_in("out");
     EXPECT_EQ(result.exit_code, ExitCode::ok);
     EXPECT_EQ(result.progress.done, 12U);
+    EXPECT_DOUBLE_EQ(result.progress.work, 1.0);
+    for (std::size_t i = 1; i < reported_.size(); ++i)
+        EXPECT_LE(reported_[i].work, 1.0);
     EXPECT_EQ(result.progress.total, 12U);
     EXPECT_EQ(results::read_results(store_in("out")).runs.size(), 12U);
     ASSERT_FALSE(reported_.empty());

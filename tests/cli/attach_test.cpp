@@ -73,6 +73,7 @@ TEST_F(AttachTest, what_cannot_work_is_told_and_leaves_no_run_folder) {
         EXPECT_EQ(ended.code, code) << ended.err;
         EXPECT_THAT(ended.err, HasSubstr(said));
         EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+        EXPECT_FALSE(std::filesystem::exists(folder() / "out.job"));
     };
     refused({"localhost:99999", "--out", "out"}, 3, "1 to 65535");
     refused({"localhost:8813", "--policy", "coridor", "--out", "out"}, 3, "corridor");
@@ -85,6 +86,8 @@ TEST_F(AttachTest, what_cannot_work_is_told_and_leaves_no_run_folder) {
         const WaitingSumo other(arguments(), folder() / "sumo.log");
         refused({place(other.port()), "--automated", "robt", "--out", "out"}, 3, "robot");
     }
+    EXPECT_EQ(clearway({"attach", "localhost:1"}).code, 4);
+    EXPECT_FALSE(std::filesystem::exists(folder() / "runs"));
     const WaitingSumo broken(arguments(), folder() / "sumo.log");
     const core::Child attached = start({"attach", place(broken.port()), "--out", "out"});
     while (!std::filesystem::exists(folder() / "out/manifest.json"))

@@ -24,6 +24,33 @@ TEST_F(BadInputTest, a_name_of_a_shipped_scenario_and_of_a_folder_here_is_refuse
     std::filesystem::remove_all(folder() / "merge");
 }
 
+TEST_F(BadInputTest, a_scenario_gets_no_name_that_run_would_refuse) {
+    for (const char* const name : {"Zürich2", "my crossing", ".hidden"}) {
+        const Ended ended = clearway({"scenario", "init", name});
+        EXPECT_EQ(ended.code, 3) << name;
+        EXPECT_THAT(ended.err, HasSubstr("1 to 100 letters, digits"));
+        EXPECT_FALSE(std::filesystem::exists(folder() / name));
+    }
+    ASSERT_EQ(clearway({"scenario", "init", "mine"}).code, 0);
+    std::filesystem::rename(folder() / "mine", folder() / "Zürich2");
+    std::string text = read("Zürich2/scenario.toml");
+    const std::size_t at = text.find("\"mine\"");
+    write("Zürich2/scenario.toml", text.replace(at, 6, "\"Zürich2\""));
+    const Ended ended = clearway({"run", "./Zürich2", "--seeds", "1"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_EQ(ended.err.find("cannot be the name"), ended.err.rfind("cannot be the name")) << ended.err;
+}
+
+TEST_F(BadInputTest, a_study_file_with_words_of_the_command_line_is_told_its_own) {
+    write("my.toml",
+          "name = \"mine\"\nseeds = 3\nscenarios = [\"merge\"]\nconditions = [\"baseline\"]\n"
+          "[factors]\nlead_s = [4, 8]\npreempt_signals.led_s = [4, 8]\n");
+    const std::string said = clearway({"study", "my.toml"}).err;
+    EXPECT_THAT(said, AllOf(HasSubstr("Did you mean 'replications'?"),
+                            HasSubstr("Did you mean 'preempt_signals.lead_s'?")));
+    EXPECT_EQ(said.find("led_s: is unknown"), said.rfind("led_s: is unknown")) << "two values, one error";
+}
+
 TEST_F(BadInputTest, an_unknown_scenario_names_the_nearest) {
     const Ended ended = clearway({"run", "mergee"});
     EXPECT_EQ(ended.code, 3);

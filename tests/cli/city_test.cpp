@@ -139,14 +139,21 @@ TEST_F(CityTest, check_says_whether_there_are_emergency_vehicles) {
     write_line_scenario();
     const Ended fit = clearway({"scenario", "check", "line"});
     EXPECT_EQ(fit.code, 0) << fit.out << fit.err;
-    EXPECT_THAT(fit.out, AllOf(HasSubstr("1 EVs with a route, 1 entered, 1 arrived"),
+    EXPECT_THAT(fit.err, HasSubstr("clearway: 1 run into"));
+    EXPECT_TRUE(fit.out.ends_with("\nline is fit for a study.\n")) << fit.out;
+    EXPECT_FALSE(std::filesystem::exists(folder() / "runs"));
+    std::istringstream lines(fit.out);
+    for (std::string line; std::getline(lines, line);)
+        EXPECT_LE(line.size(), 80U) << line;
+    EXPECT_THAT(fit.out, AllOf(HasSubstr("1 EV with a route, 1 entered, 1 arrived"),
                                testing::ContainsRegex("note +signals +0 in the network: signal policies have "
                                                       "no effect here"),
                                Not(HasSubstr("try:"))));
     write_line_scenario("emergency = 1", "emergency = 0");
     const Ended none = clearway({"scenario", "check", "line"});
     EXPECT_EQ(none.code, 6);
-    EXPECT_THAT(none.out, AllOf(HasSubstr("0 EVs with a route"), HasSubstr("try: set demand.emergency")));
+    EXPECT_THAT(none.out, AllOf(HasSubstr("0 EVs with a route"), HasSubstr("try: set demand.emergency"),
+                                HasSubstr("line is not fit for a study as it is: emergency.")));
 }
 
 TEST_F(CityTest, check_tries_whether_a_scenario_locks) {

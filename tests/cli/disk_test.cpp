@@ -70,6 +70,10 @@ TEST_F(DiskTest, that_is_read_only_exits_with_4_and_can_still_be_looked_at) {
     const Ended again = study("disk/out");
     EXPECT_EQ(again.code, 4);
     EXPECT_THAT(again.err, HasSubstr("ead-only"));
+    const Ended reported = clearway({"report", "disk/out"});
+    EXPECT_EQ(reported.code, 4);
+    EXPECT_THAT(reported.out, HasSubstr("Graph made by simulation attributes: "))
+        << "verdicts are printed all the same";
     EXPECT_THAT(clearway({"study", "status", "disk/out"}).out, HasSubstr("complete; 32 of 32"));
     EXPECT_EQ(clearway({"study", "merge", "disk/out", "--out", "merged"}).code, 0)
         << "copied, for links cannot leave a disk";

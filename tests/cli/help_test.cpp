@@ -133,6 +133,28 @@ TEST_F(HelpTest, the_word_help_is_the_option) {
     EXPECT_THAT(clearway({"help", "studdy"}).err, HasSubstr("Did you mean 'study'?"));
 }
 
+TEST_F(HelpTest, the_version_is_told_wherever_it_is_asked_for) {
+    const Ended version = clearway({"--version"});
+    EXPECT_THAT(version.out, HasSubstr("build "));
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"-V"}, {"version"}, {"run", "--version"}, {"run", "merge", "--version"}}) {
+        const Ended ended = clearway(words);
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        EXPECT_EQ(ended.out, version.out) << core::shell_text(words);
+    }
+}
+
+TEST_F(HelpTest, options_of_other_programs_and_places_name_the_way_here) {
+    EXPECT_THAT(clearway({"run", "merge", "-q"}).err, HasSubstr("2>/dev/null hides"));
+    EXPECT_THAT(clearway({"study", "--seeds", "3", "x.toml"}).err, HasSubstr("replications = 30"));
+    EXPECT_THAT(clearway({"run", "merge", "--replications", "3"}).err, HasSubstr("Did you mean '--seeds'?"));
+    EXPECT_THAT(clearway({"scenario", "check", "merge", "--seeds", "3"}).err, Not(HasSubstr("'--seed'")));
+    EXPECT_THAT(clearway({"list", "settings", "lead_s"}).err,
+                HasSubstr("Did you mean 'preempt_signals.lead_s'?"));
+    EXPECT_EQ(clearway({"list", "settings", "preempt_signals.lead_s"}).out,
+              clearway({"list", "settings", "preempt_signals"}).out);
+}
+
 TEST_F(HelpTest, a_word_that_should_be_a_number_is_told_from_a_number_out_of_range) {
     EXPECT_THAT(clearway({"run", "merge", "--seeds", "x"}).err,
                 HasSubstr("--seeds: x is no whole number (allowed: 1 to 100000)"));

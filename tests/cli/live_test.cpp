@@ -124,7 +124,7 @@ TEST_F(LiveTest, a_viewer_who_pauses_steps_and_sets_the_speed_changes_no_byte) {
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_GT(frames[0], 50U);
     EXPECT_GT(frames[1], 50U);
-    EXPECT_THAT(ended.err, HasSubstr("1 viewers, 0 refused"));
+    EXPECT_THAT(ended.err, HasSubstr("1 viewer, 0 refused"));
     expect_as_run(ended);
 }
 
@@ -172,7 +172,7 @@ TEST_F(LiveTest, beyond_this_machine_a_token_is_printed_and_needed) {
     Viewer viewer(port, "/stream" + address.substr(query + 1));
     EXPECT_FALSE(viewer.words("welcome").at("allow_control").get<bool>());
     ::kill(program.pid, SIGINT);
-    EXPECT_THAT(finish(program).err, HasSubstr("1 viewers, 3 refused"));
+    EXPECT_THAT(finish(program).err, HasSubstr("1 viewer, 3 refused"));
 }
 
 void LiveTest::end_by(int signal, int expected_code) const {

@@ -282,19 +282,21 @@ TEST_F(RunTest, the_dissertations_tables_belong_to_its_study) {
         EXPECT_LE(line.size(), 100U) << line;
 }
 
-TEST_F(RunTest, the_verdict_comes_first_and_long_tables_where_they_are_asked_for) {
+TEST_F(RunTest, the_verdict_comes_last_and_long_tables_where_they_are_asked_for) {
     const Ended brief = clearway(two_conditions("out", 2));
     ASSERT_EQ(brief.code, 0) << brief.err;
     const std::size_t verdict = brief.out.find("Graph made by simulation attributes: ");
     ASSERT_NE(verdict, std::string::npos);
-    EXPECT_LT(verdict, brief.out.find("EV travel time, s\n"));
-    EXPECT_THAT(brief.out, AllOf(HasSubstr("--tables"), Not(HasSubstr("Collisions"))));
+    EXPECT_GT(verdict, brief.out.find("EV travel time, all, s\n"));
+    EXPECT_LE(std::ranges::count(brief.out.substr(verdict), '\n'), 8);
+    EXPECT_THAT(brief.out,
+                AllOf(HasSubstr("--tables"), Not(HasSubstr("Collisions")), Not(HasSubstr("Actions:"))));
     const Ended all = clearway({"report", "out", "--tables"});
-    EXPECT_THAT(all.out, AllOf(HasSubstr("Collisions"), HasSubstr("95th pc.")));
+    EXPECT_THAT(all.out, AllOf(HasSubstr("Collisions"), HasSubstr("95th pc."), HasSubstr("Actions:")));
     for (const std::string& text : {brief.out, all.out, clearway({"compare", "out"}).out}) {
         std::istringstream lines(text);
         for (std::string line; std::getline(lines, line);)
-            EXPECT_LE(line.size(), 100U) << line;
+            EXPECT_LE(line.size(), 80U) << line;
     }
 }
 
@@ -312,7 +314,7 @@ TEST_F(RunTest, on_a_terminal_of_80_columns_no_progress_line_wraps_or_meets_a_re
         // A terminal's line ends in \r\n; a \r before that goes back to its beginning.
         std::istringstream drawings(line);
         for (std::string drawing; std::getline(drawings, drawing, '\r');) {
-            if (!drawing.starts_with("runs [")) {
+            if (!drawing.starts_with("runs ")) {
                 EXPECT_THAT(drawing, Not(HasSubstr("runs ["))) << "something stands before a progress line";
                 continue;
             }
@@ -322,7 +324,14 @@ TEST_F(RunTest, on_a_terminal_of_80_columns_no_progress_line_wraps_or_meets_a_re
         }
     }
     EXPECT_GE(bars, 1U);
-    EXPECT_LT(text.rfind("runs ["), text.find("line: 12 replications"));
+    EXPECT_THAT(text, HasSubstr(", n 12: line")) << "the last line has all pairs";
+    EXPECT_LT(text.rfind("\rruns "), text.find("line: 12 replications"));
+}
+
+TEST_F(RunTest, a_dumb_terminal_gets_no_escape_codes) {
+    const Ended ended = on_terminal(two_conditions("out", 2), 80, "dumb");
+    ASSERT_EQ(ended.code, 0) << ended.out;
+    EXPECT_THAT(ended.out, AllOf(HasSubstr("runs: 4/4"), Not(HasSubstr("\x1b"))));
 }
 
 TEST_F(RunTest, both_streams_in_one_pipe_keep_their_lines_whole_and_in_order) {

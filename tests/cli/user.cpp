@@ -86,11 +86,13 @@ Ended UserTest::clearway(const std::vector<std::string>& words, const Environmen
     return finish(start(words, environment));
 }
 
-Ended UserTest::on_terminal(const std::vector<std::string>& words, int columns) const {
+Ended UserTest::on_terminal(const std::vector<std::string>& words, int columns,
+                            const std::string& kind) const {
     std::vector<std::string> command = {std::string(CLEARWAY_BINARY_DIR) + "/bin/clearway"};
     command.insert(command.end(), words.begin(), words.end());
     const std::string line = "cd " + core::shell_text({folder().string()}) + " && stty cols " +
-                             std::to_string(columns) + " && " + core::shell_text(command);
+                             std::to_string(columns) + " && export TERM=" + kind + " && " +
+                             core::shell_text(command);
     const std::filesystem::path transcript = folder() / "terminal.txt";
     const core::Exit exit =
         core::run({"/usr/bin/script", {"-q", "-e", "-c", line, transcript.string()}, {}, "/dev/null"});

@@ -45,8 +45,10 @@ class UserTest : public testing::Test {
     core::Child start(const std::vector<std::string>& words, const Environment& environment = {}) const;
     Ended finish(const core::Child& child) const;
 
-    /// Runs `clearway WORDS` on a terminal of so many columns and waits; `out` holds all that it showed.
-    Ended on_terminal(const std::vector<std::string>& words, int columns) const;
+    /// Runs `clearway WORDS` on a terminal of this kind with so many columns and waits; `out` holds all that
+    /// it showed.
+    Ended on_terminal(const std::vector<std::string>& words, int columns,
+                      const std::string& kind = "xterm") const;
 
     /// A file of the folder.
     std::string read(const std::string& name) const;

@@ -61,6 +61,30 @@ TEST(Nearest, TakesTheBeginningOfOneWordAlone) {
     EXPECT_EQ(nearest("seed", {"sees", "seeds_of_all"}), "sees") << "one letter is nearer";
 }
 
+TEST(Nearest, LooksPastCapitals) {
+    EXPECT_EQ(nearest("MERGE", {"city", "merge"}), "merge");
+}
+
+TEST(DidYouMean, NamesWhatContainsTheWordWhereNothingIsNear) {
+    const std::vector<std::string> metrics = {"collisions", "emergency_travel_time_s",
+                                              "others_travel_time_s"};
+    EXPECT_EQ(did_you_mean("travel", metrics),
+              "Did you mean 'emergency_travel_time_s' or 'others_travel_time_s'?");
+    EXPECT_EQ(did_you_mean("tim", metrics, "no"), "no") << "three letters are in too many words";
+}
+
+TEST(DidYouMean, KnowsThatSeedsAreReplicationsAndNeverTheSeed) {
+    EXPECT_EQ(did_you_mean("seeds", {"seed", "replications"}), "Did you mean 'replications'?");
+    EXPECT_EQ(did_you_mean("--replications", {"--seed", "--seeds"}), "Did you mean '--seeds'?");
+    EXPECT_EQ(did_you_mean("--seeds", {"--seed", "--json"}, "no"), "no");
+}
+
+TEST(InputError, TellsAnEqualProblemOnce) {
+    const InputError error({{"a", "one", "", ""}, {"b", "two", "", ""}, {"a", "one", "", ""}});
+    EXPECT_EQ(error.problems().size(), 2U);
+    EXPECT_STREQ(error.what(), "a: one\nb: two");
+}
+
 TEST(Nearest, PrefersTheSmallerDistanceThenTheEarlierWord) {
     EXPECT_EQ(nearest("lanes", {"lines", "lane", "lanes_m"}), "lines");
     EXPECT_EQ(nearest("lanes", {"planets", "lane"}), "lane");

@@ -7,6 +7,7 @@
 namespace clearway::core {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -36,8 +37,9 @@ TEST(ProgressLine, FitsTheTerminalAndGivesUpTheBarFirst) {
         progress.update(700, 3, note);
         const std::string line = progress.line(columns);
         EXPECT_LE(line.size(), columns) << line;
-        EXPECT_THAT(line, StartsWith("runs ["));
+        EXPECT_THAT(line, StartsWith("runs "));
     }
+    EXPECT_THAT(progress.line(200), StartsWith("runs [="));
     EXPECT_THAT(progress.line(200), EndsWith(note));
     EXPECT_THAT(progress.line(80), HasSubstr("700/1200, 3 failed"));
     EXPECT_THAT(progress.line(80), HasSubstr("EV travel"));
@@ -50,6 +52,22 @@ TEST(ProgressLine, CountsTowardsTheTotalThatIsExpectedNow) {
     EXPECT_THAT(progress.line(0), StartsWith("runs: 30/120, "));
     progress.expect(90);
     EXPECT_THAT(progress.line(0), StartsWith("runs: 30/90, "));
+}
+
+TEST(ProgressLine, KeepsTheNumbersOfItsNoteOnATerminalOf80Columns) {
+    Progress progress("runs", 300, Progress::Style::bar);
+    const std::string numbers = "EV travel time -28.5 s [-33.2, -23.7], n 20";
+    progress.update(120, 2, numbers + ": intersection_70_dense corridor+lead_s=12");
+    EXPECT_THAT(progress.line(80), AllOf(StartsWith("runs 120/300, 2 failed"), HasSubstr(numbers)));
+    EXPECT_LE(progress.line(80).size(), 80U);
+}
+
+TEST(ProgressBar, FollowsTheWorkWhereItIsGiven) {
+    // Half of the runs took 60 s, and are a tenth of the work: the rest takes 540 s.
+    EXPECT_EQ(Progress::render_bar("x", 30, 60, 0, 60.0, 0, 30, 0.1),
+              "x [===>                          ] 30/60, 1:00 elapsed, 9:00 left");
+    // 20 of 40 were there before, and half of the others' work is done: three quarters.
+    EXPECT_THAT(Progress::render_bar("x", 25, 40, 0, 9.0, 20, 8, 0.5), StartsWith("x [======> ] 25/40"));
 }
 
 TEST(Terminal, CutsBetweenCharactersOfUtf8) {

@@ -62,8 +62,8 @@ TEST(Locks, AreToldByConditionAndBesideTheMeanThatTheyDecide) {
     const std::string text = comparison_text(locked_summary(), {"emergency_travel_time_s"});
     EXPECT_THAT(text, HasSubstr("city: baseline: 4 locks in 3 of 20 runs, the longest 310 s; 0 vehicles"));
     EXPECT_THAT(text,
-                HasSubstr("mean -20.0, median of pairs -18.5, mean of the 16 pairs without a lock -19.0 "
-                          "[-19.5, -18.5]; replications for +-1: 18, without locks 10"));
+                HasSubstr("mean -20.0, median of pairs -18.5, mean of the 16 pairs without a lock -19.0\n"
+                          "    [-19.5, -18.5]; replications for +-1: 18, without locks 10"));
     EXPECT_THAT(comparison_text(summary_with(-20.0), {"emergency_travel_time_s"}),
                 testing::Not(HasSubstr("lock")));
     const std::string json = comparison_json(locked_summary(), {"emergency_travel_time_s"}, {});
@@ -125,7 +125,7 @@ TEST(ComparisonText, NamesSettingsInWhichConditionsOfOneNameDifferBeforeTheFigur
     EXPECT_THAT(
         comparison_text(summary, {"collisions"}),
         testing::StartsWith("Conditions of the same name differ:\ntreated: preempt_signals.lead_s is as "
-                            "shipped in the first folder and 12 in the second.\n"));
+                            "shipped in the first folder and 12 in the\n    second.\n"));
     const auto json = nlohmann::json::parse(comparison_json(summary, {"collisions"}, {}));
     EXPECT_EQ(json["differing_settings"][0]["setting"], "preempt_signals.lead_s");
     EXPECT_TRUE(json["differing_settings"][0]["first"].is_null());
@@ -140,7 +140,7 @@ TEST(ComparisonText, NamesTheBuildsThatMadeTheFoldersIfTheyDiffer) {
     EXPECT_THAT(
         comparison_text(summary, {"collisions"}),
         testing::StartsWith("Made by different builds of Clearway: 0123456789abcdef in the first folder "
-                            "and an older one in the second.\n\n"));
+                            "and\n    an older one in the second.\n\n"));
     const auto json = nlohmann::json::parse(comparison_json(summary, {"collisions"}, {}));
     EXPECT_EQ(json["builds"]["first"], "0123456789abcdef");
 }
@@ -171,7 +171,7 @@ TEST(ComparisonText, SaysTooFewSeedsBelowFivePairs) {
 
 TEST(ComparisonText, ShowsPairsIntervalAndPValuesWithinATerminal) {
     const std::string text = comparison_text(summary_with(-3.25), {"emergency_travel_time_s", "collisions"});
-    EXPECT_THAT(text, HasSubstr("18 of 20    -3.25  [-4.25, -2.25]"));
+    EXPECT_THAT(text, HasSubstr("18 of 20   -3.25  [-4.25, -2.25]"));
     EXPECT_THAT(text, HasSubstr("<0.001    0.250\n"));
     EXPECT_THAT(text, HasSubstr("city: EV travel time, mean of those that arrived, s\n"));
     EXPECT_THAT(text, Not(HasSubstr("\x1b")));

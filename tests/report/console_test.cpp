@@ -155,7 +155,8 @@ TEST(ConsoleTables, survive_a_condition_whose_runs_all_failed) {
 
 TEST(ConsoleTables, say_emergency_vehicle_before_they_say_ev) {
     const std::string text = console_tables(tests::study({"city"}));
-    EXPECT_EQ(text.find("EV"), text.find("60 emergency vehicles (EV)") + 23);
+    EXPECT_EQ(text.find("EV"), text.find("emergency vehicles (EV)") + 20);
+    EXPECT_THAT(text, HasSubstr("60 emergency vehicles (EV)"));
 }
 
 TEST(ConsoleTables, warn_of_a_demand_without_emergency_vehicles) {
@@ -181,7 +182,7 @@ TEST(ConsoleTables, print_the_upper_end_of_an_interval_that_the_bound_at_zero_ma
         tests::between(0.5, 0.03, 8.0);
     const std::string text = console_tables(study);
     EXPECT_THAT(text, HasSubstr(" 0.50 (<8.00)"));
-    EXPECT_THAT(text, HasSubstr("(<x)"));
+    EXPECT_THAT(console_tables(study, Tables::all), HasSubstr("(<x)"));
 }
 
 TEST(ConsoleTables, show_lost_emergency_vehicles_beside_the_means_of_those_that_arrived) {
@@ -193,8 +194,21 @@ TEST(ConsoleTables, show_lost_emergency_vehicles_beside_the_means_of_those_that_
     const std::string text = console_tables(study);
     EXPECT_THAT(text, HasSubstr("[-15.5, -9.3]  lost EVs\n"));
     EXPECT_THAT(text, Not(HasSubstr("[-15.5, -9.3]  better\n")));
-    EXPECT_THAT(text, HasSubstr("Actions: Graph made by simulation attributes: asked 0 vehicles to change "
-                                "lanes.\n"));
+    EXPECT_THAT(console_tables(study, Tables::essential), Not(HasSubstr("Actions:")));
+    EXPECT_THAT(console_tables(study, Tables::all),
+                HasSubstr("Actions: Graph made by simulation attributes: asked 0 vehicles to change "
+                          "lanes.\n"));
+}
+
+TEST(ConsoleTables, end_on_the_verdicts_and_keep_the_legend_for_all_tables) {
+    const std::string text = console_tables(tests::study({"city"}), Tables::essential);
+    const std::size_t verdict = text.find("Graph made by simulation attributes: helped: EV travel time");
+    ASSERT_NE(verdict, std::string::npos);
+    EXPECT_GT(verdict, text.find("Time loss, others, s"));
+    EXPECT_LE(std::ranges::count(text.substr(verdict), '\n'), 16)
+        << "four verdicts on a terminal of 24 lines";
+    EXPECT_THAT(text, Not(HasSubstr("better or worse when its interval")));
+    EXPECT_THAT(console_tables(tests::study({"city"}), Tables::all), HasSubstr("diff.: mean of the"));
 }
 
 TEST(ConsoleTables, let_no_name_steer_the_terminal) {

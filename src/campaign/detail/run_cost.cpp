@@ -47,6 +47,12 @@ void sample(const results::Store& store, const std::string& scenario, const std:
     }
 }
 
+bool holds_runs(const fs::path& folder) {
+    return fs::exists(folder / "manifest.json") && fs::exists(folder / "runs");
+}
+
+}  // namespace
+
 RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::TrafficModel traffic_model) {
     const scenario::Demand& demand = config.demand;
     const double others = traffic_model == experiment::TrafficModel::free_flow
@@ -59,12 +65,6 @@ RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::TrafficMo
     cost.wall_s = overhead_s + vehicles * mean_trip_s / config.time.step_length_s * vehicle_step_s;
     return cost;
 }
-
-bool holds_runs(const fs::path& folder) {
-    return fs::exists(folder / "manifest.json") && fs::exists(folder / "runs");
-}
-
-}  // namespace
 
 CostBook::CostBook(const fs::path& folder) {
     std::vector<fs::path> folders;

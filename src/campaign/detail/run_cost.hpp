@@ -17,6 +17,11 @@ struct RunCost {
     bool measured = false;  ///< From runs of this scenario on this disk; else rough.
 };
 
+/// The cost of a run before any was made, accurate to a factor of about three: 10 us per vehicle and step for
+/// 120 s on the road plus 0.2 s (no time if the demand is measured), and on the disk 12 KiB plus 160 bytes
+/// per vehicle.
+RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::TrafficModel traffic_model);
+
 /// Costs of runs, estimated from those in a run folder and its neighbours.
 class CostBook {
   public:
@@ -24,9 +29,7 @@ class CostBook {
     explicit CostBook(const std::filesystem::path& folder);
 
     /// Mean over the first ten runs of this scenario (by its hash in the manifest) with this traffic model.
-    /// Without such runs: 10 us per vehicle and step for 120 s on the road plus 0.2 s (no time if the demand
-    /// is measured), and on the disk 12 KiB plus 160 bytes per vehicle. These are accurate to a factor of
-    /// about three.
+    /// Without such runs, `rough_cost`.
     RunCost of(const scenario::ScenarioConfig& config, const std::string& hash,
                experiment::TrafficModel traffic_model) const;
 

@@ -44,7 +44,8 @@ class Probe {
         const Tool tool{"sumo",
                         std::move(arguments),
                         import_.work / "probe.log",
-                        "finding the level of demand",
+                        fmt::format("finding the level of demand, try {}, {:.0f} cars", ++tries_,
+                                    (demand.human + demand.automated) * share),
                         "sumo",
                         [&] { return watch.is_decided(); }};
         const bool ran = succeeds(tool, import_.on_progress);
@@ -63,6 +64,7 @@ class Probe {
   private:
     Import& import_;
     double horizon_s_;
+    int tries_ = 0;
     double free_speed_ = 0.0;
     Load load_;
     bool has_room_ = false;

@@ -292,7 +292,11 @@ Factors read_factors(const toml::table& table, const SettingsPlace& settings, Pr
             if (bare)
                 problems.push_back(
                     {where, "is unknown", core::listed(known), "Did you mean 'condition." + group + "'?"});
-            if (!bare) add_unknown(where, group, known, problems);
+            if (!bare)
+                problems.push_back(
+                    {where, fmt::format("'{}' is unknown", group), core::listed(known),
+                     core::did_you_mean(group, known,
+                                        experiment::check_setting(group, "", "").front().cure)});
         } else if (const toml::table* below = node.as_table()) {
             read_group(*below, file, group, "", factors.list, problems);
         } else {
