@@ -22,5 +22,15 @@ TEST(OwnPolicyExample, slows_who_follows_closely_and_nobody_else) {
     EXPECT_FALSE(road.asked_speed("a4"));
 }
 
+TEST(OwnPolicyExample, asks_within_its_setting) {
+    StraightRoad road(R"(
+        10 m per cell, limit 20 m/s, speed 10 m/s
+        a...a.e.a..........
+    )");
+    policy::KeepDistance policy({road.scene.network()}, {.reach_m = 19.0});
+    road.act(policy);
+    EXPECT_FALSE(road.asked_speed("a2"));
+}
+
 }  // namespace
 }  // namespace clearway::testing

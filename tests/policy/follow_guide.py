@@ -1,0 +1,40 @@
+#!/usr/bin/env python3
+"""Follows the steps of examples/02_own_policy/README.md on copies: `follow_guide.py SOURCE OUT` writes OUT/policy/keep_distance.hpp,
+OUT/registry.cpp and OUT/conformance.cpp with the lines that the page tells to add."""
+import re
+import sys
+from pathlib import Path
+
+
+def told(page: str, begin: str) -> str:
+    """The indented lines of the page from the one that begins so to the next blank one."""
+    found = re.search(rf"^ +{re.escape(begin)}.*?\n\n", page, re.MULTILINE | re.DOTALL)
+    if found is None:
+        sys.exit(f"follow_guide: the page has no line that begins with: {begin}")
+    return found.group()
+
+
+def added(text: str, lines: str, before: str) -> str:
+    """The text with lines before the first one that begins so."""
+    place = re.search(rf"^ *{re.escape(before)}", text, re.MULTILINE)
+    if place is None:
+        sys.exit(f"follow_guide: no line begins with: {before}")
+    return text[:place.start()] + lines + text[place.start():]
+
+
+def main() -> None:
+    source, out = Path(sys.argv[1]), Path(sys.argv[2])
+    example = source / "examples" / "02_own_policy"
+    page = (example / "README.md").read_text()
+    registry = (source / "src" / "policy" / "registry.cpp").read_text()
+    registry = added(registry, told(page, "#include").strip() + "\n", '#include "policy/listing_5_5.hpp"')
+    registry = added(registry, told(page, "entry<"), "entry<Listing55")
+    conformance = (source / "tests" / "policy" / "conformance.cpp").read_text()
+    conformance = added(conformance, told(page, "add("), 'add("h1"')
+    (out / "policy").mkdir(parents=True, exist_ok=True)
+    (out / "policy" / "keep_distance.hpp").write_text((example / "keep_distance.hpp").read_text())
+    (out / "registry.cpp").write_text(registry)
+    (out / "conformance.cpp").write_text(conformance)
+
+
+main()
