@@ -16,8 +16,17 @@ constexpr std::size_t least_bar_width = 8;
 
 enum class Elapsed : std::uint8_t { shown, left_out };
 
-std::string counts(std::size_t done, std::size_t total, std::size_t failed, double elapsed_s,
-                   std::size_t before, std::optional<double> work, Elapsed elapsed = Elapsed::shown) {
+struct Counts {
+    std::size_t done = 0;
+    std::size_t total = 0;
+    std::size_t failed = 0;
+    double elapsed_s = 0.0;
+    std::size_t before = 0;      ///< Done when the clock started.
+    std::optional<double> work;  ///< Share of the work that is done, if it is known.
+};
+
+std::string words_of(const Counts& counts, Elapsed elapsed = Elapsed::shown) {
+    const auto& [done, total, failed, elapsed_s, before, work] = counts;
     std::string text = fmt::format("{}/{}", done, total);
     if (failed > 0) text += fmt::format(", {} failed", failed);
     if (elapsed == Elapsed::shown) text += ", " + clock_text(elapsed_s) + " elapsed";
@@ -72,14 +81,14 @@ std::string Progress::render_bar(const std::string& label, std::size_t done, std
     std::string bar(std::min(width, static_cast<std::size_t>(filled * static_cast<double>(width))), '=');
     if (bar.size() < width) bar += '>';
     bar.resize(width, ' ');
-    return fmt::format("{} [{}] {}", label, bar, counts(done, total, failed, elapsed_s, before, work));
+    return fmt::format("{} [{}] {}", label, bar, words_of({done, total, failed, elapsed_s, before, work}));
 }
 
 std::string Progress::line(std::size_t columns) const {
     const double elapsed_s = std::chrono::duration<double>(Clock::now() - started_).count();
     const std::string note = note_.empty() ? "" : "  " + note_;
     const auto counted = [&](Elapsed elapsed) {
-        return counts(done_, total_, failed_, elapsed_s, before_, work_, elapsed);
+        return words_of({done_, total_, failed_, elapsed_s, before_, work_}, elapsed);
     };
     if (style_ == Style::lines) return fmt::format("{}: {}{}\n", label_, counted(Elapsed::shown), note);
     const auto with_bar = [&](std::size_t width) {

@@ -9,7 +9,7 @@ namespace clearway::experiment {
 
 /// The component of this name, or the components that the policy of this name combines; all for an empty
 /// name. Of `preempt_signals.lead_s` the component counts. Throws core::InputError for an unknown name.
-std::vector<Component> components_named(const std::string& name);
+std::vector<Component> components_named(const std::string& words);
 
 /// A line for each setting: name, default, unit and allowed values.
 std::string settings_lines(const std::vector<Component>& components);
