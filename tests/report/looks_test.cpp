@@ -180,6 +180,7 @@ TEST(TradeOff, moves_numbers_so_that_none_hides_another) {
                                  places[one].second - places[other].second),
                       16.0);
     }
+    EXPECT_LT(drawing.rfind("r=\"2.6\""), drawing.find("r=\"8.0\"")) << "no dot lies on a number";
     EXPECT_EQ(count_of(drawing, "class=\"leader "), 11u)
         << "a line leads from each moved number to its point";
 }

@@ -84,19 +84,22 @@ void draw_intervals(Plot& plot, const Point& point, const Place& place) {
         plot.path({{x, plot.y().place(up->low)}, {x, plot.y().place(up->high)}}, style);
 }
 
-void draw_number(Plot& plot, const Point& point, const Place& place, const Place& at) {
+void draw_leader(Plot& plot, const Point& point, const Place& place, const Place& at) {
+    if (at == place) return;
     const std::string colour = colour_of(point.series);
-    if (at != place) {
-        plot.circle(place.first, place.second, 2.6, "dot " + colour);
-        plot.path({place, at}, "leader " + colour);
-    }
-    const bool leads = point.series.weight == Series::Weight::lead;
-    if (leads) plot.circle(at.first, at.second, badge_radius + 2.5, "ring " + colour);
+    plot.circle(place.first, place.second, 2.6, "dot " + colour);
+    plot.path({place, at}, "leader " + colour);
+}
+
+void draw_number(Plot& plot, const Point& point, const Place& at) {
+    const std::string colour = colour_of(point.series);
+    if (point.series.weight == Series::Weight::lead)
+        plot.circle(at.first, at.second, badge_radius + 2.5, "ring " + colour);
     plot.circle(at.first, at.second, badge_radius, "dot " + colour);
     plot.text(at.first, at.second + 4.0, std::to_string(point.number), Plot::Anchor::middle, "onDot");
 }
 
-/// Intervals first, then small dots, then numbers, none of which hides another.
+/// Intervals first, then dots and what leads to them, then numbers, none of which hides another.
 void draw(Plot& plot, const std::vector<Point>& points) {
     std::vector<Place> places;
     for (const Point& point : points) {
@@ -111,7 +114,12 @@ void draw(Plot& plot, const std::vector<Point>& points) {
     for (std::size_t at = points.size(); at-- > 0;) {  // The one that leads is placed first: at its point.
         if (points[at].turned_alone) continue;
         taken.push_back(free_place(places[at], taken, plot));
-        draw_number(plot, points[at], places[at], taken.back());
+        draw_leader(plot, points[at], places[at], taken.back());
+    }
+    for (const Point& point : points) {
+        if (point.turned_alone) continue;
+        draw_number(plot, point, taken.back());
+        taken.pop_back();
     }
 }
 
