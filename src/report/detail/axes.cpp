@@ -216,8 +216,8 @@ Chart::Chart(const std::string& title, double height, Axis x, Axis y)
     grid_y();
 }
 
-std::string panels(const std::string& title, const std::string& label, std::size_t count, const Range& x,
-                   const Range& y, const std::function<void(Plot&, std::size_t)>& draw) {
+std::string panels(const PanelWords& words, std::size_t count, const Range& x, const Range& y,
+                   const std::function<void(Plot&, std::size_t)>& draw) {
     constexpr std::size_t columns = 2;
     constexpr double panel_width = 150.0;
     constexpr double panel_height = 104.0;
@@ -226,11 +226,12 @@ std::string panels(const std::string& title, const std::string& label, std::size
     constexpr double first_left = 44.0;  // room for the labels of y
     constexpr double beside = 194.0;     // from one panel's left edge to the next one's
     const double rows = std::ceil(static_cast<double>(count) / columns);
-    Plot plot(title, first_top + rows * below, {}, {});
-    plot.text(2.0, 14.0, label, Plot::Anchor::start, "axis");
+    Plot plot(words.title, first_top + rows * below, {}, {});
+    plot.text(2.0, 14.0, words.label, Plot::Anchor::start, "axis");
     for (std::size_t panel = 0; panel < count; ++panel) {
         const double left = first_left + beside * static_cast<double>(panel % columns);
-        const double top = first_top + below * static_cast<double>(panel / columns);
+        const std::size_t row = panel / columns;
+        const double top = first_top + below * static_cast<double>(row);
         plot.turn_to({x, "", left, left + panel_width}, {y, "", top + panel_height, top});
         plot.grid_x();
         plot.grid_y();

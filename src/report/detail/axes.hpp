@@ -128,9 +128,14 @@ struct Chart : Plot {
     Chart(const std::string& title, double height, Axis x, Axis y);
 };
 
+/// What small multiples have in common: their title and what their axes measure.
+struct PanelWords {
+    std::string title;
+    std::string label;
+};
 /// Small multiples: panels of one scale, two beside each other in one drawing. `draw` is called with the plot
 /// turned to each panel, and its number.
-std::string panels(const std::string& title, const std::string& label, std::size_t count, const Range& x,
-                   const Range& y, const std::function<void(Plot&, std::size_t)>& draw);
+std::string panels(const PanelWords& words, std::size_t count, const Range& x, const Range& y,
+                   const std::function<void(Plot&, std::size_t)>& draw);
 
 }  // namespace clearway::report::detail

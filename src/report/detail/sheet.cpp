@@ -19,6 +19,8 @@ template <class... Cases>
 struct Overloaded : Cases... {
     using Cases::operator()...;
 };
+template <class... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
 
 std::string cell_words(const SheetCell& cell, Script script) {
     return std::visit(Overloaded{[&](std::monostate) { return missing(script); },

@@ -138,9 +138,9 @@ Figure recovery_figure(const ScenarioFacts& scenario, const Looks& looks) {
     }
     if (offsets.empty() || offsets.high <= offsets.low) return {};
     return {"recovery-" + scenario.name, scenario.name,
-            panels(fmt::format("{}: halted vehicles on the other approaches after an EV", scenario.name),
-                   "more halted vehicles, number; across: time after an EV, s", numbers.size(), offsets,
-                   padded(halted, 0.06),
+            panels({fmt::format("{}: halted vehicles on the other approaches after an EV", scenario.name),
+                    "more halted vehicles, number; across: time after an EV, s"},
+                   numbers.size(), offsets, padded(halted, 0.06),
                    [&](Plot& plot, std::size_t panel) {
                        draw_recovery(plot, scenario.conditions[numbers[panel]], looks[numbers[panel]]);
                    }),
