@@ -172,7 +172,7 @@ TEST_F(CityTest, check_says_when_vehicles_drive_one_edge_alone) {
     const Ended ended = clearway({"scenario", "check", "line"});
     EXPECT_EQ(ended.code, 6) << ended.out << ended.err;
     EXPECT_THAT(ended.out,
-                AllOf(testing::ContainsRegex("short +routes"), HasSubstr("1 of 1 EVs drive a single edge")));
+                AllOf(testing::ContainsRegex("short +routes"), HasSubstr("1 of 1 EV drive a single edge")));
 }
 
 TEST_F(CityTest, check_of_a_run_that_fails_exits_with_1_and_keeps_the_inputs) {

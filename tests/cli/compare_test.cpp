@@ -70,7 +70,7 @@ TEST_F(CompareTest, publishes_rows_and_loses_none) {
     };
     const Ended ended = publish({"--tree", "abc1234"});
     ASSERT_EQ(ended.code, 0) << ended.err;
-    EXPECT_THAT(ended.err, HasSubstr("rows.csv: 4 rows"));
+    EXPECT_THAT(ended.err, HasSubstr("rows.csv: 6 rows"));
     const std::string rows = read("rows.csv");
     EXPECT_THAT(
         rows,
@@ -81,7 +81,7 @@ TEST_F(CompareTest, publishes_rows_and_loses_none) {
     EXPECT_THAT(rows, Not(HasSubstr(folder().string())));
 
     EXPECT_EQ(publish({"--tree", "abc1234", "--metric", "collisions"}).code, 0);
-    EXPECT_EQ(std::ranges::count(read("rows.csv"), '\n'), 1 + 4 + 3)
+    EXPECT_EQ(std::ranges::count(read("rows.csv"), '\n'), 1 + 6 + 3)
         << "no percent of a baseline without any";
     const std::string kept = read("rows.csv");
 

@@ -19,6 +19,7 @@ class ClassAccess {
     /// Reads the lanes of `file`, the file of `network`.
     ClassAccess(const std::filesystem::path& file, const roads::Network& network);
 
+    const roads::Network& network() const { return network_; }
     /// Whether a vehicle of a class (empty: passenger) may use any lane of an edge.
     bool opens(core::EdgeIndex edge, const std::string& vehicle_class) const;
     /// Whether it can drive from one edge directly to the next.

@@ -329,7 +329,7 @@ bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Networ
     set_times(window, config);
     config.demand = {};
     config.demand.emergency = 6;
-    take_own_emergency(import, demand, network, access, window.begin_s, config);
+    take_own_emergency(import, demand, access, window.begin_s, config);
     describe_vehicles(import, demand, window, findings);
     add_routing_devices(demand, files.rerouting);
     config.measured = describe_types(import, demand);

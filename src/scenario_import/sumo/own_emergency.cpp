@@ -53,8 +53,8 @@ void check_own_emergency(const Import& import, const Demand& demand, const Windo
            fmt::format("choose the time: --begin {:.0f}", std::max(0.0, *first_s - usual_lead_s)));
 }
 
-void take_own_emergency(Import& import, Demand& demand, const roads::Network& network,
-                        const ClassAccess& access, double begin_s, scenario::ScenarioConfig& config) {
+void take_own_emergency(Import& import, Demand& demand, const ClassAccess& access, double begin_s,
+                        scenario::ScenarioConfig& config) {
     const auto own_one = [&](const RoadUser& vehicle) { return is_own(demand, vehicle); };
     std::vector<std::string>& changes = import.findings.changes;
     const auto count = std::ranges::count_if(demand.vehicles, own_one);
@@ -73,7 +73,7 @@ void take_own_emergency(Import& import, Demand& demand, const roads::Network& ne
     for (const RoadUser& vehicle : own) {
         std::vector<core::EdgeIndex> route;
         for (const std::string& edge : vehicle.edges)
-            route.push_back(*network.find_edge(edge));
+            route.push_back(*access.network().find_edge(edge));
         if (!access.opens_way(route, "emergency")) {
             import.left_out.add("own emergency vehicles whose way is closed to class emergency", vehicle.id);
             continue;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "roads/network.hpp"
 #include "scenario_import/detail/context.hpp"
 #include "scenario_import/sumo/class_access.hpp"
 #include "scenario_import/sumo/demand_reader.hpp"
@@ -16,7 +15,7 @@ void check_own_emergency(const Import& import, const Demand& demand, const Windo
 /// with their routes and departures, and the only ones. Call after `config.time` is set; the warm-up then
 /// ends before the first of them. Throws core::InputError where the way of each is closed to them, and where
 /// there is nothing but them.
-void take_own_emergency(Import& import, Demand& demand, const roads::Network& network,
-                        const ClassAccess& access, double begin_s, scenario::ScenarioConfig& config);
+void take_own_emergency(Import& import, Demand& demand, const ClassAccess& access, double begin_s,
+                        scenario::ScenarioConfig& config);
 
 }  // namespace clearway::scenario_import::detail
