@@ -310,8 +310,8 @@ TEST_F(SumoDemand, options_of_actuated_signals_and_rerouting_reach_every_run) {
                    "<tls.actuated.jam-threshold value='30'/><device.rerouting.adaptation-steps "
                    "value='18'/><weights.random-factor value='1.5'/>"));
     EXPECT_THAT(scenario::load((out() / "town").string()).measured->options,
-                ElementsAre("tls.actuated.jam-threshold=30", "device.rerouting.adaptation-steps=18",
-                            "weights.random-factor=1.5"));
+                testing::ElementsAre("tls.actuated.jam-threshold=30", "device.rerouting.adaptation-steps=18",
+                                     "weights.random-factor=1.5"));
     EXPECT_THAT(prepared().options, testing::SizeIs(3));
 }
 
