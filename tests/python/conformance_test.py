@@ -1,4 +1,5 @@
-"""What gymnasium's check_env and pettingzoo's parallel_api_test assert, asserted here of classes that derive from theirs.
+"""What gymnasium's check_env, pettingzoo's parallel_api_test and its parallel_seed_test assert, asserted here of classes that derive
+from theirs.
 
 Where the two packages are installed, their own checks run, too; stand_ins/ holds as much of them as deriving takes where they are not.
 """
@@ -33,18 +34,48 @@ class StandInTest(unittest.TestCase):
         self.assertTrue(issubclass(clearway.ParallelEnv, pettingzoo.ParallelEnv))
 
 
-class GymnasiumTest(FolderCase):
-    @classmethod
-    def setUpClass(cls) -> None:
-        cls.env = clearway.env("intersection", seeds=[0], render_mode="ansi")
-        cls.addClassCleanup(cls.env.close)
+class ConformanceCase(FolderCase):
+    """Their ``data_equivalence``, exact, and warnings as failures: the checkers warn where they do not assert."""
 
     def setUp(self) -> None:
         super().setUp()
         caught = warnings.catch_warnings()
         caught.__enter__()
         self.addCleanup(caught.__exit__, None, None, None)
-        warnings.simplefilter("error")  # the checkers warn where they do not assert
+        warnings.simplefilter("error")
+
+    def check_equal(self, left: object, right: object) -> None:
+        self.assertIs(type(left), type(right))
+        if isinstance(left, dict):
+            self.assertEqual(left.keys(), right.keys())
+            for name in left:
+                self.check_equal(left[name], right[name])
+        elif isinstance(left, (tuple, list)):
+            self.assertEqual(len(left), len(right))
+            for one, other in zip(left, right):
+                self.check_equal(one, other)
+        elif isinstance(left, np.ndarray):
+            self.assertEqual((left.dtype, left.shape), (right.dtype, right.shape))
+            np.testing.assert_array_equal(left, right)
+        else:
+            self.assertEqual(left, right)
+
+    def check_resets_follow_the_last_seed(self, env, action: object) -> None:  # noqa: ANN001
+        """Whatever an environment has done, a seed decides what the resets after it begin, with and without options."""
+        for seed in (123, 1):
+            first, second = env.reset(seed=seed), env.reset()
+            env.reset()
+            env.step(action)
+            for options in (None, {"options": 1}):
+                self.check_equal(env.reset(seed=seed, options=options), first)
+                self.check_equal(env.reset(options=options), second)
+
+
+class GymnasiumTest(ConformanceCase):
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.env = clearway.env("intersection", seeds=range(3), render_mode="ansi")
+        cls.addClassCleanup(cls.env.close)
 
     def check_space(self, space) -> None:  # noqa: ANN001
         self.assertIsInstance(space, spaces.Space)
@@ -70,18 +101,6 @@ class GymnasiumTest(FolderCase):
             self.assertEqual((array.dtype, array.shape), (space[name].dtype, space[name].shape), name)
             self.assertTrue(array.flags.writeable and array.flags.aligned and array.flags.c_contiguous, name)
         self.assertIn(observation, space)
-
-    def check_equal(self, left: object, right: object) -> None:
-        self.assertIs(type(left), type(right))
-        if isinstance(left, dict):
-            self.assertEqual(left.keys(), right.keys())
-            for name in left:
-                self.check_equal(left[name], right[name])
-        elif isinstance(left, np.ndarray):
-            self.assertEqual((left.dtype, left.shape), (right.dtype, right.shape))
-            np.testing.assert_array_equal(left, right)
-        else:
-            self.assertEqual(left, right)
 
     def test_class_and_spaces(self) -> None:
         env = self.env
@@ -146,15 +165,12 @@ class GymnasiumTest(FolderCase):
         self.assertEqual(env.np_random.bit_generator.state, state)
 
     def test_the_next_replication_follows_from_the_seed_alone(self) -> None:
-        for seed in (123, 1):
-            rounds = []
-            for _ in range(2):
-                self.env.reset(seed=seed)
-                rounds.append([self.env.reset() for _ in range(2)])
-                self.env.reset()
-            for (observation, info), (again, info_again) in zip(*rounds):
-                self.check_equal(observation, again)
-                self.assertEqual(info["seed"], info_again["seed"])
+        self.check_resets_follow_the_last_seed(self.env, self.env.action_space.sample())
+        with self.env.spec.make() as other:  # which has another past
+            self.env.reset(seed=123)
+            other.reset()
+            other.reset(seed=123)
+            self.check_equal(other.reset(), self.env.reset())
 
     def test_a_step_is_deterministic_and_has_the_right_types(self) -> None:
         env = self.env
@@ -188,13 +204,23 @@ class GymnasiumTest(FolderCase):
             self.assertIn(action, self.env.action_space)
             self.assertEqual(self.env.step(action)[4]["illegal_actions"], 0)
 
-    def test_render(self) -> None:
-        env = self.env
-        self.assertEqual(env.metadata["render_modes"], ["ansi"])
-        self.assertGreater(env.metadata["render_fps"], 0)
-        self.assertIn(env.render_mode, env.metadata["render_modes"])
-        env.reset(seed=0)
-        self.assertIs(type(env.render()), str)
+    def test_every_mode_renders(self) -> None:
+        modes = self.env.metadata["render_modes"]
+        self.assertIs(type(modes), list)
+        self.assertIn(self.env.render_mode, modes)
+        self.assertGreater(self.env.metadata["render_fps"], 0)
+        for mode in modes:
+            with self.env.spec.make(render_mode=mode) as other:
+                self.assertEqual(other.render_mode, mode)
+                other.reset()
+                self.assertIs(type(other.render()), {"ansi": str}[mode])
+
+    def test_a_road_without_signals_conforms(self) -> None:
+        with clearway.env("merge", seeds=[0]) as env, unittest.mock.patch.object(self, "env", env):
+            self.assertEqual(env.signal_ids, [])
+            self.test_class_and_spaces()
+            self.test_reset_returns_observation_and_info_and_takes_options()
+            self.test_a_step_is_deterministic_and_has_the_right_types()
 
     def test_every_observation_of_an_episode_is_in_the_space(self) -> None:
         with clearway.env("intersection", seeds=[2], failure="mixed", predictor="dead_reckoning", until="end") as faulty:
@@ -209,11 +235,10 @@ class GymnasiumTest(FolderCase):
             self.assertGreater(steps, 20)
 
     def test_close_may_be_repeated(self) -> None:
-        with clearway.env("intersection", seeds=[0]) as env:
-            self.assertIsNone(env.render_mode)
-            self.assertIsNone(env.render())
-            env.close()
-            env.close()
+        env = self.env.spec.make(render_mode=None)  # closed before its first reset
+        self.assertIsNone(env.render())
+        env.close()
+        env.close()
 
     def test_their_own_check(self) -> None:
         if is_stand_in(gymnasium):
@@ -222,9 +247,9 @@ class GymnasiumTest(FolderCase):
         check_env(self.env, skip_render_check=False)
 
 
-class VectorTest(FolderCase):
+class VectorTest(ConformanceCase):
     def test_class_and_spaces(self) -> None:
-        with clearway.vector_env("intersection", 2, seeds=[0, 1]) as envs:
+        with clearway.vector_env("intersection", 2, seeds=range(4)) as envs:
             self.assertIsInstance(envs, gymnasium.vector.VectorEnv)
             self.assertEqual((envs.num_envs, envs.closed), (2, False))
             modes = getattr(gymnasium.vector, "AutoresetMode", None)
@@ -236,6 +261,7 @@ class VectorTest(FolderCase):
             self.assertIn(result[0], envs.observation_space)
             self.assertEqual([part.shape for part in result[1:4]], [(2,)] * 3)
             self.assertEqual([part.dtype.kind for part in result[1:4]], ["f", "b", "b"])
+            self.check_resets_follow_the_last_seed(envs, envs.action_space.sample())
         self.assertTrue(envs.closed)
         envs.close()
 
@@ -246,10 +272,10 @@ class VectorTest(FolderCase):
             unraisable.assert_not_called()
 
 
-class PettingZooTest(FolderCase):
+class PettingZooTest(ConformanceCase):
     @classmethod
     def setUpClass(cls) -> None:
-        cls.env = clearway.parallel_env("intersection", seeds=[0])
+        cls.env = clearway.parallel_env("intersection", seeds=range(2))
         cls.addClassCleanup(cls.env.close)
 
     def actions_for(self, observations: dict) -> dict:
@@ -303,28 +329,31 @@ class PettingZooTest(FolderCase):
                     break
             self.assertEqual(finished, set(env.possible_agents), "an episode ends for all")
 
-    def test_the_same_seeds_are_the_same_episode(self) -> None:
-        env, episodes = self.env, []
-        for _ in range(2):
-            for number, agent in enumerate(env.possible_agents):
-                env.action_space(agent).seed(42 + number)
-            said = [env.reset(seed=3)[0]]
-            for _ in range(10):
-                observations, rewards, *_ = env.step({
-                    agent: env.action_space(agent).sample(said[-1][agent]["action_mask"]) for agent in env.agents})
-                said.append(observations)
-            episodes.append(said)
-        for left, right in zip(*episodes):
-            for agent in env.possible_agents:
-                np.testing.assert_array_equal(left[agent]["action_mask"], right[agent]["action_mask"])
-                for name, array in left[agent]["observation"].items():
-                    np.testing.assert_array_equal(array, right[agent]["observation"][name])
+    def test_two_of_the_same_seed_are_the_same_episode(self) -> None:
+        with clearway.parallel_env("intersection", seeds=[0]) as one, clearway.parallel_env("intersection", seeds=[0]) as other:
+            both = (one, other)
+            one.reset(seed=7)  # another past
+            for env in both:
+                env.reset(seed=42)
+                for number, agent in enumerate(env.agents):
+                    env.action_space(agent).seed(42 + number)
+                    env.observation_space(agent).seed(42 + number)
+            self.check_equal(*(env.reset(seed=42) for env in both))
+            while one.agents:  # to the end; illegal actions are sampled, too
+                actions = [{agent: env.action_space(agent).sample() for agent in env.agents} for env in both]
+                self.check_equal(*actions)
+                self.check_equal(*(list(env.step(chosen)) for env, chosen in zip(both, actions)))
+                self.assertEqual(one.agents, other.agents)
+
+    def test_resets_follow_the_last_seed(self) -> None:
+        self.check_resets_follow_the_last_seed(self.env, {})
 
     def test_their_own_test(self) -> None:
         if is_stand_in(pettingzoo):
             self.skipTest("pettingzoo is not installed (it is in no Debian package)")
-        from pettingzoo.test import parallel_api_test
+        from pettingzoo.test import parallel_api_test, parallel_seed_test
         parallel_api_test(self.env, num_cycles=1000)
+        parallel_seed_test(lambda: clearway.parallel_env("intersection", seeds=[0]))
 
 
 if __name__ == "__main__":
