@@ -96,7 +96,7 @@ Finding routes_finding(const std::filesystem::path& demand) {
     const RouteCount emergency = emergency_routes(core::read_file(demand / "emergency.csv"));
     const bool is_short = traffic.mostly_single() || emergency.mostly_single();
     return {"routes", is_short ? Grade::falls_short : Grade::ok,
-            fmt::format("{} of {} and {} of {} drive a single edge, through no junction", traffic.single,
+            fmt::format("on a single edge, through no junction: {} of {}, {} of {}", traffic.single,
                         core::counted(traffic.all, "vehicle"), emergency.single,
                         core::counted(emergency.all, "EV")),
             is_short ? "a larger part of the map, or longer trips: trips.minimum_length_m, and "

@@ -43,11 +43,12 @@ std::vector<Cell> cells_of(const study::Plan& plan, const std::filesystem::path&
     for (std::size_t row = 0; row < plan.scenarios.size(); ++row) {
         const scenario::ScenarioConfig& config = plan.scenarios[row];
         const std::string& hash = plan.manifest.scenarios[row].configuration_hash;
+        std::map<experiment::TrafficModel, RunCost> costs;
         for (const experiment::ConditionSpec& condition : plan.manifest.conditions) {
+            const auto [cost, is_new] = costs.try_emplace(condition.traffic_model);
+            if (is_new) cost->second = book.of(config, hash, condition.traffic_model);
             rows[{config.name, condition.name}] = cells.size();
-            cells.push_back({.scenario = config.name,
-                             .condition = condition,
-                             .cost = book.of(config, hash, condition.traffic_model)});
+            cells.push_back({.scenario = config.name, .condition = condition, .cost = cost->second});
         }
     }
     for (const study::PlannedUnit& planned : plan.units) {
@@ -150,7 +151,7 @@ Printout plan_printout(const study::Plan& plan, const std::filesystem::path& fol
                     rest.complete, folder.string());
     std::string text = "the rest: ";
     text += rest.wall_s ? fmt::format("about {} (h:m:s)", core::clock_text(*rest.wall_s))
-                        : "time unknown: the size of measured demand is only in its files";
+                        : "time unknown: the route files of measured demand cannot be read";
     text += fmt::format(
         ", about {} on the disk ({})", size_text(rest.disk_bytes),
         rest.measured ? "from runs of these scenarios here" : "rough: accurate to a factor of about three");

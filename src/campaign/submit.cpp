@@ -118,7 +118,8 @@ void print_submission(const study::Submission& submission, const study::Plan& pl
             {"runs", plan.run_count()},
             {"shard_limit_s", submission.shard_limit_s}},
            {},
-           fmt::format("{}: {} runs in {} shards\n", script, plan.run_count(), submission.shards)},
+           fmt::format("{}: {} in {}\n", script, core::counted(plan.run_count(), "run"),
+                       core::counted(submission.shards, "shard"))},
           printing);
 }
 

@@ -38,7 +38,8 @@ ErrorCause cause_of(const core::TaskEnd& end) {
     return ErrorCause::other;
 }
 
-/// Of a run whose demand is measured or not in the plan, s. Assumed: only the first ones are judged by it.
+/// Of a run whose demand cannot be read or is not in the plan, s. Assumed: only the first ones are judged by
+/// it.
 constexpr double usual_run_s = 10.0;
 
 /// Expected wall time of a run in each cell: scenarios in the order of the manifest, with all conditions
@@ -46,11 +47,12 @@ constexpr double usual_run_s = 10.0;
 std::vector<double> expected_costs(const study::Plan& plan) {
     std::vector<double> expected_s;
     for (std::size_t row = 0; row < plan.manifest.scenarios.size(); ++row) {
+        std::map<experiment::TrafficModel, double> run_s;  // Measured demand is read once, not per condition.
         for (const experiment::ConditionSpec& condition : plan.manifest.conditions) {
-            std::optional<double> run_s;
-            if (row < plan.scenarios.size())
-                run_s = rough_cost(plan.scenarios[row], condition.traffic_model).wall_s;
-            expected_s.push_back(run_s.value_or(usual_run_s));
+            const auto [cost, is_new] = run_s.try_emplace(condition.traffic_model, usual_run_s);
+            if (is_new && row < plan.scenarios.size())
+                cost->second = rough_cost(plan.scenarios[row], cost->first).wall_s.value_or(usual_run_s);
+            expected_s.push_back(cost->second);
         }
     }
     return expected_s;

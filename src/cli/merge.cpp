@@ -25,9 +25,9 @@ struct Arguments {
 
 std::string text_of(const study::MergeResult& result, const std::string& out) {
     const results::RunCounts& counts = result.counts;
-    std::string text =
-        fmt::format("{}: {} runs complete, {} failed, {} missing; {} new, {} seen before\n", out,
-                    counts.complete, counts.failed, counts.missing, result.adopted, result.duplicates);
+    std::string text = fmt::format("{}: {} complete, {} failed, {} missing; {} new, {} seen before\n", out,
+                                   core::counted(counts.complete, "run"), counts.failed, counts.missing,
+                                   result.adopted, result.duplicates);
     if (!result.absent_shards.empty())
         text += fmt::format("not there: shard {}\n", core::listed(result.absent_shards));
     for (const experiment::RunKey& key : result.missing)

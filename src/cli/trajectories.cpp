@@ -51,9 +51,9 @@ core::ExitCode write(const Arguments& arguments) {
         recording, network.network, {core::Seconds(arguments.every_s), core::Metres(arguments.reach_m)},
         folder);
     scenario::write_sumo_files(config, network, run, folder / "sumo");
-    fmt::print("{}: {} EVs and {} neighbours at {} places\n",
-               results::run_name(std::filesystem::proximate(run_folder), key), counts.emergency_vehicles,
-               counts.neighbours, counts.places);
+    fmt::print("{}: {} and {} at {}\n", results::run_name(std::filesystem::proximate(run_folder), key),
+               core::counted(counts.emergency_vehicles, "EV"), core::counted(counts.neighbours, "neighbour"),
+               core::counted(counts.places, "place"));
     fmt::print("  {0}/trajectories.csv\n{1}  {0}/sumo/run.sumocfg, {2}\n", folder.string(),
                counts.has_coordinates ? fmt::format("  {}/trajectories.geojson\n", folder.string()) : "",
                condition.policies.empty()

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
 #include "core/files.hpp"
 #include "core/temporary_folder.hpp"
 #include "loop/detail/plain_run.hpp"
@@ -29,8 +30,9 @@ void record_published(const experiment::DatasetJob& job, UnitRun& run, const gra
                                 "at least one link", "Raise the density, or choose another seed"});
     }
     samples::write_pair_dataset(job.output, dataset);
-    fmt::print("{}: {} vehicles, {} pairs at {:.2f} s\n", job.output.string(), dataset.vehicle_count(),
-               dataset.pair_count(), recorder.time().value);
+    fmt::print("{}: {}, {} at {:.2f} s\n", job.output.string(),
+               core::counted(dataset.vehicle_count(), "vehicle"), core::counted(dataset.pair_count(), "pair"),
+               recorder.time().value);
 }
 
 /// Name of the failure in data sets.

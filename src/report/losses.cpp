@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/counted.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -95,7 +96,7 @@ LossCurve read_losses(const std::filesystem::path& training_folder) {
     for (std::size_t row = 2; lines.next(); ++row) {
         const std::string where = fmt::format("{}:{}", file.string(), row);
         const std::vector<std::string_view>& cells = lines.cells();
-        if (cells.size() != 3) refuse(where, fmt::format("{} cells", cells.size()));
+        if (cells.size() != 3) refuse(where, core::counted(cells.size(), "cell"));
         curve.epoch.push_back(loss_from(cells[0], where));
         curve.train.push_back(loss_from(cells[1], where));
         curve.test.push_back(loss_from(cells[2], where));

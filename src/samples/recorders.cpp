@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
 #include "core/match_rows.hpp"
 #include "prediction/comparison/features.hpp"
 #include "prediction/comparison/pair_features.hpp"
@@ -32,7 +33,7 @@ class GraphSampleRecorder final : public SampleRecorder {
           writer_(with_features(origin(), prediction::corrected_schema())) {}
     std::string write(const std::filesystem::path& file) const override {
         writer_.write(file);
-        return fmt::format("{} samples", writer_.sample_count());
+        return core::counted(writer_.sample_count(), "sample");
     }
 
   private:
@@ -74,7 +75,7 @@ class RepairSampleRecorder final : public SampleRecorder {
           writer_(with_features(origin(), prediction::repair_schema())) {}
     std::string write(const std::filesystem::path& file) const override {
         writer_.write(file);
-        return fmt::format("{} samples", writer_.sample_count());
+        return core::counted(writer_.sample_count(), "sample");
     }
 
   private:
@@ -132,7 +133,7 @@ class PairSampleRecorder final : public SampleRecorder {
     }
     std::string write(const std::filesystem::path& file) const override {
         write_pair_samples(file, samples_);
-        return fmt::format("{} pairs", samples_.linked.size());
+        return core::counted(samples_.linked.size(), "pair");
     }
 
   private:

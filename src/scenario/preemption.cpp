@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -69,7 +70,8 @@ class Reading {
 
     void read_row(std::size_t line, const std::vector<std::string_view>& cells, PreemptionRows& rows) {
         if (cells.size() != columns_.size()) {
-            problems_.push_back({fmt::format("{}:{}", file_, line), fmt::format("has {} cells", cells.size()),
+            problems_.push_back({fmt::format("{}:{}", file_, line),
+                                 fmt::format("has {}", core::counted(cells.size(), "cell")),
                                  fmt::format("{}, as in the header", columns_.size()), ""});
             return;
         }

@@ -33,15 +33,46 @@ State state_of(const StudyStatus& status) {
     return status.failed > 0 ? State::failed : State::complete;
 }
 
-/// Estimated from the start time and the number of ended runs that the running process noted.
-std::optional<double> time_left_s(const StudyStatus& status, const LockNote& note) {
+/// Wall time of a run of a cell, from its first complete ones.
+std::optional<double> run_s(const results::Store& store, const CellStatus& cell) {
+    constexpr std::size_t sampled_runs = 5;
+    double sum_s = 0.0;
+    std::size_t count = 0;
+    for (std::uint32_t i = 0; i < store.manifest().replications && count < sampled_runs; ++i) {
+        const experiment::RunKey key{cell.scenario, cell.condition, i};
+        const auto timing = store.complete(key) ? store.read_timing(key) : std::nullopt;
+        if (!timing) continue;
+        sum_s += timing->wall_s;
+        ++count;
+    }
+    return count == 0 ? std::nullopt : std::optional(sum_s / static_cast<double>(count));
+}
+
+/// Estimated from the start time and the number of ended runs that the running process noted, and from what
+/// runs of each cell cost; one without a complete run costs what the others do on average.
+std::optional<double> time_left_s(const results::Store& store, const StudyStatus& status,
+                                  const LockNote& note) {
     const double elapsed_s =
         std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count() -
         note.started_unix_s;
     const std::size_t ended = status.complete + status.failed;
     if (ended <= note.ended_runs || elapsed_s <= 0.0) return std::nullopt;
-    const double each_s = elapsed_s / static_cast<double>(ended - note.ended_runs);
-    return each_s * static_cast<double>(status.runs - std::min(status.runs, ended));
+    double done_s = 0.0;
+    double open_s = 0.0;
+    std::size_t known = 0;
+    std::size_t unknown = 0;
+    for (const CellStatus& cell : status.cells) {
+        const std::size_t gone = cell.complete + cell.failed;
+        const std::size_t open = cell.runs - std::min(cell.runs, gone);
+        const std::optional<double> each_s = run_s(store, cell);
+        (each_s ? known : unknown) += each_s ? gone : open;
+        done_s += each_s.value_or(0.0) * static_cast<double>(gone);
+        open_s += each_s.value_or(0.0) * static_cast<double>(open);
+    }
+    if (known == 0 || done_s <= 0.0) return std::nullopt;
+    open_s += done_s / static_cast<double>(known) * static_cast<double>(unknown);
+    const double since_s = done_s * static_cast<double>(ended - note.ended_runs) / static_cast<double>(ended);
+    return elapsed_s * open_s / since_s;
 }
 
 }  // namespace
@@ -82,7 +113,7 @@ StudyStatus read_status(const std::filesystem::path& folder) {
     const auto note = holder_of(folder);
     if (note) status.holder = note->holder;
     status.state = state_of(status);
-    if (note) status.time_left_s = time_left_s(status, *note);
+    if (note) status.time_left_s = time_left_s(store, status, *note);
     return status;
 }
 

@@ -39,7 +39,8 @@ struct StudyStatus {
     std::size_t runs = 0;
     std::size_t complete = 0;
     std::size_t failed = 0;
-    /// Remaining time at the pace since the running process began; empty before its first run ends.
+    /// Remaining time at the pace since the running process began, by what the runs of each cell take; empty
+    /// before its first run ends.
     std::optional<double> time_left_s;
 };
 

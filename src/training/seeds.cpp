@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
 #include "core/error.hpp"
 
 namespace clearway::training {
@@ -14,8 +15,7 @@ SeedSplit split_seeds(std::vector<DataSeed> seeds, const SplitShares& shares) {
     seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
     if (seeds.size() < 3) {
         throw core::InputError(
-            {"--data", fmt::format("{} seed{}", seeds.size(), seeds.size() == 1 ? "" : "s"),
-             "3 seeds or more",
+            {"--data", core::counted(seeds.size(), "seed"), "3 seeds or more",
              "Training, validation and test each need seeds of their own: record more replications"});
     }
     const core::KeyedRandom random(core::StudySeed{shares.seed}, core::Replication{0});

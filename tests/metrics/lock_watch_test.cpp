@@ -101,8 +101,9 @@ class LockWatch : public testing::Test {
              VehicleClass vehicle_class = VehicleClass::human) {
         rows_[core::vehicle_key(id)] = {vehicle_class, lane, position_m, speed_mps};
     }
-    void drives(const std::string& id, const std::vector<EdgeIndex>& route) {
+    void drives(const std::string& id, const std::vector<EdgeIndex>& route, float length_m = 5.0F) {
         traffic::VehicleInfo info;
+        info.length_m = length_m;
         info.key = core::vehicle_key(id);
         info.id = id;
         info.route = roster_.add_route(route);
@@ -235,6 +236,21 @@ TEST_F(LockWatch, one_that_keeps_a_junction_clear_stands_in_the_queue_beyond) {
     put("a3", west, 99.0F);
     stand(200, "Gr");
     EXPECT_EQ(finish().metrics.locks, 0U);
+}
+
+TEST_F(LockWatch, one_behind_a_tram_that_reaches_back_over_the_junction_stands_in_its_queue) {
+    put("a1", east, 19.0F);
+    put("tram", east, 11.5F);
+    put("a3", west, 84.0F);
+    drives("tram", {EdgeIndex{east}}, 35.0F);
+    drives("a3", {EdgeIndex{west}, EdgeIndex{east}});
+    stand(200, "Gr");
+    EXPECT_EQ(finish().metrics.locks, 0U);
+    put("tram", east, 11.5F, 1.0F);
+    put("a1", east, 19.0F, 1.0F);
+    put("a3", west, 60.0F);
+    stand(100, "Gr");
+    EXPECT_EQ(finish().metrics.locks, 1U) << "farther behind than a queue";
 }
 
 TEST_F(LockWatch, a_red_beyond_free_road_explains_nothing) {

@@ -1,7 +1,9 @@
 #include "study/merge.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -210,6 +212,25 @@ TEST_F(Status, SeesWhoWorksThereFromAnotherProcessAndWhenHeIsDead) {
     EXPECT_THAT(running.holder, HasSubstr("process " + std::to_string(worker)));
     EXPECT_FALSE(running.time_left_s) << "no run has ended since it began";
     EXPECT_THROW(FolderLock second(place("out")), core::EnvironmentError) << "looking took no lock";
+    // Six runs of 22 s in all, three of them before; 64.7 s are open: 1 and 27 s, and ten runs like the mean.
+    const auto end_runs = [&](const char* scenario, const char* condition, std::uint32_t runs,
+                              double wall_s) {
+        results::RunTiming timing;
+        timing.wall_s = wall_s;
+        for (std::uint32_t i = 0; i < runs; ++i)
+            store("out").write(results::synthetic::record({scenario, condition, i}), timing);
+    };
+    end_runs("alpha", "baseline", 4, 1.0);
+    end_runs("beta", "treated", 2, 9.0);
+    const auto elapsed_s = [started_s = holder_of(place("out")).value().started_unix_s] {
+        const auto now = std::chrono::system_clock::now().time_since_epoch();
+        return std::chrono::duration<double>(now).count() - started_s;
+    };
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const double least_s = elapsed_s();
+    const double left_s = read_status(place("out")).time_left_s.value();
+    EXPECT_GT(left_s, 5.87 * least_s);
+    EXPECT_LT(left_s, 5.89 * elapsed_s());
     kill(worker, SIGKILL);
     waitpid(worker, nullptr, 0);
     EXPECT_EQ(read_status(place("out")).state, State::stopped);

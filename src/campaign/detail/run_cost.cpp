@@ -1,8 +1,13 @@
 #include "campaign/detail/run_cost.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <string_view>
 
 #include <sys/stat.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
 
 namespace clearway::campaign {
 namespace {
@@ -47,6 +52,32 @@ void sample(const results::Store& store, const std::string& scenario, const std:
     }
 }
 
+/// Vehicles of a route file that depart within the window.
+double departures(const std::string& routes, double window_s) {
+    constexpr std::string_view depart = " depart=\"";
+    double count = 0.0;
+    for (std::size_t at = routes.find(depart); at != std::string::npos; at = routes.find(depart, at + 1)) {
+        const std::size_t element = routes.rfind('<', at);
+        const bool is_vehicle =
+            routes.compare(element, 9, "<vehicle ") == 0 || routes.compare(element, 6, "<trip ") == 0;
+        if (is_vehicle && std::strtod(routes.c_str() + at + depart.size(), nullptr) <= window_s) ++count;
+    }
+    return count;
+}
+
+/// Measured human and automated vehicles; nothing if their files cannot be read.
+std::optional<double> measured_vehicles(const scenario::ScenarioConfig& config) {
+    double count = 0.0;
+    for (const std::string& file : config.measured->routes) {
+        try {
+            count += departures(core::read_file(scenario::resolve(config, file)), config.time.window_s);
+        } catch (const core::Error&) {
+            return std::nullopt;  // The run itself names the file.
+        }
+    }
+    return count;
+}
+
 bool holds_runs(const fs::path& folder) {
     return fs::exists(folder / "manifest.json") && fs::exists(folder / "runs");
 }
@@ -55,13 +86,17 @@ bool holds_runs(const fs::path& folder) {
 
 RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::TrafficModel traffic_model) {
     const scenario::Demand& demand = config.demand;
-    const double others = traffic_model == experiment::TrafficModel::free_flow
-                              ? 0.0
-                              : demand.density * (demand.human + demand.automated);
-    const double vehicles = others + demand.emergency + static_cast<double>(config.emergency_trips.size());
+    std::optional<double> others = demand.human + demand.automated;
+    if (traffic_model == experiment::TrafficModel::free_flow) {
+        others = 0.0;
+    } else if (config.demand_kind() == scenario::DemandKind::measured) {
+        others = measured_vehicles(config);
+    }
+    const double vehicles = demand.density * others.value_or(0.0) + demand.emergency +
+                            static_cast<double>(config.emergency_trips.size());
     RunCost cost;
     cost.disk_bytes = least_disk_bytes + vehicle_disk_bytes * vehicles;
-    if (config.demand_kind() == scenario::DemandKind::measured) return cost;
+    if (!others) return cost;
     cost.wall_s = overhead_s + vehicles * mean_trip_s / config.time.step_length_s * vehicle_step_s;
     return cost;
 }

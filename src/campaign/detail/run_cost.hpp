@@ -18,8 +18,8 @@ struct RunCost {
 };
 
 /// The cost of a run before any was made, accurate to a factor of about three: 10 us per vehicle and step for
-/// 120 s on the road plus 0.2 s (no time if the demand is measured), and on the disk 12 KiB plus 160 bytes
-/// per vehicle.
+/// 120 s on the road plus 0.2 s (no time if measured demand cannot be read), and on the disk 12 KiB plus 160
+/// bytes per vehicle.
 RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::TrafficModel traffic_model);
 
 /// Costs of runs, estimated from those in a run folder and its neighbours.

@@ -143,6 +143,17 @@ float LockWatch::room_on_m(const Look& look, core::LaneIndex lane) const {
     return look.snapshot.lane_position_m[order_[last]] - length_m(look, order_[last]);
 }
 
+float LockWatch::room_beyond_m(const Look& look, const LaneWay& way) const {
+    float inside_m = 0.0F;
+    core::LaneIndex lane = way.onto;
+    while (is_inside(lane) && last_on_lane_[lane.value] == nothing &&
+           !layout_.chain.ways[lane.value].empty()) {
+        inside_m += layout_.chain.length_m[lane.value];
+        lane = layout_.chain.ways[lane.value].front().onto;
+    }
+    return inside_m + room_on_m(look, lane);
+}
+
 bool LockWatch::is_inside(core::LaneIndex lane) const {
     return layout_.chain.approach[lane.value] != layout_.chain.edge[lane.value];
 }
@@ -185,7 +196,8 @@ std::uint32_t LockWatch::ahead_of(const Look& look, std::uint32_t row) const {
     const LaneWay* const way = way_of(look, row, lane, 0);
     if (way == nullptr) return beside(look, row, lane);
     if (is_red(look, *way)) return excused;
-    const bool at_end = layout_.chain.length_m[lane.value] - position_m <= queue_gap_m;
+    const float left_m = layout_.chain.length_m[lane.value] - position_m;
+    const bool at_end = std::min(left_m, left_m + room_beyond_m(look, *way)) <= queue_gap_m;
     const std::uint32_t ahead = at_end ? ahead_on(look, row, way) : nothing;
     if (ahead != nothing) return ahead;
     const std::uint32_t crossing = across(look, is_inside(lane) ? lane : way->onto, row);

@@ -65,6 +65,9 @@ class LockWatch {
     core::LaneIndex lane_beyond(const LaneWay& way) const;
     /// From the lane's beginning to the rear of the last vehicle on it; without end if it is empty.
     float room_on_m(const Look& look, core::LaneIndex lane) const;
+    /// From the junction that a way leads across to the rear of the first vehicle behind its line; below 0
+    /// when that vehicle reaches back over the line.
+    float room_beyond_m(const Look& look, const LaneWay& way) const;
     bool is_red(const Look& look, const LaneWay& way) const;
     float length_m(const Look& look, std::uint32_t row) const;
     bool is_held(const Look& look, std::uint32_t row) const;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
 #include "core/files.hpp"
 #include "roads/route.hpp"
 #include "scenario/network_document.hpp"
@@ -207,9 +208,9 @@ void keep_window(const Window& window, Demand& demand, Findings& findings, std::
             "a time with departures", "choose another begin"});
     if (vehicles.size() < all)
         findings.changes.push_back(
-            fmt::format("of {} vehicles the {} that depart from {:.0f} s to {:.0f} s are taken; --begin "
+            fmt::format("of {} the {} that depart from {:.0f} s to {:.0f} s are taken; --begin "
                         "chooses another time",
-                        all, vehicles.size(), window.begin_s, window.end_s()));
+                        core::counted(all, "vehicle"), vehicles.size(), window.begin_s, window.end_s()));
 }
 
 /// How vehicles without a route find one.
@@ -278,8 +279,9 @@ void write_programs(Import& import, const std::vector<Element>& others,
     }
     if (replaced.empty()) return;
     core::write_atomically(network_file, document.text());
-    import.findings.changes.push_back(fmt::format(
-        "signal programs of the files replace those of the network at {} signals", replaced.size()));
+    import.findings.changes.push_back(
+        fmt::format("signal programs of the files replace those of the network at {}",
+                    core::counted(replaced.size(), "signal")));
 }
 
 /// Without vehicles, only signal programs are kept.

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
 #include "scenario_import/sumo/draw.hpp"
 #include "scenario_import/sumo/input.hpp"
 #include "scenario_import/sumo/person_plan.hpp"
@@ -167,8 +168,8 @@ Demand DemandReader::finish() {
     demand_.names_vehicles = !pending_.empty();
     if (renamed_ > 0)
         demand_.changes.push_back(
-            fmt::format("{} vehicles with ids of Clearway's own emergency vehicles get the prefix \"{}\"",
-                        renamed_, imported_prefix));
+            fmt::format("{} with ids of Clearway's own emergency vehicles: prefix \"{}\"",
+                        core::counted(renamed_, "vehicle"), imported_prefix));
     report_types();
     return std::move(demand_);
 }

@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
+
 namespace clearway::sumo::detail {
 namespace {
 
@@ -70,8 +72,8 @@ void Commander::run(const traffic::RequestLane& command) {
     const std::string edge = sumo_.edge_of(vehicle->id);
     const auto lanes = static_cast<std::uint32_t>(sumo_.lane_count(edge));
     require(command.lane_number < lanes,
-            fmt::format("vehicle '{}': edge '{}' has {} lanes, none with number {}", vehicle->id, edge, lanes,
-                        command.lane_number));
+            fmt::format("vehicle '{}': edge '{}' has {}, none with number {}", vehicle->id, edge,
+                        core::counted(lanes, "lane"), command.lane_number));
     sumo_.change_lane(vehicle->id, static_cast<int>(command.lane_number), command.duration.value);
 }
 
@@ -186,8 +188,9 @@ const std::string& Commander::signal_name(core::SignalIndex signal) const {
 void Commander::run(const traffic::SetSignalState& command) {
     const std::string& signal = signal_name(command.signal);
     const std::size_t links = sumo_.signal_state(signal).size();
-    require(command.state.size() == links, fmt::format("signal '{}': '{}' has {} letters for {} links",
-                                                       signal, command.state, command.state.size(), links));
+    require(command.state.size() == links,
+            fmt::format("signal '{}': '{}' has {} for {}", signal, command.state,
+                        core::counted(command.state.size(), "letter"), core::counted(links, "link")));
     require(
         command.state.find_first_not_of(signal_letters) == std::string::npos,
         fmt::format("signal '{}': '{}' has a letter other than {}", signal, command.state, signal_letters));

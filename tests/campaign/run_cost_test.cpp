@@ -1,0 +1,33 @@
+#include "campaign/detail/run_cost.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/temporary_folder.hpp"
+
+namespace clearway::campaign {
+namespace {
+
+TEST(RunCost, counts_the_departures_of_measured_demand_within_the_window) {
+    const support::TemporaryFolder folder;
+    const auto routes = folder.write("a.rou.xml",
+                                     "<routes>\n<vType id=\"car\" depart=\"1\"/>\n"
+                                     "<vehicle id=\"a\" depart=\"0.00\"><route edges=\"e\"/></vehicle>\n"
+                                     "<trip type=\"car\" depart=\"600\" from=\"e\" to=\"f\" id=\"b\"/>\n"
+                                     "<vehicle depart=\"600.5\" id=\"late\"/>\n</routes>\n");
+    scenario::ScenarioConfig config;
+    config.time.window_s = 600.0;
+    config.time.step_length_s = 0.5;
+    config.demand.density = 0.5;
+    config.demand.emergency = 3;
+    config.measured.emplace().routes = {routes.string()};
+    // 0.2 s, and four vehicles for 240 steps of 10 us.
+    EXPECT_NEAR(rough_cost(config, experiment::TrafficModel::standard).wall_s.value(), 0.2 + 4 * 240 * 10e-6,
+                1e-9);
+    EXPECT_NEAR(rough_cost(config, experiment::TrafficModel::free_flow).wall_s.value(), 0.2 + 3 * 240 * 10e-6,
+                1e-9);
+    config.measured->routes.push_back((folder.path() / "missing.rou.xml").string());
+    EXPECT_FALSE(rough_cost(config, experiment::TrafficModel::standard).wall_s);
+}
+
+}  // namespace
+}  // namespace clearway::campaign
