@@ -109,13 +109,7 @@ def publish(counts):
     for run, (sumo, loop) in counts.items():
         for part, number in (("SUMO's step", sumo), ("the loop", loop)):
             rows.append(common | {"condition": TITLES[run], "scenario": part, "mean": f"{number / 1e6:.1f}"})
-    with ROWS.open(encoding="utf-8", newline="") as file:
-        new = {tuple(row[name] for name in published_rows.NAMES) for row in rows}
-        kept = [row for row in csv.DictReader(file) if tuple(row[name] for name in published_rows.NAMES) not in new]
-    with ROWS.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, published_rows.FIELDS, restval="", lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows + kept)
+    published_rows.put_rows(ROWS, rows)
 
 
 def show(counts, times):

@@ -130,6 +130,17 @@ def read_rows(root, faults):
     return {path.stem: read_file(root, path, faults) for path in sorted((root / "results").glob("*.csv"))}
 
 
+def put_rows(path, rows, dropped=lambda row: False):
+    """Writes rows into a file of results in place of those with the same names, and of those that `dropped` names."""
+    new = {tuple(row[name] for name in NAMES) for row in rows}
+    with path.open(encoding="utf-8", newline="") as file:
+        kept = [row for row in csv.DictReader(file) if tuple(row[name] for name in NAMES) not in new and not dropped(row)]
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, FIELDS, restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows([*rows, *kept])
+
+
 def pages(root):
     return [page for page in (root / "README.md", *sorted((root / "docs").rglob("*.md"))) if page.exists()]
 
