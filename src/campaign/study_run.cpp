@@ -19,6 +19,7 @@
 #include "core/files.hpp"
 #include "core/progress.hpp"
 #include "core/shipped_files.hpp"
+#include "prediction/predictor.hpp"
 #include "python/nursery.hpp"
 #include "python/part_name.hpp"
 #include "report/console.hpp"
@@ -45,6 +46,14 @@ std::uint32_t replications_in(const std::filesystem::path& folder) {
 bool is_in_python(const experiment::ConditionSpec& condition) {
     const auto is_part = [](const std::string& name) { return python::part_name_from(name).has_value(); };
     return is_part(condition.predictor) || std::ranges::any_of(condition.policies, is_part);
+}
+
+/// Whether a condition repairs by a net, so that its training belongs to the study.
+bool learns(const study::Plan& plan) {
+    const std::vector<std::string> learned = prediction::predictors().names(traffic::Trait::learned);
+    return std::ranges::any_of(plan.manifest.conditions, [&](const experiment::ConditionSpec& condition) {
+        return std::ranges::find(learned, condition.predictor) != learned.end();
+    });
 }
 
 /// Where many runs have parts in Python, one interpreter is loaded for all of them.
@@ -223,8 +232,8 @@ results::Store prepare_run_folder(const study::Plan& plan, const RunOptions& opt
         if (before != 0 && !plan.manifest.precision && before != store.manifest().replications)
             fmt::print(stderr, "clearway: {}: extended from {} to {}\n", options.folder.string(), before,
                        core::counted(store.manifest().replications, "replication"));
-        if (const auto trainings = core::shipped(std::filesystem::path("models") / "training"))
-            study::copy_trainings(*trainings, store);
+        const auto trainings = core::shipped(std::filesystem::path("models") / "training");
+        if (trainings && learns(plan)) study::copy_trainings(*trainings, store);
         return store;
     } catch (const core::InputError&) {
         std::error_code ignored;

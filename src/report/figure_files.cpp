@@ -20,11 +20,13 @@ using detail::Table;
 
 class FileWriter : public detail::Writer {
   public:
-    explicit FileWriter(const std::filesystem::path& folder) : folder_(folder) {}
+    FileWriter(const std::filesystem::path& folder, const StudyFacts& study)
+        : folder_(folder), study_(study) {}
 
-    void begin(const char* section) { section_ = section; }
+    void begin(const char* section) { section_ = topic_ = section; }
 
     void markup(std::string_view /*html*/) override {}
+    void heading(const std::string& text) override { topic_ = text; }
     const FigureFiles& files() const { return files_; }
 
   private:
@@ -33,12 +35,22 @@ class FileWriter : public detail::Writer {
         core::write_atomically(file, text);
         return file;
     }
+    /// A caption that can stand alone, with what is drawn and of which scenario.
+    std::string full(const std::string& caption, const std::string& name) const {
+        for (const ScenarioFacts& scenario : study_.scenarios) {
+            if (caption == scenario.name) return topic_ + ": " + caption;
+            if (name.ends_with("-" + plain_name(scenario.name)) &&
+                caption.find(scenario.name) == std::string::npos)
+                return scenario.name + ": " + caption;
+        }
+        return caption;
+    }
     void put(const Figure& figure) override {
         files_.drawings.push_back(write(figure.name, ".svg", detail::standalone(figure.drawing)));
         if (!figure.data.rows.empty())
             files_.tables.push_back(write(figure.name, ".csv", detail::to_csv(figure.data)));
-        files_.entries.push_back(
-            {section_, figure.name, figure.caption, figure.note, true, !figure.data.rows.empty()});
+        files_.entries.push_back({section_, figure.name, full(figure.caption, figure.name), figure.note, true,
+                                  !figure.data.rows.empty()});
     }
     void put(const Table& table) override {
         files_.tables.push_back(write(table.name, ".csv", detail::to_csv(table.data)));
@@ -47,7 +59,9 @@ class FileWriter : public detail::Writer {
     }
 
     std::filesystem::path folder_;
+    const StudyFacts& study_;
     std::string section_;
+    std::string topic_;  ///< The latest heading, or the section.
     FigureFiles files_;
 };
 
@@ -105,7 +119,7 @@ void write_index(const FigureFiles& files, const std::filesystem::path& folder,
 
 FigureFiles write_figures(const StudyFacts& study, const std::filesystem::path& folder) {
     core::make_folder(folder);
-    FileWriter writer(folder);
+    FileWriter writer(folder, study);
     for (const detail::Section& section : detail::sections()) {
         if (!section.applies(study)) continue;
         writer.begin(section.title);

@@ -25,7 +25,7 @@ void drop_unused(DataTable& table) {
 
 }  // namespace
 
-std::string Writer::file_name(const std::string& wanted) {
+std::string Writer::plain_name(const std::string& wanted) {
     constexpr std::size_t longest = 80;  // names of scenarios come from files and have no limit
     std::string name;
     for (const char letter : wanted) {
@@ -37,6 +37,11 @@ std::string Writer::file_name(const std::string& wanted) {
     }
     while (name.ends_with('-'))
         name.pop_back();
+    return name;
+}
+
+std::string Writer::file_name(const std::string& wanted) {
+    const std::string name = plain_name(wanted);
     std::string unique = name;
     for (int number = 2; !names_.insert(unique).second; ++number)
         unique = fmt::format("{}-{}", name, number);

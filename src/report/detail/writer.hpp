@@ -27,10 +27,14 @@ class Writer {
     /// left out.
     void table(Table table);
 
-    void heading(const std::string& text);
+    virtual void heading(const std::string& text);
     /// Begins a part that readers unfold by a click and that print shows; `summary` is markup.
     void open_fold(const std::string& summary);
     void close_fold();
+
+  protected:
+    /// As names of files are, but perhaps not unique.
+    static std::string plain_name(const std::string& wanted);
 
   private:
     virtual void put(const Figure& figure) = 0;
