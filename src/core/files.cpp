@@ -1,9 +1,8 @@
 #include "core/files.hpp"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/read_failure.hpp"
 #include "core/running_hash.hpp"
 
 namespace clearway::core {
@@ -20,6 +20,13 @@ namespace {
     throw EnvironmentError(fmt::format("{}: cannot {}: {}. Choose another place, or change its permissions",
                                        file.string(), action, std::strerror(errno)));
 }
+
+struct Descriptor {
+    int number = -1;
+    ~Descriptor() {
+        if (number >= 0) ::close(number);
+    }
+};
 
 }  // namespace
 
@@ -40,13 +47,17 @@ void flush_folder(const std::filesystem::path& folder) {
 }
 
 std::string read_file(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(file)) {
-        throw InputError({file.string(), "cannot be read", "", "Check that the file exists and is readable"});
+    const Descriptor source{::open(file.c_str(), O_RDONLY | O_CLOEXEC)};
+    if (source.number < 0) fail_to_read(file, errno);
+    std::string text;
+    std::array<char, 1 << 16> buffer;
+    for (;;) {
+        const ssize_t count = ::read(source.number, buffer.data(), buffer.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail_to_read(file, errno);
+        if (count == 0) return text;
+        text.append(buffer.data(), static_cast<std::size_t>(count));
     }
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return std::move(text).str();
 }
 
 void make_folder(const std::filesystem::path& folder) {

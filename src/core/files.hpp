@@ -10,7 +10,8 @@ namespace clearway::core {
 /// EnvironmentError (folder not writable, disk full) and then leaves `file` unchanged.
 void write_atomically(const std::filesystem::path& file, std::string_view content);
 
-/// The whole file. Throws InputError when it is missing or unreadable.
+/// The whole file. Throws as fail_to_read: InputError when it is missing or may not be read, EnvironmentError
+/// when the machine fails.
 std::string read_file(const std::filesystem::path& file);
 
 /// Flushes the directory entries of `folder` to the disk, so that a rename survives a power failure. Does

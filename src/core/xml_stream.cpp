@@ -10,6 +10,7 @@
 #include <zlib.h>
 
 #include "core/error.hpp"
+#include "core/read_failure.hpp"
 
 namespace clearway::core {
 namespace {
@@ -65,7 +66,8 @@ int read_chunk(gzFile input, void* buffer, const std::filesystem::path& file) {
     int code = Z_OK;
     const char* reason = gzerror(input, &code);
     if (count < 0 || code == Z_BUF_ERROR || code == Z_DATA_ERROR) {
-        fail_unreadable(file, code == Z_ERRNO ? std::strerror(errno) : reason);
+        if (code == Z_ERRNO) fail_to_read(file, errno);
+        fail_unreadable(file, reason);
     }
     return count;
 }
@@ -90,7 +92,7 @@ void stream_xml(const std::filesystem::path& file, XmlHandler& handler) {
     if (std::filesystem::is_directory(file, error)) fail_unreadable(file, "it is a folder");
     errno = 0;
     const GzipHandle input(gzopen(file.c_str(), "rb"), &gzclose_r);
-    if (!input) fail_unreadable(file, std::strerror(errno));
+    if (!input) fail_to_read(file, errno == 0 ? ENOMEM : errno);
     const ParserHandle parser(XML_ParserCreate(nullptr), &XML_ParserFree);
     if (!parser) throw std::bad_alloc();
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <span>
 #include <sstream>
@@ -11,6 +12,7 @@
 #include <zlib.h>
 
 #include "core/error.hpp"
+#include "core/read_failure.hpp"
 #include "scenario/detail/xml_text.hpp"
 
 namespace clearway::scenario {
@@ -28,13 +30,17 @@ constexpr std::array<std::string_view, 7> newer_classes = {"cable_car", "subway"
 /// The bytes of a file, decompressed if it is compressed.
 std::string inflated(const std::filesystem::path& file) {
     gzFile stream = gzopen(file.c_str(), "rb");
-    if (stream == nullptr) refuse(file, "cannot be read");
+    if (stream == nullptr) core::fail_to_read(file, errno);
     std::string bytes;
     std::array<char, 1 << 16> buffer{};
     int count = 0;
     while ((count = gzread(stream, buffer.data(), buffer.size())) > 0)
         bytes.append(buffer.data(), count);
+    int code = Z_OK;
+    gzerror(stream, &code);
+    const int reason = errno;
     gzclose(stream);
+    if (code == Z_ERRNO) core::fail_to_read(file, reason);
     if (count < 0) refuse(file, "is damaged or cut short");
     return bytes;
 }

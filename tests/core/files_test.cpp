@@ -5,6 +5,7 @@
 #include <string>
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -83,6 +84,24 @@ TEST_F(FilesTest, NamesTheFileThatCannotBeRead) {
     EXPECT_THAT(complaint<InputError>([&] { read_file(folder_.path() / "missing.toml"); }),
                 HasSubstr("missing.toml: cannot be read"));
     EXPECT_THROW(read_file(folder_.path()), InputError);
+}
+
+TEST_F(FilesTest, AReadErrorIsNotTheEndOfAFile) {
+    // The memory of a process cannot be read at address 0: the device of every machine that fails at once.
+    EXPECT_THAT(complaint<EnvironmentError>([&] { read_file("/proc/self/mem"); }),
+                HasSubstr("mem: cannot be read: Input/output error. The machine failed"));
+}
+
+TEST_F(FilesTest, WithoutDescriptorsTheMachineFailsAndNotTheInput) {
+    const std::filesystem::path file = folder_.write("there", "text");
+    rlimit limit{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &limit), 0);
+    const rlimit none{0, limit.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+    const std::string said = complaint<EnvironmentError>([&] { read_file(file); });
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &limit), 0);
+    EXPECT_THAT(said, HasSubstr("there: cannot be read: Too many open files"));
+    EXPECT_EQ(read_file(file), "text");
 }
 
 TEST_F(FilesTest, MakesFoldersWithTheirParents) {

@@ -12,6 +12,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/read_failure.hpp"
 #include "core/running_hash.hpp"
 
 namespace clearway::trace::detail {
@@ -73,12 +74,11 @@ void check_seal(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     std::error_code error;
     const std::uint64_t size = std::filesystem::file_size(file, error);
-    if (!stream || error)
-        throw core::InputError(
-            {file.string(), "cannot be read", "", "Check that the file exists and is readable"});
+    if (!stream || error) core::fail_to_read(file, error ? error.value() : errno);
     std::string head(seal_length, '\0');
     stream.read(head.data(), static_cast<std::streamsize>(head.size()));
     head.resize(static_cast<std::size_t>(stream.gcount()));
+    if (stream.bad()) core::fail_to_read(file, errno);
     stream.clear();
     refuse_other_formats(file, head);
     if (head.size() < seal_length) fail(file, "is cut short: it has no end");
@@ -90,7 +90,7 @@ void check_seal(const std::filesystem::path& file) {
     if (size - seal_length < length) fail(file, "is cut short: it has no end");
     core::RunningHash hash;
     std::uint64_t found = 0;
-    if (!hash_rest(stream, hash, found)) fail(file, "cannot be read to its end");
+    if (!hash_rest(stream, hash, found)) core::fail_to_read(file, errno);
     if (length != 0 && found > length) fail(file, "is damaged: something follows its end");
     if (head != seal_text(found, hash.digest())) fail(file, "is damaged: it does not fit its hash");
 }
