@@ -29,6 +29,10 @@ from .torchscript import TorchScript, Unusable
 METHODS = {"policy": "act", "predictor": "predict"}
 
 
+class NoClass(AttributeError):
+    """The file has no class of this name. The message says all, so no traceback is shown."""
+
+
 class SettingError(ValueError):
     """Settings do not fit the class. The message says all, so no traceback is shown."""
 
@@ -76,7 +80,7 @@ def load(file: Path, name: str, settings: dict[str, str]) -> Any:
     kind = getattr(module, name, None)
     if not isinstance(kind, type):
         classes = [word for word, value in vars(module).items() if isinstance(value, type) and value.__module__ == file.stem]
-        raise AttributeError(f"{file} has no class {name!r}; it has {', '.join(classes) or 'none'}")
+        raise NoClass(f"{file} has no class {name!r}; it has {', '.join(classes) or 'none'}{_program.did_you_mean(name, classes)}")
     return kind(**keyword_arguments(kind, settings))
 
 
@@ -132,7 +136,16 @@ def told(error: BaseException) -> str:
         trace = trace.tb_next
     cause = traceback.format_exception_only(error)[-1].strip()
     text = "".join(traceback.format_exception(type(error), error, trace or error.__traceback__)).strip()
-    return f"{cause[:1000]}\n{text[-100_000:]}"
+    return f"{cause[:1000]}{line_of(trace)}\n{text[-100_000:]}"
+
+
+def line_of(trace: Any) -> str:
+    """The last line of the file of the part that was reached, as ` (FILE.py, line 12)`."""
+    frames = traceback.extract_tb(trace) if trace else []
+    if not frames:
+        return ""
+    last = [frame for frame in frames if frame.filename == frames[0].filename][-1]
+    return f" ({Path(last.filename).name}, line {last.lineno})"
 
 
 def end_group(*_: Any) -> None:
@@ -155,7 +168,7 @@ def be_part(memory: int, read: int, write: int) -> None:
     channel = Channel(memory, read, write)
     try:
         serve(channel)
-    except (SettingError, Unusable, _program.LoadedAgain) as error:
+    except (NoClass, SettingError, Unusable, _program.LoadedAgain) as error:
         channel.write_text(str(error))
         channel.ring(FAILED)
     except BaseException as error:  # noqa: BLE001: even sys.exit() in user code is this run's failure

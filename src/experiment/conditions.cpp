@@ -76,7 +76,9 @@ ConditionSpec built_in_condition(const std::string& name, const std::string& whe
     }
     throw core::InputError(
         {where, fmt::format("'{}' is not a built-in condition", name), core::listed(names),
-         core::did_you_mean(name, names, "Define it in [[condition]], or use a known name")});
+         core::did_you_mean(
+             name, names,
+             "Define it in [[condition]], in Python as Condition(NAME, policy=...), or use a known name")});
 }
 
 }  // namespace clearway::experiment

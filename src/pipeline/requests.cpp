@@ -268,9 +268,10 @@ void Requests::ask_signal(const traffic::Lease& lease, core::SignalIndex signal,
     if (!speaks) return;
     ++counts_.signal_sent;
     if (signal_senders_.insert(lease.beneficiary).second) ++counts_.signal_messages;
-    const auto& place = signal_places_.at(signal.value);
+    const bool exists = signal.value < signal_places_.size();  // If not, the actuator refuses it.
+    const auto place = exists ? signal_places_[signal.value] : std::nullopt;
     const bool hears =
-        signals_.is_perfect() ||
+        !exists || signals_.is_perfect() ||
         (place && signals_.hears(lease.beneficiary.value, signal.value, number,
                                  distance_m(moment.snapshot, *sender, place->x_m, place->y_m)));
     if (hears) {

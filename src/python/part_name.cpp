@@ -63,10 +63,13 @@ std::string resolved(const std::string& word, const std::filesystem::path& folde
     const std::vector<std::filesystem::path> files = sources_of(name->file, where);
     const std::string hash = hash_of(files);
     if (!name->hash.empty() && name->hash != hash)
-        throw core::InputError({where,
-                                fmt::format("{}{} changed since the study began", name->file.string(),
-                                            files.size() > 1 ? " or a file that it imports has" : " has"),
-                                "content hash " + name->hash, "Restore it, or start a new study"});
+        // No run is to blame: once the file is restored, the same command continues.
+        throw core::ConflictError(core::format_problem(
+            {where,
+             fmt::format("{}{} changed since the study began", name->file.string(),
+                         files.size() > 1 ? " or a file that it imports has" : " has"),
+             "content hash " + name->hash,
+             "Restore it and give the same command again, or start a new study with another --out"}));
     name->hash = hash;
     return to_text(*name);
 }

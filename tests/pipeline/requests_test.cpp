@@ -287,6 +287,14 @@ TEST(Requests, ToSignalsHaveAChannelOfTheirOwn) {
     EXPECT_EQ(near.counts().sent, 0u);
 }
 
+TEST(Requests, ToASignalThatDoesNotExistAreLeftToTheActuatorToRefuse) {
+    for (const char* const channel : {"perfect", "perfect,signal_request_propagation=sharp"}) {
+        OneRoad one(channel);
+        one.decide({lease(core::SignalIndex(77), traffic::HoldGreen{{99}}, one.scene.key("e1"))});
+        EXPECT_THAT(one.arrived(), ElementsAre("signal")) << channel;
+    }
+}
+
 TEST(Requests, ThatSignalsDecidedOnThemselvesNeedNoMessage) {
     OneRoad one("perfect,signal_request_propagation=sharp,signal_request_range_m=10");
     const traffic::Lease green = lease(core::SignalIndex(0), traffic::HoldGreen{{0}}, one.scene.key("e1"));

@@ -61,6 +61,9 @@ class Writes(Policy):
 class Gone(Policy):
     def act(self, belief):
         return [Lease.drive_at(12345, 10.0, reason="to nobody")]
+class NoSignal(Policy):
+    def act(self, belief):
+        return [Lease.hold_green(77, [99], serves=ev) for ev in belief.emergency_vehicles]
 class Sleeps(Policy):
     def act(self, belief):
         time.sleep(1000)
@@ -448,12 +451,34 @@ class FaultTest(FolderCase):
             if name != "Dies":
                 self.assertRegex(found.splitlines()[0], r"bad.py: (\w+Error|SystemExit|KeyboardInterrupt)")  # the cause comes first
                 self.assertIn("Traceback", found)
+                if name == "Raises":
+                    self.assertRegex(found.splitlines()[0], r"division by zero \(bad.py, line \d+\)")
                 answered = ("NotALease", "Nothing", "TooMuch", "Number")  # `act` has returned, so that nothing else is on the stack
                 self.assertEqual("_host.py" in found, name in answered, found)
                 self.assertIn("bad.py" if name not in ("Nothing", "TooMuch", "Number") else "act", found)
         self.assertEqual(set(results.errors["cause"]), {"python"})
         self.assertEqual(list(results.runs["condition"]), ["baseline"])
         self.assertEqual(hosts_of(self.folder), [])
+
+    def test_a_signal_that_does_not_exist_is_refused(self) -> None:
+        conditions = [clearway.Condition("no_signal", policy="bad.py:NoSignal"),
+                      clearway.Condition("by_radio", policy="bad.py:NoSignal", failure="perfect,signal_request_propagation=sharp")]
+        refused = clearway.run("intersection", conditions, seeds=1, out="runs").leases
+        for condition in ("no_signal", "by_radio"):
+            self.assertGreater(refused.where(condition=condition, reason="no_such_signal")["leases"].sum(), 0, condition)
+
+    def test_a_file_that_changes_during_a_study_blames_no_run_and_once_restored_the_study_goes_on(self) -> None:
+        text = ("import pathlib\nfrom clearway import Policy\nonce = pathlib.Path('%s')\nclass Moody(Policy):\n"
+                "    def act(self, belief):\n        if not once.exists():\n            once.touch()\n"
+                "            pathlib.Path('%s').write_text('# changed')\n        return []\n")
+        text %= (self.folder / "once", self.folder / "moody.py")
+        file = self.write("moody.py", text)
+        study = ["run", "intersection", "--policy", "moody.py:Moody", "--seeds", "2", "--no-solo", "--jobs", "1", "--out", "runs"]
+        program(*study, code=7)
+        self.assertEqual(list(clearway.open("runs").errors["cause"]), [""])  # missing, not failed
+        file.write_text(text)
+        program(*study)
+        self.assertEqual(clearway.open("runs").runs.row_count, 4)
 
     def test_an_answer_that_the_package_did_not_check_is_that_runs_failure(self) -> None:
         self.write("rude.py", RUDE)
@@ -507,7 +532,7 @@ class FaultTest(FolderCase):
         self.write("syntax.py", "class Mine(:\n")
         self.write("raises.py", "raise OSError('no net here')\n")
         for word, says in (("nowhere.py:Mine", "nowhere.py is not a file"), ("bad.py:Mine", "has no class 'Mine'; it has Raises"),
-                           ("bad.py:NoAct", "NoAct has no method act()"),
+                           ("bad.py:Raise", "Did you mean 'Raises'?"), ("bad.py:NoAct", "NoAct has no method act()"),
                            ("bad.py:Inherits", "Inherits has no method act()"), ("bad.py", "FILE.py:CLASS"),
                            ("syntax.py:Mine", "SyntaxError"), ("raises.py:Mine", "OSError: no net here")):
             ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", word, "--out", "runs"],
