@@ -12,6 +12,7 @@
 
 #include "campaign/detail/run_cost.hpp"
 #include "campaign/equip_rounds.hpp"
+#include "campaign/names.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/progress.hpp"
@@ -35,6 +36,7 @@ bool has_own_code(const experiment::ConditionSpec& base) {
 }
 
 void check_condition(const experiment::ConditionSpec& base) {
+    check_names({base});
     if (base.settings.contains(experiment::equipped_setting))
         throw core::InputError({experiment::equipped_setting, "is chosen by equip itself", "",
                                 "Leave it out, or compare your own sets with clearway run"});
@@ -131,6 +133,7 @@ report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipReq
     report::EquipmentFacts facts;
     facts.scenario = config.scenarios.front().name;
     facts.title = config.scenarios.front().title;
+    facts.attribution = config.scenarios.front().network.attribution;
     facts.condition = request.condition.name;
     facts.command = request.run.command;
     facts.seed = config.seed;
@@ -162,6 +165,13 @@ std::filesystem::path usual_folder(study::StudyConfig config, const experiment::
     return options.folder;
 }
 
+/// It may hold nothing, or the rounds of an earlier call.
+void check_folder(const std::filesystem::path& folder) {
+    if (is_absent_or_empty(folder) || std::filesystem::exists(folder / EquipRounds::first_round)) return;
+    throw core::InputError({"--out", fmt::format("{} holds something else", folder.string()),
+                            "a new or empty folder, or one of clearway equip", "Choose another folder"});
+}
+
 /// What both verbs begin with.
 struct Search {
     study::StudyConfig config;
@@ -175,6 +185,7 @@ Search search_of(EquipRequest& request, const std::filesystem::path& network_fol
     config.name = "equip-" + config.name;
     Signals signals = signals_of(config, request.most_candidates, network_folder);
     if (request.run.folder.empty()) request.run.folder = usual_folder(config, request.condition);
+    check_folder(request.run.folder);
     EquipQuestion question = question_of(config, request, signals);
     return {std::move(config), std::move(signals), EquipRounds(std::move(question), request.run)};
 }

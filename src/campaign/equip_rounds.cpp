@@ -23,7 +23,6 @@
 namespace clearway::campaign {
 namespace {
 
-constexpr const char* first_round = "round-01";
 constexpr const char* fresh_prefix = "fresh-";
 /// Candidates that a lazy search is assumed to try for each later place. From small cities.
 constexpr std::size_t likely_tries = 2;

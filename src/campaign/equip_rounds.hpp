@@ -78,6 +78,9 @@ struct EquipForecast {
 /// one thread.
 class EquipRounds {
   public:
+    /// The folder of the first round, in every folder of a search.
+    static constexpr const char* first_round = "round-01";
+
     EquipRounds(EquipQuestion question, RunOptions options);
 
     EquipForecast forecast() const;

@@ -83,7 +83,8 @@ class PresentEstimate {
     std::chrono::steady_clock::time_point read_{};
 };
 
-/// Hidden files do not count: a shard's number and the lock.
+}  // namespace
+
 bool is_absent_or_empty(const std::filesystem::path& folder) {
     std::error_code none;
     for (auto entry = std::filesystem::directory_iterator(folder, none);
@@ -92,6 +93,8 @@ bool is_absent_or_empty(const std::filesystem::path& folder) {
     }
     return true;
 }
+
+namespace {
 
 void say_how_to_continue(const std::filesystem::path& folder, const StudyProgress& progress,
                          const std::string& command) {

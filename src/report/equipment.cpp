@@ -166,9 +166,9 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts) {
         const EquippedSignal& last = facts.ranked.back();
         sentences.push_back(fmt::format("Equip first: {}.", names_of(facts)));
         sentences.push_back(fmt::format(
-            "Together, an EV needs {} s less a trip than with none ({}), and the others lose {} s each.",
+            "Together, an EV needs {} s less a trip than with none ({}), and the others lose {} s each ({}).",
             estimate_or_dash(last.so_far), is_shown(last.so_far) ? "shown" : "not shown",
-            estimate_or_dash(last.others)));
+            estimate_or_dash(last.others), is_shown(last.others) ? "shown" : "not shown"));
         sentences.push_back(not_shown_sentence(facts));
     }
     sentences.push_back(end_sentence(facts));

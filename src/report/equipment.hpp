@@ -39,6 +39,7 @@ struct EquipCandidateFacts {
 struct EquipmentFacts {
     std::string scenario;
     std::string title;
+    std::string attribution;  ///< Credit that the map requires; may be empty.
     std::string condition;
     std::string command;
     std::uint64_t seed = 0;        ///< Of the runs that decide.

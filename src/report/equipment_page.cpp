@@ -98,9 +98,14 @@ namespace detail {
 Figure curve_figure(const EquipmentFacts& facts) {
     const Range numbers(0.0, static_cast<double>(std::max<std::size_t>(facts.ranked.size(), 1)));
     Range gains(0.0, 0.0);
-    gains.include_all(facts.all_gain);
-    for (const EquippedSignal& signal : facts.ranked)
+    bool has_intervals = false;
+    if (facts.all_gain) gains.include(facts.all_gain->mean);
+    for (const EquippedSignal& signal : facts.ranked) {
+        if (signal.so_far) gains.include(signal.so_far->mean);
+        if (shown_interval(signal.so_far) == nullptr) continue;
         gains.include_all(signal.so_far);
+        has_intervals = true;
+    }
     Chart plot(fmt::format("{}: gain against number of signals equipped", facts.title), 260.0,
                {padded(numbers, 0.05), "signals equipped, number", 0.0, 0.0, Scale::whole},
                {padded(gains, 0.1), labelled(primary, "gain")});
@@ -112,11 +117,13 @@ Figure curve_figure(const EquipmentFacts& facts) {
         const auto equipped = static_cast<double>(rank + 1);
         points.emplace_back(equipped, gain->mean);
         if (shown_interval(gain) != nullptr)
-            plot.whisker(equipped, {gain->interval->low, gain->interval->high}, {1});
+            plot.whisker(equipped, {gain->interval->low, gain->interval->high}, {0});
     }
-    plot.line(points, {1, Series::Weight::lead});
+    // Without marks, which would stand beside the whole numbers.
+    plot.line(points, {0, Series::Weight::lead});
     std::vector<LegendEntry> legend = {
-        line_entry({1, Series::Weight::lead}, "the first signals, with 95 % intervals")};
+        line_entry({0, Series::Weight::lead},
+                   has_intervals ? "the first signals, with 95 % intervals" : "the first signals")};
     if (facts.all_gain) {
         plot.line({{numbers.low, facts.all_gain->mean}, {numbers.high, facts.all_gain->mean}}, {2});
         legend.push_back(line_entry({2}, fmt::format("all of {}", counted(facts.signals, "signal"))));
@@ -171,7 +178,7 @@ Figure equipment_map_figure(const EquipmentFacts& facts) {
     canvas.scale_bar();
     draw_ranks(canvas, facts);
     canvas.legend(map_entries(facts));
-    return {"map", "Where they are", canvas.finish(), "", {}};
+    return {"map", "Where they are", canvas.finish(), facts.attribution, {}};
 }
 
 }  // namespace detail

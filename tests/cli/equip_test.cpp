@@ -203,6 +203,16 @@ TEST_F(EquipTest, refuses_a_folder_of_another_question) {
     EXPECT_EQ(read("out/equip.json"), before);
 }
 
+TEST_F(EquipTest, refuses_a_folder_with_anything_else_and_a_policy_that_nobody_knows) {
+    const Ended scenario = equip({"--policy", "preempt_signals"}, "crossings");
+    EXPECT_EQ(scenario.code, 3);
+    EXPECT_THAT(scenario.err, HasSubstr("crossings holds something else"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "crossings/round-01"));
+    const Ended unknown = equip({"--policy", "coridor"});
+    EXPECT_EQ(unknown.code, 3);
+    EXPECT_THAT(unknown.err, HasSubstr("Did you mean 'corridor'?"));
+}
+
 TEST_F(EquipTest, has_a_setting_of_its_own_that_names_the_nearest_signal) {
     const Ended ended =
         clearway({"run", "./crossings", "--policy", "corridor", "--set", "actuation.equipped=A,C", "--name",
