@@ -51,6 +51,15 @@ TEST_F(BadInputTest, a_study_file_with_words_of_the_command_line_is_told_its_own
     EXPECT_EQ(said.find("led_s: is unknown"), said.rfind("led_s: is unknown")) << "two values, one error";
 }
 
+TEST_F(BadInputTest, a_map_is_sent_to_the_import_and_a_misspelt_folder_to_its_neighbour) {
+    write_line_scenario();
+    core::write_atomically(folder() / "city.osm.gz", "packed");
+    const Ended map = clearway({"run", "./city.osm.gz"});
+    EXPECT_EQ(map.code, 3);
+    EXPECT_THAT(map.err, HasSubstr("`clearway scenario import ./city.osm.gz --name NAME` makes one"));
+    EXPECT_THAT(clearway({"run", "./linne"}).err, HasSubstr("Did you mean './line'?"));
+}
+
 TEST_F(BadInputTest, an_unknown_scenario_names_the_nearest) {
     const Ended ended = clearway({"run", "mergee"});
     EXPECT_EQ(ended.code, 3);

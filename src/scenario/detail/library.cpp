@@ -14,8 +14,33 @@ namespace clearway::scenario {
 namespace detail {
 
 namespace {
+
 constexpr const char* file_name = "scenario.toml";
+
+/// Names of the scenarios in the current folder, written as `like` is: with `./` or without.
+std::vector<std::string> scenarios_here(const std::string& like) {
+    std::vector<std::string> names;
+    std::error_code none;
+    for (auto entry = std::filesystem::directory_iterator(".", none);
+         !none && entry != std::filesystem::directory_iterator(); entry.increment(none)) {
+        if (std::filesystem::is_regular_file(entry->path() / file_name))
+            names.push_back((like.starts_with("./") ? "./" : "") + entry->path().filename().string());
+    }
+    return names;
 }
+
+/// Maps and SUMO's files, which the import makes a scenario of.
+void refuse_what_is_imported(const std::filesystem::path& file) {
+    for (const char* const ending : {".osm", ".pbf", ".gz", ".bz2", ".xml", ".sumocfg"}) {
+        if (file.extension() == ending)
+            throw core::InputError(
+                {file.string(), "is not a scenario, but a file that one is made of",
+                 "a folder with a scenario.toml, or a TOML file",
+                 fmt::format("`clearway scenario import {} --name NAME` makes one", file.string())});
+    }
+}
+
+}  // namespace
 
 std::filesystem::path library_folder() {
     if (const auto one = core::shipped(std::filesystem::path("scenarios") / "merge" / file_name))
@@ -32,6 +57,7 @@ std::filesystem::path scenario_file(const std::string& name_or_path) {
     std::filesystem::path path(name_or_path);
     if (std::filesystem::is_regular_file(path / file_name)) path /= file_name;
     const bool is_file = std::filesystem::is_regular_file(path);
+    if (is_file) refuse_what_is_imported(path);
     if (is_file && name_or_path.find('/') != std::string::npos) return path;
     const std::vector<std::string> names = list();
     if (std::find(names.begin(), names.end(), name_or_path) != names.end()) {
@@ -44,9 +70,11 @@ std::filesystem::path scenario_file(const std::string& name_or_path) {
         return shipped / file_name;
     }
     if (is_file) return path;
+    std::vector<std::string> near = scenarios_here(name_or_path);
+    near.insert(near.end(), names.begin(), names.end());
     throw core::InputError(core::Problem{
         name_or_path, "is neither a scenario, nor a folder with a scenario.toml, nor a file",
-        core::listed(names) + ", a folder or a TOML file", core::did_you_mean(name_or_path, names)});
+        core::listed(names) + ", a folder or a TOML file", core::did_you_mean(name_or_path, near)});
 }
 
 std::string quoted(const std::string& text) {
