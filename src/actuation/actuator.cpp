@@ -77,6 +77,7 @@ struct Actuator::State {
 
     std::optional<Refusal> check(const traffic::Lease& lease, core::Seconds now) const {
         if (!std::isfinite(lease.expiry.value) || lease.expiry <= now) return Refusal::expired_on_arrival;
+        if (std::holds_alternative<traffic::StandBack>(lease.action)) return Refusal::stood_back;
         if (std::holds_alternative<traffic::Stretch>(lease.target)) return Refusal::wrong_target;
         if (const auto* signal = std::get_if<core::SignalIndex>(&lease.target))
             return check_signal_action(network, *signal, lease.action);

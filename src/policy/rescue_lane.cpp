@@ -25,6 +25,37 @@ std::vector<std::uint32_t> driven_lanes(const roads::Network& network, core::Edg
     return numbers;
 }
 
+bool ends_at_signal(const roads::Network& network, core::EdgeIndex edge) {
+    for (std::uint32_t number = 0; number < network.edge(edge).lane_count; ++number) {
+        if (std::ranges::any_of(network.connections_from(network.lane_of(edge, number)),
+                                [](const roads::Connection& way) { return way.signal.exists(); }))
+            return true;
+    }
+    return false;
+}
+
+/// Whether a signal stands on the vehicle's route up to `reach_m` ahead or behind, or at the end of the
+/// route. Ways across junctions count as nothing.
+bool is_near_signal(const View& view, const traffic::BelievedVehicle& vehicle, double reach_m) {
+    const roads::Network& network = view.network();
+    const roads::Route route = view.route_of(vehicle.key);
+    const roads::Lane& lane = network.lane(vehicle.state.lane);
+    const bool is_inside = network.edge(lane.edge).internal;
+    double passed_m = is_inside ? 0.0 : vehicle.state.lane_position_m;
+    double ahead_m = is_inside ? 0.0 : lane.length_m - passed_m;
+    const std::size_t own = vehicle.state.route_edge;
+    for (std::size_t at = is_inside ? own + 1 : own; at < route.size(); ++at) {
+        if (is_inside || at > own) ahead_m += network.edge(route[at]).length_m;
+        if (ahead_m >= reach_m) break;
+        if (ends_at_signal(network, route[at])) return true;
+    }
+    for (std::size_t behind = is_inside ? own + 1 : own; behind > 0 && passed_m < reach_m; --behind) {
+        if (ends_at_signal(network, route[behind - 1])) return true;
+        passed_m += network.edge(route[behind - 1]).length_m;
+    }
+    return false;
+}
+
 class Rescue {
   public:
     Rescue(const View& view, const RescueLaneConfig& config, const traffic::BelievedVehicle& emergency,
@@ -43,6 +74,11 @@ class Rescue {
 
     void open() {
         if (!is_needed()) return;
+        if (!is_in_place()) {
+            write_.add(emergency_.key, traffic::StandBack{},
+                       "a rescue lane is for fast roads without signals", emergency_.key);
+            return;
+        }
         choose_place();
         for (const VehicleAhead& other : around_) {
             const auto from_left = lanes_from_left(*other.vehicle);
@@ -66,6 +102,11 @@ class Rescue {
         return std::ranges::any_of(around_, [&](const VehicleAhead& other) {
             return other.distance_m >= 0.0 && other.vehicle->state.speed_mps < config_.slow_mps;
         });
+    }
+
+    bool is_in_place() const {
+        return view_.network().lane(emergency_.state.lane).speed_limit_mps >= config_.least_limit_mps &&
+               !is_near_signal(view_, emergency_, config_.signal_m);
     }
 
     /// How many lanes are left of the vehicle's; nothing where there is only one lane.

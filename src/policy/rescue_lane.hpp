@@ -14,6 +14,8 @@ struct RescueLaneConfig : AskSettings {
     double horizon_m = 300.0;
     double behind_m = 50.0;
     double slow_mps = 14.0;
+    double least_limit_mps = 17.0;
+    double signal_m = 600.0;
     double stagger_m = 60.0;
     /// They are apart when there is this much between them along the road; with the emergency vehicle
     /// beside the rear one, its own length more. Assumed: an ambulance of 6.5 m that steers round one after
@@ -40,6 +42,13 @@ struct RescueLaneConfig : AskSettings {
             Field{"slow_mps", "m/s", &C::slow_mps, 0.1, 60.0,
                   "If a vehicle ahead is slower than this, all vehicles are asked",
                   "50 km/h, assumed: faster traffic leaves a lane instead"},
+            Field{"least_limit_mps", "m/s", &C::least_limit_mps, 0.0, 60.0,
+                  "It stands back on roads with a lower limit",
+                  "60 km/h, above the usual limit of towns: there, vehicles must change lanes to turn"},
+            Field{"signal_m", "m", &C::signal_m, 0.0, 5000.0,
+                  "It stands back while a signal on the emergency vehicle's route is this near, ahead or "
+                  "passed; 0: never",
+                  "twice horizon_m: who is asked has as far again to reach the lane for its turn"},
             Field{"stagger_m", "m", &C::stagger_m, 0.0, 500.0,
                   "Two vehicles abreast that leave too little room for the emergency vehicle are moved apart "
                   "within this distance; 0: never",
@@ -59,7 +68,8 @@ struct RescueLaneConfig : AskSettings {
 /// they would hold it where it is; so do fast vehicles that approach the slow ones, or they would drive on
 /// between the lanes. Two abreast that leave too little room, such as two trucks or two vehicles that are not
 /// asked, would block it: one of them, or else the vehicle ahead of one, slows down until they are apart.
-/// Needs the sublane model.
+/// Needs the sublane model. It is for fast roads without signals. Elsewhere it stands back: vehicles that
+/// keep to the edge of their lane cannot change lanes, and one that has to turn blocks the junction.
 class RescueLane : public ConfiguredPolicy<RescueLaneConfig> {
   public:
     using ConfiguredPolicy::ConfiguredPolicy;

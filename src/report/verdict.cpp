@@ -88,6 +88,8 @@ const char* words_of(traffic::LeaseKind action) {
             return "gave time back at a signal";
         case LeaseKind::pass_red:
             return "let the EV pass red";
+        case LeaseKind::stand_back:
+            return "stood back: not the situation it is for";
     }
     return "";
 }

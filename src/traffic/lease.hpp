@@ -48,9 +48,12 @@ struct AdjustGreen {
 };
 /// Pass red signals slowly and yielding, as the law of many countries allows emergency vehicles.
 struct PassRed {};
+/// Nothing: the policy would act, but stands back, because the situation is not one that it is for. For the
+/// emergency vehicle that it does not serve; refused as `stood_back`, so that every table counts it.
+struct StandBack {};
 
-using Action =
-    std::variant<DriveAt, ChangeLane, HoldLane, PullAside, StopAtLine, HoldGreen, AdjustGreen, PassRed>;
+using Action = std::variant<DriveAt, ChangeLane, HoldLane, PullAside, StopAtLine, HoldGreen, AdjustGreen,
+                            PassRed, StandBack>;
 
 /// Which vehicles a message to a stretch of road addresses.
 enum class Addressed : std::uint8_t { automated, drivers };
@@ -97,9 +100,10 @@ enum class LeaseKind : std::uint8_t {
     own_change_lane,
     pass_red,
     pull_aside,
+    stand_back,
     stop_at_line,
 };
-constexpr core::Spellings<LeaseKind, 9> spellings(LeaseKind) {
+constexpr core::Spellings<LeaseKind, 10> spellings(LeaseKind) {
     return {{{LeaseKind::adjust_green, "adjust_green"},
              {LeaseKind::change_lane, "change_lane"},
              {LeaseKind::drive_at, "drive_at"},
@@ -108,6 +112,7 @@ constexpr core::Spellings<LeaseKind, 9> spellings(LeaseKind) {
              {LeaseKind::own_change_lane, "own_change_lane"},
              {LeaseKind::pass_red, "pass_red"},
              {LeaseKind::pull_aside, "pull_aside"},
+             {LeaseKind::stand_back, "stand_back"},
              {LeaseKind::stop_at_line, "stop_at_line"}}};
 }
 using core::name;

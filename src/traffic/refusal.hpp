@@ -35,6 +35,7 @@ enum class Refusal : std::uint8_t {
     signal_gone,               ///< SUMO no longer has the signal.
     speed_negative,            ///< Never legal.
     speed_not_finite,          ///< Never legal.
+    stood_back,                ///< The policy itself: the situation is not one that it is for.
     unheard,                   ///< The message with the request was lost.
     unknown_program,  ///< The signal runs a program other than its initial one, or SUMO's controller NEMA.
     unreachable,      ///< Commands do not reach the vehicle now.
@@ -42,7 +43,7 @@ enum class Refusal : std::uint8_t {
     vehicle_gone,             ///< Not on the road (any more).
     wrong_target,             ///< Never legal: a signal cannot drive, a vehicle shows no green.
 };
-constexpr core::Spellings<Refusal, 32> spellings(Refusal) {
+constexpr core::Spellings<Refusal, 33> spellings(Refusal) {
     using R = Refusal;
     return {{{R::above_allowed_speed, "above_allowed_speed"},
              {R::cannot_stop_comfortably, "cannot_stop_comfortably"},
@@ -70,6 +71,7 @@ constexpr core::Spellings<Refusal, 32> spellings(Refusal) {
              {R::signal_gone, "signal_gone"},
              {R::speed_negative, "speed_negative"},
              {R::speed_not_finite, "speed_not_finite"},
+             {R::stood_back, "stood_back"},
              {R::unheard, "unheard"},
              {R::unknown_program, "unknown_program"},
              {R::unreachable, "unreachable"},

@@ -229,6 +229,17 @@ TEST(HoldLaneLease, restores_the_freedom_to_change_once) {
     EXPECT_EQ(freedoms[1].freedom, traffic::LaneChangeFreedom::normal);
 }
 
+TEST(StandBackLease, is_counted_and_does_nothing) {
+    ActuationBench bench;
+    const auto vehicle = bench.add(automated("a", 300.0, 10.0));
+    bench.offer(vehicle, traffic::StandBack{});
+    bench.offer(vehicle, traffic::StandBack{});
+    EXPECT_TRUE(bench.step().empty());
+    EXPECT_EQ(bench.counts(LeaseKind::stand_back).refused.at(Refusal::stood_back), 2U);
+    EXPECT_EQ(bench.counts(LeaseKind::stand_back).acted, 0U);
+    EXPECT_EQ(bench.actuator.active(), 0U);
+}
+
 TEST(StopAtLineLease, that_needs_hard_braking_is_refused) {
     ActuationBench bench;
     const auto vehicle = bench.add(automated("a", 480.0, 16.0));

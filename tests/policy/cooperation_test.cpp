@@ -266,6 +266,40 @@ TEST(RescueLane, keeps_one_beside_the_emergency_vehicle_back_until_that_has_room
     EXPECT_FALSE(passed.asked_speed("a1")) << "the other is level";
 }
 
+TEST(RescueLane, stands_back_in_towns_and_near_signals_and_says_so) {
+    const char* const town = R"(
+        5 m per cell, limit 14 m/s, speed 2 m/s
+        .....a......
+        .e..........
+    )";
+    const char* const before = R"(
+        5 m per cell, limit 30 m/s, speed 2 m/s
+        .....a......|r......
+        .e..........|r......
+    )";
+    const char* const behind = R"(
+        5 m per cell, limit 30 m/s, speed 2 m/s
+        ......|r.....a......
+        ......|r.e..........
+    )";
+    for (const char* const drawing : {town, before, behind}) {
+        StraightRoad road(drawing);
+        policy::RescueLane policy({road.scene.network()});
+        EXPECT_EQ(road.act(policy).size(), 1U) << drawing;
+        EXPECT_TRUE(road.asked<traffic::StandBack>("e1")) << drawing;
+        road.scene.set_speed("a1", core::MetresPerSecond(14.0));
+        EXPECT_TRUE(road.act(policy).empty()) << drawing << "nobody is slow: there is nothing to do";
+        road.scene.set_speed("a1", core::MetresPerSecond(2.0));
+        policy::RescueLaneConfig anywhere;
+        anywhere.least_limit_mps = 0.0;
+        anywhere.signal_m = 0.0;
+        policy::RescueLane eager({road.scene.network()}, anywhere);
+        road.act(eager);
+        EXPECT_TRUE(road.asked<traffic::PullAside>("a1")) << drawing;
+        EXPECT_FALSE(road.asked<traffic::StandBack>("e1")) << drawing;
+    }
+}
+
 TEST(HoldCross, stops_cross_traffic_that_has_green_and_only_shortly_before_the_arrival) {
     ActuationBench bench;
     const auto emergency =

@@ -196,7 +196,7 @@ class RandomRun {
         const core::VehicleKey somebody = on_road_.empty() ? core::VehicleKey{} : one_of(on_road_);
         for (const Action& action :
              {Action(DriveAt{core::MetresPerSecond(real())}), Action(ChangeLane{below(4)}),
-              Action(HoldLane{}), Action(PullAside{Side::left}), Action(StopAtLine{}),
+              Action(HoldLane{}), Action(PullAside{Side::left}), Action(StopAtLine{}), Action(StandBack{}),
               Action(HoldGreen{{1, 5, 9}, {5}}), Action(AdjustGreen{{}}), Action(PassRed{})}) {
             const std::array<Target, 3> targets = {
                 somebody, core::SignalIndex{below(3)},
