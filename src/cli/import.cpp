@@ -1,9 +1,13 @@
 #include "scenario_import/import.hpp"
 
 #include <chrono>
+#include <condition_variable>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -28,27 +32,40 @@ struct Arguments {
 };
 
 /// Shows the current stage of an import on standard error: a line that is redrawn on a terminal, otherwise
-/// one every 10 s.
+/// one every 10 s, however long a stage takes.
 class Stages {
   public:
     void show(const std::string& stage) {
-        const auto now = std::chrono::steady_clock::now();
-        const double elapsed_s = std::chrono::duration<double>(now - started_).count();
-        const bool is_terminal = core::can_redraw();
-        const auto interval = is_terminal ? std::chrono::milliseconds(200) : std::chrono::seconds(10);
-        if (now - shown_ < interval) return;
-        shown_ = now;
-        const std::string line = fmt::format("import: {}, {} elapsed", stage, core::clock_text(elapsed_s));
-        is_terminal ? core::draw_line(line) : core::print_message(line + "\n");
+        const std::lock_guard lock(mutex_);
+        stage_ = stage;
     }
-    ~Stages() { core::clear_drawn_line(); }
     Stages() = default;
+    ~Stages() {
+        thread_.request_stop();
+        thread_.join();
+        core::clear_drawn_line();
+    }
     Stages(const Stages&) = delete;
     Stages& operator=(const Stages&) = delete;
 
   private:
-    std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-    std::chrono::steady_clock::time_point shown_ = started_;
+    void watch(const std::stop_token& stop) {
+        const auto started = std::chrono::steady_clock::now();
+        const bool is_terminal = core::can_redraw();
+        const auto interval = is_terminal ? std::chrono::milliseconds(200) : std::chrono::seconds(10);
+        std::unique_lock lock(mutex_);
+        while (!changed_.wait_for(lock, stop, interval, [&] { return stop.stop_requested(); })) {
+            const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
+            const std::string line =
+                fmt::format("import: {}, {} elapsed", stage_, core::clock_text(elapsed.count()));
+            is_terminal ? core::draw_line(line) : core::print_message(line + "\n");
+        }
+    }
+
+    std::mutex mutex_;
+    std::condition_variable_any changed_;
+    std::string stage_ = "reading";
+    std::jthread thread_{[this](const std::stop_token& stop) { watch(stop); }};
 };
 
 /// Imports and shows the stages; a signal interrupts it.
