@@ -62,6 +62,7 @@ template <class Struct>
 void read_table(StrictTable& reader, Struct& target) {
     reader.read(target);
     if constexpr (std::is_same_v<Struct, RoadCondition>) read_stretches(reader, target);
+    if constexpr (std::is_same_v<Struct, NetworkSource>) reader.texts("additional", target.additional);
     if constexpr (std::is_same_v<Struct, Measured>) read_lists(reader, target);
     reader.finish();
 }
@@ -184,6 +185,8 @@ std::filesystem::path resolve(const ScenarioConfig& config, const std::string& p
 
 std::vector<std::filesystem::path> additional_files(const ScenarioConfig& config) {
     std::vector<std::filesystem::path> files;
+    for (const std::string& path : config.network.additional)
+        files.push_back(resolve(config, path));
     if (!config.measured) return files;
     for (const std::string& path : config.measured->additional)
         files.push_back(resolve(config, path));

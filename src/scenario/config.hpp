@@ -81,6 +81,7 @@ struct NetworkSource {
     Restriction restrict = Restriction::none;
     std::string attribution;
     std::string preemption;
+    std::vector<std::string> additional;  ///< SUMO's additional files that belong to the network.
 
     bool plain() const { return file.empty(); }
     static constexpr auto fields() {
@@ -570,7 +571,7 @@ void init(const std::filesystem::path& folder, const std::string& from);
 /// Throws core::EnvironmentError when SUMO_HOME is needed and not set.
 std::filesystem::path resolve(const ScenarioConfig& config, const std::string& path);
 
-/// SUMO's additional files that the measured demand refers to, resolved: stops, signal programs.
+/// SUMO's additional files of the network and of the measured demand, resolved: signal programs, stops.
 std::vector<std::filesystem::path> additional_files(const ScenarioConfig& config);
 
 }  // namespace clearway::scenario

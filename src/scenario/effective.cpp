@@ -64,6 +64,10 @@ std::string lists(const Struct&) {
     return "";
 }
 
+std::string lists(const NetworkSource& network) {
+    return network.additional.empty() ? "" : fmt::format("additional = {}\n", text_array(network.additional));
+}
+
 std::string lists(const Measured& measured) {
     std::string text = fmt::format("routes = {}\nadditional = {}\n", text_array(measured.routes),
                                    text_array(measured.additional));
@@ -115,6 +119,7 @@ std::vector<std::string> own_files(const ScenarioConfig& config) {
     const NetworkSource& network = config.network;
     std::vector<std::string> files = {network.nodes, network.edges,      network.connections, network.signals,
                                       network.file,  network.preemption, config.demand.counts};
+    files.insert(files.end(), network.additional.begin(), network.additional.end());
     if (config.measured) {
         files.insert(files.end(), config.measured->routes.begin(), config.measured->routes.end());
         files.insert(files.end(), config.measured->additional.begin(), config.measured->additional.end());

@@ -49,7 +49,7 @@ std::string to_text(const Findings& findings) {
     if (!findings.sites.empty()) text += fmt::format("  EV sites         {}\n", counts_text(findings.sites));
     text += fmt::format("  demand           {:.0f} vehicles/h: {}\n                   {}\n",
                         findings.vehicles_per_hour, counts_text(findings.vehicles), findings.demand);
-    if (findings.persons > 0) text += fmt::format("  persons          {} walk\n", findings.persons);
+    if (findings.persons > 0) text += fmt::format("  persons          {} walk or ride\n", findings.persons);
     if (findings.bad_vehicles_share > most_bad_vehicles)
         text += fmt::format(
             "  short            {:.0f} % of the vehicles cannot drive their route and are left out: "

@@ -1,9 +1,6 @@
 #include "scenario_import/import.hpp"
 
 #include <algorithm>
-#include <cstdlib>
-#include <cstring>
-#include <iterator>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -18,6 +15,7 @@
 #include "scenario/picture.hpp"
 #include "scenario/preemption.hpp"
 #include "scenario_import/detail/context.hpp"
+#include "scenario_import/detail/own_words.hpp"
 #include "scenario_import/detail/source.hpp"
 #include "scenario_import/detail/sumo_trial.hpp"
 #include "scenario_import/detail/survey.hpp"
@@ -248,37 +246,30 @@ void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
     detail::add_synthetic_demand(import, config, network);
 }
 
-/// `text` with the user's own names in place of those of the import: places in additional files, ids of
-/// types.
-std::string in_own_words(std::string text, const Import& import) {
-    const std::string made = (import.scenario / "additional.add.xml").string();
-    for (std::size_t at = text.find(made); at != std::string::npos; at = text.find(made, at + 1)) {
-        const char* const end = text.c_str() + at + made.size();
-        const unsigned long line = *end == ':' ? std::strtoul(end + 1, nullptr, 10) : 0;
-        const auto place = import.additional.places.upper_bound(line);
-        if (place == import.additional.places.begin()) continue;
-        const std::size_t digits = fmt::formatted_size(":{}", line);
-        text.replace(at, made.size() + digits, std::prev(place)->second);
-    }
-    for (const char* const prefix : {"'human.", "'automated."})
-        for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at + 1))
-            text.replace(at, std::strlen(prefix), "'");
-    return text;
-}
-
-scenario::Prepared try_out_demand(Import& import, scenario::ScenarioConfig& config) {
+/// Calls `work`; problems that it throws get the user's own words.
+template <class Work>
+void told_in_own_words(const Import& import, const Work& work) {
     try {
-        detail::Tried tried = detail::make_demand(import, config);
-        detail::require_load(import, tried.demand);
-        return std::move(tried.demand);
+        work();
     } catch (const core::InputError& error) {
         std::vector<core::Problem> problems = error.problems();
         for (core::Problem& problem : problems) {
-            problem.where = in_own_words(problem.where, import);
-            problem.what = in_own_words(problem.what, import);
+            problem.where = detail::in_own_words(problem.where, import);
+            problem.what = detail::in_own_words(problem.what, import);
         }
         throw core::InputError(std::move(problems));
     }
+}
+
+void try_out_demand(Import& import, const Sources& sources, scenario::ScenarioConfig& config) {
+    import.on_progress("preparing a run", 0.0);
+    const detail::Tried tried = detail::make_demand(import, config);
+    detail::require_load(import, tried.demand);
+    detail::compare_steps(import, tried.demand, sources.step_length_s);
+    std::string& failure = import.findings.trial_failure;
+    failure = detail::in_own_words(failure, import);
+    if (const auto place = detail::place_of_complaint(failure, import))
+        failure = fmt::format("{}: {}", *place, failure);
 }
 
 /// Steps that are too coarse are not taken over; `compare_steps` says what that changes.
@@ -306,14 +297,12 @@ void import_sumo(Import& import, const Sources& sources, scenario::ScenarioConfi
         detail::add_sumo_demand(import, sources.demand, network, import.scenario / network_name, config)) {
         take_over_times(sources, config);
         config.measured->options = sources.options;
-        detail::compare_steps(import, try_out_demand(import, config), sources.step_length_s);
-        import.findings.trial_failure = in_own_words(import.findings.trial_failure, import);
-        return;
+        return told_in_own_words(import, [&] { try_out_demand(import, sources, config); });
     }
     if (has_files)
         import.findings.changes.emplace_back("the files have no road vehicles: the demand is synthetic");
     detail::choose_trips(import, config, network);
-    detail::add_synthetic_demand(import, config, network);
+    told_in_own_words(import, [&] { detail::add_synthetic_demand(import, config, network); });
 }
 
 scenario::ScenarioConfig start_config(const Import& import) {
@@ -357,6 +346,7 @@ Findings import(const ImportRequest& request, const OnProgress& on_progress) {
     else
         import_maps(import, sources.maps, config);
 
+    on_progress("writing the scenario", 0.0);
     Findings& findings = import.findings;
     findings.name = config.name;
     findings.left_out = import.left_out.lines();

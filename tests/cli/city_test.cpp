@@ -67,8 +67,8 @@ TEST_F(CityTest, a_scenario_of_sumo_is_imported_checked_and_run_with_its_persons
         "<configuration><net-file value='grid.net.xml'/><route-files value='town.rou.xml'/></configuration>");
     const Ended import = clearway({"scenario", "import", "run.sumocfg", "--name", "town"});
     ASSERT_EQ(import.code, 0) << import.err;
-    EXPECT_THAT(import.out,
-                AllOf(HasSubstr("persons          20 walk"), HasSubstr("1 persons who ride (rider)")));
+    EXPECT_THAT(import.out, AllOf(HasSubstr("persons          20 walk"),
+                                  HasSubstr("does not come in that time (rider)")));
     EXPECT_EQ(nlohmann::json::parse(read("town/import.json")).at("persons"), 20);
     const Ended check = clearway({"scenario", "check", "./town"});
     EXPECT_EQ(check.code, 0) << check.out << check.err;
@@ -83,6 +83,31 @@ TEST_F(CityTest, a_scenario_of_sumo_is_imported_checked_and_run_with_its_persons
             << name;
     ASSERT_EQ(clearway({"export", "trajectories", "out/town/corridor/0", "--out", "ways"}).code, 0);
     EXPECT_THAT(read("ways/sumo/run.sumocfg"), HasSubstr("emergency.rou.xml,persons.rou.xml"));
+}
+
+TEST_F(CityTest, emergency_vehicles_go_round_a_road_that_is_closed_to_them) {
+    const core::Command netgenerate{
+        "netgenerate",
+        {"--grid", "--grid.number", "4", "--grid.length", "200", "-o", (folder() / "grid.net.xml").string()},
+        {},
+        folder() / "netgenerate.log"};
+    ASSERT_TRUE(core::run(netgenerate).ok());
+    write("town.rou.xml",
+          "<routes><flow id='t' begin='0' end='100' number='20' from='A0A1' to='A2A3'/></routes>");
+    write("works.add.xml",
+          "<additional><rerouter id='r' edges='A0A1'><interval begin='0' end='3600'><closingReroute "
+          "id='A1A2' allow='authority'/></interval></rerouter></additional>");
+    ASSERT_EQ(
+        clearway({"scenario", "import", "grid.net.xml", "town.rou.xml", "works.add.xml", "--name", "town"})
+            .code,
+        0);
+    const Ended run = clearway(
+        {"run", "./town", "--seeds", "1", "--no-solo", "--policy", "corridor", "--record", "--out", "out"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(nlohmann::json::parse(read("out/runs/town/corridor/00000/run.json"))
+                  .at("metrics")
+                  .at("emergency_arrived"),
+              6);
 }
 
 // It fills slowly: judged after seven minutes it took half as many cars again, and jammed after twelve.

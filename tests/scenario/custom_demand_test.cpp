@@ -173,11 +173,11 @@ TEST_F(CustomDemand, measured_persons_who_cannot_walk_are_refused_together) {
         text += problem.where.substr(problem.where.rfind(": ") + 2) + " " + problem.what + "\n";
     EXPECT_EQ(text,
               "person \"a\" depart is \"soon\"\nperson \"b\" occurs twice\n"
-              "person \"c\" type \"x\" is not defined\nperson \"d\" has a <ride>\n"
+              "person \"c\" type \"x\" is not defined\nperson \"d\" the network has no edge \"\"\n"
               "person \"e\" has a walk without edges\n"
               "person \"f\" the network has no edge \"third\"\n"
               "person \"g\" its walk has a gap: nobody gets from edge \"side\" to \"second\" on foot\n"
-              "person \"h\" does not walk\npersonFlow \"i\" is a <personFlow>\n");
+              "person \"h\" neither walks nor rides\npersonFlow \"i\" is a <personFlow>\n");
 }
 
 TEST_F(CustomDemand, a_comma_in_the_folder_is_refused_before_sumo_splits_it) {

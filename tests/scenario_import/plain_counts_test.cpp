@@ -12,8 +12,10 @@
 namespace clearway::scenario_import {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 /// What plain SUMO inserts, and what the import makes of the same route file.
 class PlainCounts : public SumoScenario {
@@ -153,12 +155,13 @@ class Closures : public PlainCounts {
     /// Imports and compares the ways of all vehicles with plain SUMO.
     void expect_same_ways(const std::string& routes, const std::string& additional) {
         const auto file = write("r.add.xml", "<additional>" + additional + "</additional>");
-        const Findings findings =
-            run(request({network(), write("r.rou.xml", "<routes>" + routes + "</routes>"), file}));
-        EXPECT_EQ(findings.trial_failure, "");
+        std::filesystem::remove_all(out() / "town");
+        ImportRequest made =
+            request({network(), write("r.rou.xml", "<routes>" + routes + "</routes>"), file});
+        made.automated_share = 0.0;
+        EXPECT_EQ(run(made).trial_failure, "");
         const std::string expected = plain(network().string(), routes, {"--additional-files", file.string()});
-        EXPECT_THAT(expected, HasSubstr("D1 D2"));
-        EXPECT_EQ(imported(), expected);
+        EXPECT_EQ(imported(), expected) << additional;
     }
     static std::string rerouter(const std::string& what) {
         return "<rerouter id='r' edges='A'><interval begin='0' end='3600'>" + what + "</interval></rerouter>";
@@ -176,6 +179,62 @@ TEST_F(Closures, take_the_routes_that_rerouters_name) {
         "<route id='alt' edges='A D1 D2 C'/>" + rerouter("<routeProbReroute id='alt' probability='1'/>"));
 }
 
+/// Plain SUMO wants what a rerouter names before it, so these are in its additional file.
+TEST_F(Closures, carry_along_whatever_a_rerouter_names) {
+    const std::string trips = "<flow id='t' begin='0' end='300' number='20' from='A' to='C'/>";
+    const std::string alternative = "<route id='alt' edges='A D1 D2 C'/>";
+    write("part.add.xml", "<additional><step time='0' speed='3'/></additional>");
+    expect_same_ways(trips, alternative + "<routeDistribution id='ways' routes='alt' probabilities='1'/>" +
+                                rerouter("<routeProbReroute id='ways' probability='1'/>"));
+    expect_same_ways(trips, "<variableSpeedSign id='v' lanes='B_0 B_1' file='part.add.xml'/>");
+    expect_same_ways(trips, rerouter("<destProbReroute id='D2' probability='1'/>"));
+    expect_same_ways(
+        "<vehicle id='v' depart='0'><route edges='A B C'/></vehicle>",
+        rerouter("<viaProbReroute id='D1' probability='1'/><destProbReroute id='D2' probability='1'/>"));
+    expect_same_ways(
+        "<flow id='t' begin='0' end='300' number='20' from='A' to='C'><stop parkingArea='one' "
+        "duration='400'/></flow>",
+        "<parkingArea id='one' lane='C_0' startPos='20' endPos='60' roadsideCapacity='2'/>"
+        "<parkingArea id='two' lane='D2_0' startPos='20' endPos='60' roadsideCapacity='30'/>"
+        "<rerouter id='r' edges='A'><interval begin='0' end='3600'><parkingAreaReroute id='one' "
+        "visible='true'/><parkingAreaReroute id='two' visible='true'/></interval></rerouter>");
+    expect_same_ways(
+        "<flow id='f' begin='0' end='100' number='5' type='a' from='A' to='C'/><flow id='g' "
+        "begin='100' end='200' number='5' type='b' from='A' to='C'/>",
+        "<vType id='a'/><vType id='b'/><vTypeDistribution id='mix' vTypes='a' probabilities='1'/>" +
+            alternative +
+            "<rerouter id='r' edges='A' vTypes='mix'><interval begin='0' end='3600'>"
+            "<routeProbReroute id='alt' probability='1'/></interval></rerouter>");
+}
+
+TEST_F(Closures, find_routes_and_types_in_any_file) {
+    const auto types = write("t.add.xml", "<additional><vType id='a'/><vType id='b'/></additional>");
+    const auto mix = write("m.add.xml",
+                           "<additional><vTypeDistribution id='mix' vTypes='a b' probabilities='0 1'/>"
+                           "<routeDistribution id='ways' routes='AB AD' probabilities='0 1'/>" +
+                               rerouter("<routeProbReroute id='ways' probability='1'/>") + "</additional>");
+    const auto routes = write("r.rou.xml",
+                              "<routes><route id='AB' edges='A B C'/><route id='AD' edges='A D1 D2 C'/><flow "
+                              "id='t' begin='0' end='100' number='9' type='mix' route='ways'/></routes>");
+    run(request({network(), mix, routes, types}));
+    EXPECT_THAT(core::read_file(out() / "town" / "traffic.rou.xml"),
+                AllOf(HasSubstr("type=\"b\""), Not(HasSubstr("type=\"a\"")), HasSubstr("A D1 D2 C")));
+    EXPECT_THAT(imported(), AllOf(HasSubstr("t.8: A D1 D2 C"), Not(HasSubstr("B"))));
+}
+
+TEST_F(Closures, that_name_what_there_is_not_are_refused_with_file_and_line) {
+    const auto routes = write("r.rou.xml", "<routes><trip id='t' depart='0' from='A' to='C'/></routes>");
+    const auto fault_of = [&](const std::string& element) {
+        return refusal(
+            request({network(), routes, write("r.add.xml", "<additional>\n" + element + "</additional>")}));
+    };
+    for (const std::string& element : {rerouter("<destProbReroute id='nowhere' probability='1'/>"),
+                                       rerouter("<routeProbReroute id='nowhere' probability='1'/>"),
+                                       "<busStop id='s' lane='A_9' startPos='1' endPos='20'/>" +
+                                           rerouter("<viaProbReroute id='D1' probability='1'/>")})
+        EXPECT_THAT(fault_of(element), HasSubstr("r.add.xml:2: SUMO does not load"));
+}
+
 TEST_F(Closures, of_a_vehicle_with_a_route_end_a_trial_run_and_that_is_told) {
     const auto file =
         write("r.add.xml",
@@ -185,8 +244,8 @@ TEST_F(Closures, of_a_vehicle_with_a_route_end_a_trial_run_and_that_is_told) {
                               "<vehicle id='v' depart='20'><route edges='A B C'/></vehicle></routes>");
     const Findings findings = run(request({network(), routes, file}));
     EXPECT_THAT(findings.trial_failure, HasSubstr("'v' has no valid route"));
-    EXPECT_THAT(to_text(findings),
-                HasSubstr("SUMO fails in a trial run of the scenario: Error: Vehicle 'v'"));
+    EXPECT_THAT(findings.trial_failure, HasSubstr("r.rou.xml:1: "));
+    EXPECT_THAT(to_text(findings), HasSubstr("SUMO fails in a trial run of the scenario"));
 }
 
 TEST_F(PlainCounts, a_flow_before_earlier_trips_is_told_as_unsorted) {
@@ -214,9 +273,59 @@ TEST_F(PlainCounts, vehicles_that_arrive_late_are_no_failure) {
     EXPECT_EQ(findings.trial_failure, "");
 }
 
-TEST_F(PlainCounts, text_in_utf_16_is_named) {
-    EXPECT_THAT(refusal(request({line_network(), write("wide.rou.xml", std::string("\xff\xfe<\0r\0", 6))})),
-                AllOf(HasSubstr("is text in UTF-16"), HasSubstr("iconv")));
+/// As plain SUMO reads it.
+TEST_F(PlainCounts, text_in_utf_16_is_read) {
+    const auto wide = [&](const std::string& name, const std::string& text) {
+        std::string bytes = "\xff\xfe";
+        for (const char letter : text)
+            bytes += {letter, '\0'};
+        return write(name, bytes);
+    };
+    EXPECT_THAT(refusal(request({wide("wide.osm", town_map())}, "map")), HasSubstr("is a map in UTF-16"));
+    const std::string trips = "<flow id='f' from='first' to='second' begin='0' end='60' number='20'/>";
+    const auto routes = wide("wide.rou.xml", "<routes>" + trips + "</routes>");
+    const std::string network = core::read_file(line_network());
+    const Findings findings =
+        run(request({wide("wide.net.xml", network.substr(network.find("<net "))), routes}));
+    EXPECT_EQ(findings.vehicles.at("car"), 20);
+    EXPECT_EQ(imported(), plain((folder() / "line.net.xml").string(), trips));
+}
+
+/// A grid of two signals a side, without demand.
+TEST_F(PlainCounts, what_belongs_to_the_network_stays_without_demand) {
+    const auto network = folder() / "grid.net.xml";
+    run_tool("netgenerate", {"--grid", "--grid.number", "3", "--grid.length", "200",
+                             "--default-junction-type", "traffic_light", "--output-file", network.string()});
+    std::string programs;
+    detail::for_each_element(network, [&](detail::Element&& element) {
+        if (element.name != "tlLogic" || element.text("id") != "B1") return;
+        for (const char* const id : {"day", "night"}) {
+            element.set("programID", id);
+            programs += element.xml();
+        }
+    });
+    const auto file = write(
+        "town.add.xml",
+        "<additional>" + programs +
+            "<WAUT id='w' refTime='0' startProg='day'><wautSwitch time='100' to='night'/></WAUT>"
+            "<wautJunction wautID='w' junctionID='B1'/><variableSpeedSign id='sign' lanes='B0B1_0'><step "
+            "time='0' speed='4'/></variableSpeedSign><rerouter id='works' edges='A1B1'><interval begin='0' "
+            "end='7200'><closingReroute id='B1C1' allow='authority'/></interval></rerouter>"
+            "<inductionLoop id='loop' lane='B0B1_0' pos='5' freq='60' file='x.xml'/></additional>");
+    const Findings findings = run(request({network, file}));
+    EXPECT_EQ(findings.left_out,
+              std::vector<std::string>{"1 <inductionLoop>, which does not affect the traffic (loop)"});
+    const scenario::ScenarioConfig config = scenario::load((out() / "town").string());
+    ASSERT_EQ(config.network.additional, std::vector<std::string>{"additional.add.xml"});
+    EXPECT_EQ(scenario::load((out() / "town").string()).network.additional, config.network.additional);
+    EXPECT_THAT(
+        core::read_file(out() / "town" / "additional.add.xml"),
+        AllOf(HasSubstr("programID=\"night\""), HasSubstr("<wautSwitch time=\"100\""),
+              HasSubstr("<wautJunction"), HasSubstr("<variableSpeedSign"), HasSubstr("closingReroute")));
+    const std::string ways = imported();
+    EXPECT_THAT(ways, HasSubstr("human.1: "));
+    EXPECT_THAT(ways, Not(HasSubstr("A1B1 B1C1"))) << "closed";
+    EXPECT_THAT(traffic(), HasSubstr("reroute=\"true\""));
 }
 
 TEST_F(PlainCounts, signal_programs_stay_without_demand) {
@@ -237,7 +346,7 @@ TEST_F(PlainCounts, signal_programs_stay_without_demand) {
         EXPECT_EQ(element.children.at(0).text("duration"), "41");
     });
     EXPECT_EQ(programs, 1);
-    EXPECT_THAT(findings.changes, Contains(HasSubstr("replace those of the network at 1 signals")));
+    EXPECT_THAT(findings.changes, Contains(HasSubstr("replace those of the network at 1 signal")));
     EXPECT_THAT(findings.left_out, Contains(HasSubstr("signals that the network does not have (nowhere)")));
 }
 

@@ -201,7 +201,7 @@ TEST_F(SumoDemand, vehicles_with_the_ids_of_emergency_vehicles_are_renamed) {
         cars(9)));
     EXPECT_THAT(traffic_file(), HasSubstr("id=\"imported.emergency.0\""));
     EXPECT_THAT(findings.changes,
-                AllOf(Contains(HasSubstr("1 vehicles with ids of Clearway's own")),
+                AllOf(Contains(HasSubstr("1 vehicle with ids of Clearway's own")),
                       Contains(HasSubstr("1 emergency vehicles of the scenario drive as ordinary traffic"))));
     EXPECT_EQ(prepared().human + prepared().automated, 10);
 }

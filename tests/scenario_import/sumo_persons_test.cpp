@@ -1,9 +1,12 @@
-// Persons of SUMO's scenarios who walk: kept as SUMO would walk them, or named.
+// Persons of SUMO's scenarios who walk and ride: kept as SUMO would move them, or named.
+#include <map>
 #include <sstream>
 
 #include <gmock/gmock.h>
 
 #include "scenario/prepare.hpp"
+#include "scenario_import/detail/element.hpp"
+#include "scenario_import/detail/sumo_trial.hpp"
 #include "town.hpp"
 
 namespace clearway::scenario_import {
@@ -93,7 +96,7 @@ TEST_F(SumoPersons, who_walk_are_kept_with_their_types_and_times_from_the_begin)
     made.begin_s = 100.0;
     const Findings findings = run(made);
     EXPECT_EQ(findings.persons, 4U);
-    EXPECT_THAT(to_text(findings), HasSubstr("persons          4 walk"));
+    EXPECT_THAT(to_text(findings), HasSubstr("persons          4 walk or ride"));
     EXPECT_THAT(findings.changes, AllOf(Contains(HasSubstr("of 5 persons the 4")),
                                         Contains(HasSubstr("type \"plain\" of persons gets the class"))));
     EXPECT_THAT(persons(), AllOf(HasSubstr("<vType id=\"slow\" vClass=\"pedestrian\" maxSpeed=\"0.9\"/>"),
@@ -121,10 +124,11 @@ TEST_F(SumoPersons, a_flow_is_one_person_per_departure) {
                                  Not(HasSubstr("personFlow"))));
 }
 
-TEST_F(SumoPersons, who_do_not_only_walk_are_left_out_by_what_they_are) {
+TEST_F(SumoPersons, who_cannot_be_kept_are_left_out_by_what_they_are) {
     const std::string walk = "<walk edges='A0A1'/>";
     const Findings findings = run(with(
         "<vType id='car' vClass='passenger'/>" + person("ride", walk + "<ride to='A1A2' lines='ANY'/>") +
+        person("taxi", walk + "<ride to='A1A2' lines='taxi'/>") +
         person("trip", "<personTrip from='A0A1' to='A1A2' modes='public'/>") +
         person("triggered", walk, "depart='triggered'") + person("zones", "<walk fromTaz='a' toTaz='b'/>") +
         person("driver", walk, "depart='105' type='car'") +
@@ -136,7 +140,8 @@ TEST_F(SumoPersons, who_do_not_only_walk_are_left_out_by_what_they_are) {
     EXPECT_EQ(findings.persons, 0U);
     EXPECT_FALSE(std::filesystem::exists(out() / "town" / "persons.rou.xml"));
     for (const char* const line :
-         {"2 persons who ride (ride, trip)", "1 flows of persons who ride (flow)",
+         {"1 persons who take a taxi (taxi)", "1 persons who may ride (trip)",
+          "4 persons whose vehicle does not come in that time (ride, flow.0, flow.1, ...)",
           "1 persons who wait for a vehicle (triggered)",
           "1 persons who walk between zones, junctions or coordinates (zones)",
           "1 persons of a class that does not walk (driver)", "1 persons who do not walk (still)",
@@ -144,6 +149,74 @@ TEST_F(SumoPersons, who_do_not_only_walk_are_left_out_by_what_they_are) {
           "1 <container>, which Clearway does not support (box)",
           "1 <containerFlow>, which Clearway does not support (boxes)"})
         EXPECT_THAT(findings.left_out, Contains(line));
+}
+
+/// A bus that would stand 10 s at each of its two stops, and forty people who want to get on at the first.
+TEST_F(SumoPersons, who_ride_delay_their_bus_as_in_plain_sumo) {
+    const std::string bus =
+        "<vType id='bus' vClass='bus' sigma='0' speedDev='0' personCapacity='60' boardingDuration='2'/>"
+        "<vehicle id='b' type='bus' line='7' depart='100'><route edges='A0A1 A1B1 B1B2'/><stop busStop='on' "
+        "duration='10'/><stop busStop='stop' duration='10'/></vehicle>";
+    std::string riders;
+    for (int number = 0; number < 40; ++number)
+        riders += person(fmt::format("r{}", number),
+                         "<ride busStop='stop' lines='7'/><walk to='B1B2' arrivalPos='100'/>",
+                         "depart='95' type='feet' departPos='60'");
+    std::string text = riders;
+    for (std::size_t at = text.find("<ride "); at != std::string::npos; at = text.find("<ride ", at + 1))
+        text.insert(at + 6, "from='A0A1' ");
+    const std::string stops =
+        std::string(stop_at_b1) + "<busStop id='on' lane='A0A1_1' startPos='50' endPos='70'/>";
+    const std::string demand = "<vType id='feet' vClass='pedestrian' speedDev='0'/>" + bus + text;
+    const auto network = grid();
+    const auto additional = write("plain.add.xml", "<additional>" + stops + "</additional>");
+    const auto trip_of_bus = [&](std::vector<std::string> arguments) {
+        const std::filesystem::path trips = folder() / "trips.xml";
+        arguments.insert(arguments.end(),
+                         {"--tripinfo-output", trips.string(), "--end", "900", "--no-warnings"});
+        run_tool("sumo", arguments);
+        std::map<std::string, std::string> found;
+        detail::for_each_element(trips, [&](detail::Element&& trip) {
+            if (trip.text("id") == "b") found["bus"] = trip.text("duration") + " " + trip.text("stopTime");
+            for (const detail::Element& stage : trip.children)
+                if (stage.name == "ride" && stage.text("vehicle") == "b") found["riders"] += "1";
+        });
+        return found;
+    };
+    const auto routes = write("plain.rou.xml", "<routes>" + demand + "</routes>");
+    const auto plain = trip_of_bus({"--net-file", network.string(), "--route-files", routes.string(),
+                                    "--additional-files", additional.string(), "--no-step-log"});
+    ASSERT_EQ(plain.at("riders").size(), 40U);
+    EXPECT_GT(std::stod(plain.at("bus").substr(plain.at("bus").find(' '))), 80.0)
+        << "boarding takes 2 s each";
+
+    ImportRequest made = request({network, routes, additional});
+    made.begin_s = 0.0;
+    const Findings findings = run(made);
+    EXPECT_EQ(findings.persons, 40U);
+    EXPECT_THAT(findings.left_out, IsEmpty());
+    EXPECT_EQ(trip_of_bus(detail::sumo_arguments(prepared())), plain);
+}
+
+TEST_F(SumoPersons, vehicles_without_their_passengers_are_counted) {
+    const Findings findings = run(with(
+        "<vehicle id='b' line='7' depart='140'><route edges='A0A1 A1B1'/><stop busStop='stop' duration='10'/>"
+        "</vehicle><vehicle id='c' line='8' depart='141'><route edges='A0A1 A1B1'/><stop busStop='stop' "
+        "duration='10'/></vehicle>" +
+            person("trip", "<personTrip from='A0A1' to='A1A2' modes='public'/>"),
+        stop_at_b1));
+    EXPECT_THAT(findings.changes, Contains(HasSubstr("2 vehicles may wait less at stops")));
+}
+
+TEST_F(SumoPersons, rides_that_do_not_join_are_refused) {
+    const auto fault = [&](const std::string& ride) {
+        return refusal(with(person("p", "<walk edges='A0A1'/>" + ride), stop_at_b1));
+    };
+    EXPECT_THAT(fault("<ride from='A1B1' busStop='stop' lines='7'/>"),
+                HasSubstr("rides from edge \"A1B1\" after it came to \"A0A1\""));
+    EXPECT_THAT(fault("<ride busStop='none' lines='7'/>"), HasSubstr("there is no busStop \"none\""));
+    EXPECT_THAT(fault("<ride lines='7'/>"), HasSubstr("has a ride without a \"to\""));
+    EXPECT_THAT(fault("<ride to='nowhere' lines='7'/>"), HasSubstr("no edge \"nowhere\""));
 }
 
 struct Plan {

@@ -68,6 +68,8 @@ void check_network(const ScenarioConfig& config, Problems& problems) {
     check_file(config, "network.connections", network.connections, problems);
     check_file(config, "network.signals", network.signals, problems);
     check_file(config, "network.file", network.file, problems);
+    for (const std::string& path : network.additional)
+        check_file(config, "network.additional", path, problems);
     check_preemption(config, problems);
 }
 

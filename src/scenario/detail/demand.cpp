@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/xml_stream.hpp"
 #include "roads/route.hpp"
 #include "scenario/detail/driver_types.hpp"
 #include "scenario/detail/trip_routes.hpp"
@@ -145,8 +146,27 @@ class Routes {
     std::optional<TripRoutes> trips_;
 };
 
+/// Looks for rerouters that close a road or a lane.
+class ClosingFinder : public core::XmlHandler {
+  public:
+    void start(std::string_view element, const core::XmlAttributes&, unsigned long) override {
+        found |= element == "closingReroute" || element == "closingLaneReroute";
+    }
+    void end(std::string_view) override {}
+    bool found = false;
+};
+
+/// Attribute of vehicles that SUMO routes again at departure, because a road may be closed by then; else
+/// empty.
+const char* routing_mark(const ScenarioConfig& config) {
+    ClosingFinder finder;
+    for (const std::filesystem::path& file : additional_files(config))
+        core::stream_xml(file, finder);
+    return finder.found ? " reroute=\"true\"" : "";
+}
+
 PlannedVehicle plan_vehicle(const DemandContext& context, const Routes& routes, VehicleClass vehicle_class,
-                            int number) {
+                            int number, const char* mark) {
     PlannedVehicle vehicle;
     vehicle.id = fmt::format("{}.{}", traffic::name(vehicle_class), number);
     vehicle.vehicle_class = vehicle_class;
@@ -159,8 +179,8 @@ PlannedVehicle plan_vehicle(const DemandContext& context, const Routes& routes, 
     }
     vehicle.xml = fmt::format(
         "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"best\" departSpeed=\"max\" "
-        "speedFactor=\"{:.4f}\">\n        <route edges=\"{}\"/>\n    </vehicle>\n",
-        vehicle.id, type, vehicle.depart_s, speed_factor(context, vehicle.id, vehicle_class),
+        "speedFactor=\"{:.4f}\"{}>\n        <route edges=\"{}\"/>\n    </vehicle>\n",
+        vehicle.id, type, vehicle.depart_s, speed_factor(context, vehicle.id, vehicle_class), mark,
         fmt::join(edge_ids(context.network, routes.traffic(vehicle.id)), " "));
     return vehicle;
 }
@@ -233,11 +253,12 @@ PlannedDemand generate(const DemandContext& context) {
     const Demand& counts = context.config.demand;
     const auto scaled = [&](int count) { return static_cast<int>(std::lround(count * counts.density)); };
     const Routes routes(context);
+    const char* const mark = routing_mark(context.config);
     PlannedDemand demand;
     for (int number = 0; number < scaled(counts.human); ++number)
-        demand.vehicles.push_back(plan_vehicle(context, routes, VehicleClass::human, number));
+        demand.vehicles.push_back(plan_vehicle(context, routes, VehicleClass::human, number, mark));
     for (int number = 0; number < scaled(counts.automated); ++number)
-        demand.vehicles.push_back(plan_vehicle(context, routes, VehicleClass::automated, number));
+        demand.vehicles.push_back(plan_vehicle(context, routes, VehicleClass::automated, number, mark));
     for (int number = 0; number < counts.emergency; ++number) {
         const std::string id = fmt::format("emergency.{}", number);
         const VehicleKind kind = emergency_kind(context, id);

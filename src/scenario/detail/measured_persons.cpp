@@ -77,8 +77,10 @@ class PersonsReader {
                            fmt::format("type \"{}\" is not defined", person.attribute("type").value()),
                            "a <vType> above it in these files");
         if (const auto fault = fault_of(person))
-            return problem(file, person, *fault,
-                           "<walk edges=\"...\"> over edges open to pedestrians that meet, and <stop>");
+            return problem(
+                file, person, *fault,
+                "<walk edges=\"...\"> over edges open to pedestrians that meet, <ride> with from and to, and "
+                "<stop>");
         if (depart_s > context_.config.time.window_s) return;
         rename(person, "type");
         do {
@@ -88,24 +90,33 @@ class PersonsReader {
     }
 
     std::optional<std::string> fault_of(pugi::xml_node person) const {
-        if (!person.child("walk")) return "does not walk";
+        if (!person.child("walk") && !person.child("ride")) return "neither walks nor rides";
         for (const pugi::xml_node stage : person.children()) {
             const std::string_view name = stage.name();
             if (name == "stop") continue;
+            if (name == "ride") {
+                for (const char* const end : {"from", "to"})
+                    if (auto fault = fault_of_edge(stage.attribute(end).value())) return fault;
+                continue;
+            }
             if (name != "walk") return fmt::format("has a <{}>", name);
             if (auto fault = fault_of_edges(stage.attribute("edges").value())) return fault;
         }
         return std::nullopt;
     }
 
+    std::optional<std::string> fault_of_edge(const std::string& id) const {
+        const auto edge = context_.network.find_edge(id);
+        if (edge && !context_.network.edge(*edge).internal) return std::nullopt;
+        return fmt::format("the network has no edge \"{}\"", id);
+    }
+
     std::optional<std::string> fault_of_edges(const std::string& text) const {
         std::istringstream words(text);
         std::vector<core::EdgeIndex> edges;
         for (std::string word; words >> word;) {
-            const auto edge = context_.network.find_edge(word);
-            if (!edge || context_.network.edge(*edge).internal)
-                return fmt::format("the network has no edge \"{}\"", word);
-            edges.push_back(*edge);
+            if (auto fault = fault_of_edge(word)) return fault;
+            edges.push_back(*context_.network.find_edge(word));
         }
         if (edges.empty()) return "has a walk without edges";
         return walkways_.fault(edges);

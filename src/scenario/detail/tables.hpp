@@ -27,7 +27,9 @@ Table(const char*, Member ScenarioConfig::*, const char*) -> Table<Member>;
 constexpr auto tables() {
     using S = ScenarioConfig;
     return std::make_tuple(
-        Table{"network", &S::network, "Where the roads come from; paths are relative to the folder"},
+        Table{"network", &S::network,
+              "Where the roads come from; paths are relative to the folder, and the list `additional` names "
+              "SUMO's additional files"},
         Table{"time", &S::time, "The clock of a run"}, Table{"demand", &S::demand, "How many vehicles drive"},
         Table{"dense", &S::dense, "What the dense variant changes; optional"},
         Table{"limits", &S::limits, "Speed limits of classes"},

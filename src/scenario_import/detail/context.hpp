@@ -1,12 +1,21 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "scenario_import/detail/left_out.hpp"
 #include "scenario_import/import.hpp"
 #include "scenario_import/sumo/additional.hpp"
 
 namespace clearway::scenario_import::detail {
+
+/// An element of the user's files that SUMO may complain about.
+struct NamedElement {
+    std::string name;  ///< `busStop`
+    std::string id;
+    std::string place;  ///< `stops.add.xml:12`
+};
 
 /// State shared by the steps of one import.
 struct Import {
@@ -17,6 +26,7 @@ struct Import {
     Findings findings = {};
     LeftOut left_out = {};
     Additional additional = {};  ///< Contents of additional.add.xml.
+    std::vector<NamedElement> named = {};
 };
 
 }  // namespace clearway::scenario_import::detail

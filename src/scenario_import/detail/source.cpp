@@ -96,14 +96,14 @@ bool has_name_of_configuration(const std::filesystem::path& file) {
 SourceKind kind_of(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) refuse(file, "does not exist", "check the path");
     PackedFile stream(file);
-    const std::string head = head_of(stream);
+    std::string head = head_of(stream);
     if (head.empty()) refuse(file, "is empty", "download it again");
     if (is_pbf(head)) return SourceKind::map;
-    if (head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff"))
-        refuse(file, "is text in UTF-16", "save it as UTF-8: iconv -f UTF-16 -t UTF-8 OLD > NEW");
+    const bool is_utf_16 = head.starts_with("\xff\xfe") || head.starts_with("\xfe\xff");
+    if (is_utf_16) std::erase(head, '\0');
     if (head.starts_with("PK\x03\x04"))
         refuse(file, "is a zip archive", "unpack it and give the file inside");
-    const std::size_t start = head.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    const std::size_t start = head.find_first_not_of(" \t\r\n\xef\xbb\xbf\xff\xfe");
     if (start != std::string::npos && (head[start] == '{' || head[start] == '['))
         refuse(file, "is JSON", "ask the service for OSM XML");
     const std::string element = first_element(head);
@@ -114,6 +114,8 @@ SourceKind kind_of(const std::filesystem::path& file) {
         refuse(file, fmt::format("is plain XML (<{}>), of which netconvert makes a network", element),
                "make it, and import that: netconvert --node-files X.nod.xml --edge-files X.edg.xml "
                "--output-file X.net.xml");
+    if (element == "osm" && is_utf_16)
+        refuse(file, "is a map in UTF-16", "save it as UTF-8: iconv -f UTF-16 -t UTF-8 OLD > NEW");
     if (element == "osm") return SourceKind::map;
     if (element == "net") return SourceKind::network;
     // SUMO ignores the root element of these files; only its children matter.

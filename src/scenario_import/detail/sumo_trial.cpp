@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "scenario_import/detail/element.hpp"
+#include "scenario_import/detail/own_words.hpp"
 #include "scenario_import/detail/tool.hpp"
 
 namespace clearway::scenario_import::detail {
@@ -108,11 +109,12 @@ void require_load(const Import& import, const scenario::Prepared& demand) {
     std::vector<std::string> arguments = sumo_arguments(demand);
     arguments.insert(arguments.end(), {"--end", "1"});
     const Tool tool{"sumo", std::move(arguments), import.work / "sumo.log", "loading it in SUMO", "sumo"};
-    if (!succeeds(tool, import.on_progress))
-        throw core::InputError(
-            core::Problem{import.request.files.front().string(),
-                          fmt::format("SUMO does not load the imported scenario:\n{}", complaint(tool.log)),
-                          "files that SUMO 1.15 loads", "correct what it names"});
+    if (succeeds(tool, import.on_progress)) return;
+    const std::string says = in_own_words(complaint(tool.log), import);
+    throw core::InputError(
+        core::Problem{place_of_complaint(says, import).value_or(joined(import.request.files)),
+                      fmt::format("SUMO does not load the imported scenario:\n{}", says),
+                      "files that SUMO 1.15 loads", "correct what it names"});
 }
 
 void compare_steps(Import& import, const scenario::Prepared& demand, double own_step_s) {

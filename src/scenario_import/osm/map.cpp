@@ -19,7 +19,8 @@ namespace clearway::scenario_import::detail {
 
 namespace {
 
-[[noreturn]] void refuse(const std::filesystem::path& map, const std::string& what, const std::string& cure) {
+[[noreturn]] void refuse_map(const std::filesystem::path& map, const std::string& what,
+                             const std::string& cure) {
     throw core::InputError(core::Problem{map.string(), what, "an OpenStreetMap extract with roads", cure});
 }
 
@@ -96,8 +97,8 @@ class Osmium {
         const std::string link = links_[row].string();
         for (std::size_t at = text.find(link); at != std::string::npos; at = text.find(link))
             text.replace(at, link.size(), maps_[row].filename().string());
-        refuse(maps_[row], fmt::format("cannot be read as a map, osmium says:\n{}", text),
-               "it may be cut short: download it again");
+        refuse_map(maps_[row], fmt::format("cannot be read as a map, osmium says:\n{}", text),
+                   "it may be cut short: download it again");
     }
 
   private:
@@ -203,10 +204,11 @@ Extract extract_roads(const std::vector<std::filesystem::path>& maps, const std:
         osmium.run({"sort", "-o", sorted.string(), extract.file.string()});
         extract = {sorted, read_map(sorted)};
     }
-    if (extract.contents.roads == 0) refuse(maps.front(), "is a map without roads", "choose another extract");
+    if (extract.contents.roads == 0)
+        refuse_map(maps.front(), "is a map without roads", "choose another extract");
     if (extract.contents.nodes == 0)
-        refuse(maps.front(), "has roads, but not their nodes, which give their positions",
-               "ask Overpass for them too: end the query with  out body; >; out skel qt;");
+        refuse_map(maps.front(), "has roads, but not their nodes, which give their positions",
+                   "ask Overpass for them too: end the query with  out body; >; out skel qt;");
     return extract;
 }
 
@@ -231,9 +233,9 @@ std::filesystem::path build_roads(const std::filesystem::path& map, const std::f
     if (succeeds(tool, on_progress)) return network;
     const std::string reason = complaint(log);
     if (reason.find("No edges loaded") != std::string::npos)
-        refuse(map, "has no road for cars", "choose an extract with roads for cars");
-    refuse(map, fmt::format("netconvert cannot build a network from it:\n{}", reason),
-           "choose another extract");
+        refuse_map(map, "has no road for cars", "choose an extract with roads for cars");
+    refuse_map(map, fmt::format("netconvert cannot build a network from it:\n{}", reason),
+               "choose another extract");
 }
 
 }  // namespace clearway::scenario_import::detail

@@ -14,9 +14,10 @@ namespace clearway::scenario_import::detail {
 
 namespace {
 
-constexpr std::array<std::string_view, 12> kept_elements = {
-    "busStop", "trainStop",    "containerStop", "chargingStation",   "parkingArea",  "tlLogic",
-    "WAUT",    "wautJunction", "rerouter",      "variableSpeedSign", "parkingSpace", "route"};
+constexpr std::array<std::string_view, 13> kept_elements = {
+    "busStop",      "trainStop", "containerStop",    "chargingStation", "parkingArea",
+    "tlLogic",      "WAUT",      "wautJunction",     "rerouter",        "variableSpeedSign",
+    "parkingSpace", "route",     "routeDistribution"};
 
 constexpr std::array<std::string_view, 4> detectors = {"inductionLoop", "e1Detector", "laneAreaDetector",
                                                        "e2Detector"};
@@ -95,19 +96,23 @@ void write_nothing(Element& program) {
     });
 }
 
-/// Ids of the detectors that signal programs name.
+/// Ids of the detectors that signal programs name: as parameters, or in conditions such as `z:loop > 3`.
 std::set<std::string> named_detectors(const std::vector<Element>& elements) {
     std::set<std::string> ids;
-    for (const Element& program : elements)
-        if (program.name == "tlLogic")
-            for (const Element& child : program.children)
-                if (child.name == "param") ids.insert(child.text("value"));
+    for (const Element& program : elements) {
+        if (program.name != "tlLogic") continue;
+        for (const Element& child : program.children)
+            for (const auto& [name, value] : child.attributes)
+                for (const std::string& word : words(value, " \t()")) {
+                    ids.insert(word);
+                    ids.insert(word.substr(word.find(':') + 1));
+                }
+    }
     return ids;
 }
 
 std::string reason_to_leave_out(const Element& element) {
-    if (shapes_traffic(element)) return fmt::format("<{}> that reads a file of its own", element.name);
-    const bool shapes = element.name == "calibrator";
+    const bool shapes = element.name == "calibrator" || element.name == "railSignalConstraints";
     return fmt::format("<{}>, which {} the traffic", element.name, shapes ? "affects" : "does not affect");
 }
 
@@ -124,7 +129,7 @@ Additional keep_additional(const std::vector<Element>& elements, const std::map<
     unsigned long line = 3;
     for (const Element& element : elements) {
         const bool is_needed = is_one_of(element.name, detectors) && needed.contains(element.text("id"));
-        if (!is_needed && (!shapes_traffic(element) || !element.text("file").empty())) {
+        if (!is_needed && !shapes_traffic(element)) {
             left_out.add(reason_to_leave_out(element), element.text("id"));
             continue;
         }

@@ -70,13 +70,19 @@ Window busiest(const std::vector<RoadUser>& vehicles, double begin_s) {
     return {start_s, at_s - start_s + usual_window_s};
 }
 
-Window choose_window(const std::vector<RoadUser>& vehicles, const SumoFiles& files, const Import& import) {
+/// Without a stated begin it is that of the first vehicle, or of people up to ten minutes before it.
+Window choose_window(const Demand& demand, const SumoFiles& files, const Import& import) {
+    constexpr double longest_wait_s = 600.0;
+    const std::vector<RoadUser>& vehicles = demand.vehicles;
     double last_s = 0.0;
     double first_s = vehicles.front().depart_s;
     for (const RoadUser& vehicle : vehicles) {
         last_s = std::max(last_s, vehicle.depart_s);
         first_s = std::min(first_s, vehicle.depart_s);
     }
+    const double first_vehicle_s = first_s;
+    for (const Person& person : demand.persons)
+        if (person.depart_s >= first_vehicle_s - longest_wait_s) first_s = std::min(first_s, person.depart_s);
     // The end itself is not in the window.
     const double after_last_s = std::floor(last_s) + 1.0;
     const double end_s = std::min(end_of(files).value_or(after_last_s), after_last_s);
@@ -255,28 +261,39 @@ void begin_programs_at(double begin_s, const std::filesystem::path& network_file
     core::write_atomically(network_file, document.text());
 }
 
-void add_additional(Import& import, const std::vector<Element>& elements, const Demand& demand,
-                    double begin_s, scenario::ScenarioConfig& config) {
-    import.additional = keep_additional(elements, demand.types, begin_s, import.left_out);
-    if (import.additional.xml.empty()) return;
-    core::write_atomically(import.scenario / "additional.add.xml",
-                           file_text("additional", import.additional.xml));
-    config.measured->additional = {"additional.add.xml"};
+/// Writes additional.add.xml. Returns the list of that file for the scenario.
+std::vector<std::string> write_additional(Import& import, const std::vector<Element>& elements,
+                                          const std::map<std::string, Element>& types, double begin_s) {
+    constexpr const char* name = "additional.add.xml";
+    import.additional = keep_additional(elements, types, begin_s, import.left_out);
+    if (import.additional.xml.empty()) return {};
+    core::write_atomically(import.scenario / name, file_text("additional", import.additional.xml));
+    return {name};
 }
 
-/// The last program that the files give a signal is the one that SUMO runs.
-void write_programs(Import& import, const std::vector<Element>& others,
-                    const std::filesystem::path& network_file) {
+/// Signals whose program changes by a timetable.
+std::set<std::string> switched_signals(const std::vector<Element>& elements) {
+    std::set<std::string> ids;
+    for (const Element& element : elements)
+        if (element.name == "wautJunction") ids.insert(element.text("junctionID"));
+    return ids;
+}
+
+/// Moves the signal programs among `others` into the network, but not those between which a timetable
+/// switches. The last program that the files give a signal is the one that SUMO runs.
+void write_programs(Import& import, std::vector<Element>& others, const std::filesystem::path& network_file) {
     scenario::NetworkDocument document(network_file);
+    const std::set<std::string> switched = switched_signals(others);
     std::set<std::string> replaced;
-    for (const Element& element : others) {
-        if (element.name != "tlLogic" || element.children.empty()) continue;
+    std::erase_if(others, [&](const Element& element) {
         const std::string& id = element.text("id");
+        if (element.name != "tlLogic" || element.children.empty() || switched.contains(id)) return false;
         if (document.replace_programs(id, element.xml()))
             replaced.insert(id);
         else
             import.left_out.add("<tlLogic> of signals that the network does not have", id);
-    }
+        return true;
+    });
     if (replaced.empty()) return;
     core::write_atomically(network_file, document.text());
     import.findings.changes.push_back(
@@ -284,14 +301,24 @@ void write_programs(Import& import, const std::vector<Element>& others,
                     core::counted(replaced.size(), "signal")));
 }
 
-/// Without vehicles, only signal programs are kept.
-void leave_out_all(Import& import, const Demand& demand, const std::vector<Element>& others) {
-    for (const Element& element : others)
-        if (element.name != "tlLogic")
-            import.left_out.add(fmt::format("<{}>, because no vehicle is left", element.name),
-                                element.text("id"));
+/// Without vehicles, what belongs to the network is kept.
+void keep_network(Import& import, const Demand& demand, std::vector<Element>& others, double begin_s,
+                  const std::filesystem::path& network_file, scenario::ScenarioConfig& config) {
+    write_programs(import, others, network_file);
+    begin_programs_at(begin_s, network_file);
+    config.network.additional = write_additional(import, others, demand.types, begin_s);
     for (const Person& person : demand.persons)
         import.left_out.add("persons, because no vehicle is left", person.id);
+}
+
+/// Notes where the elements stand that SUMO may complain about.
+void note_places(Import& import, const Demand& demand, const std::vector<Element>& others) {
+    for (const Element& element : others)
+        import.named.push_back({element.name, element.text("id"), element.place});
+    for (const auto& [id, type] : demand.types)
+        import.named.push_back({type.name, id, type.place});
+    for (const RoadUser& vehicle : demand.vehicles)
+        import.named.push_back({vehicle.element.name, vehicle.id, vehicle.place});
 }
 
 }  // namespace
@@ -300,9 +327,7 @@ bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Networ
                      const std::filesystem::path& network_file, scenario::ScenarioConfig& config) {
     DemandReader reader(flow_times(files, import), files.scale, import.left_out);
     std::vector<Element> others = read_files(files, reader);
-    // SUMO wants them before the rerouters.
-    const std::vector<Element> named = reader.routes_of_rerouters(others);
-    others.insert(others.begin(), named.begin(), named.end());
+    others = reader.with_named(std::move(others));
     Demand demand = reader.finish();
     Findings& findings = import.findings;
     for (const std::filesystem::path& file : demand.unsorted)
@@ -320,12 +345,13 @@ bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Networ
         std::erase_if(demand.vehicles, [&](const RoadUser& vehicle) { return vehicle.depart_s >= *end_s; });
     if (demand.vehicles.empty()) {
         if (demand.names_vehicles) refuse_without_vehicles(import);
-        write_programs(import, others, network_file);
-        leave_out_all(import, demand, others);
+        note_places(import, demand, others);
+        const double begin_s = import.request.begin_s.value_or(files.begin_s.value_or(0.0));
+        keep_network(import, demand, others, begin_s, network_file, config);
         return false;
     }
 
-    const Window window = choose_window(demand.vehicles, files, import);
+    const Window window = choose_window(demand, files, import);
     check_own_emergency(import, demand, window);
     keep_window(window, demand, findings, all);
     set_times(window, config);
@@ -339,9 +365,10 @@ bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Networ
     // The types are the scenario's own, so this is the largest allowed limit.
     constexpr double no_limit_kmh = 400.0;
     config.limits.human_kmh = config.limits.automated_kmh = no_limit_kmh;
-    add_additional(import, others, demand, window.begin_s, config);
+    note_places(import, demand, others);
+    config.measured->additional = write_additional(import, others, demand.types, window.begin_s);
     begin_programs_at(window.begin_s, network_file);
-    add_persons(import, demand, network, window, config);
+    add_persons(import, demand, network, others, window, config);
     std::string routes;
     for (RoadUser& vehicle : demand.vehicles)
         routes += vehicle_xml(vehicle, window.begin_s, import.left_out);

@@ -24,8 +24,8 @@ struct SumoFiles {
 /// Turns them into the measured demand of `config`: traffic.rou.xml (single vehicles, sorted, times from the
 /// scenario's begin), types.add.xml, additional.add.xml and persons.rou.xml in the scenario's folder. The
 /// signal programs of `network_file` are shifted to that begin too. Returns false
-/// when the files name no vehicle; then it only writes their signal programs into the network. Throws
-/// core::InputError for demand that cannot be used.
+/// when the files name no vehicle; then their signal programs go into the network, and all else that belongs
+/// to it into additional.add.xml. Throws core::InputError for demand that cannot be used.
 bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Network& network,
                      const std::filesystem::path& network_file, scenario::ScenarioConfig& config);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <set>
 #include <string_view>
 
@@ -56,6 +57,26 @@ bool is_own_id(std::string_view id) {
            id.find_first_not_of("0123456789", own.size()) == std::string_view::npos;
 }
 
+/// Notes what a person would ride with.
+void note_lines(const Element& person, std::set<std::string>& lines) {
+    for (const Element& stage : person.children) {
+        if (stage.name == "ride")
+            for (const std::string& line : words(stage.text("lines")))
+                lines.insert(line);
+        else if (stage.name == "personTrip" && stage.text("modes").find("public") != std::string::npos)
+            lines.insert("");
+    }
+}
+
+/// Takes in what a speed sign keeps in a file of its own. SUMO 1.15 does not read that of a rerouter.
+void read_own_file(Element& element, const std::filesystem::path& named_in) {
+    if (element.name != "rerouter" && element.name != "variableSpeedSign") return;
+    if (element.name == "variableSpeedSign" && !element.text("file").empty())
+        for_each_element(named_in.parent_path() / element.text("file"),
+                         [&](Element&& child) { element.children.push_back(std::move(child)); });
+    element.remove("file");
+}
+
 /// Appends a route, as often as it says, to the vehicle's; its stops are delayed by `delay_s`.
 void drive(const Element& route, double delay_s, RoadUser& vehicle) {
     const std::vector<std::string> edges = words(route.text("edges"));
@@ -89,8 +110,9 @@ std::vector<Element> DemandReader::read(const std::filesystem::path& file) {
             if (depart_s < last_depart_s) unsorted.insert(part);
             last_depart_s = std::max(last_depart_s, depart_s);
         }
-        if (take(element, part)) return;
         element.place = fmt::format("{}:{}", part.string(), element.line);
+        if (take(element, part)) return;
+        read_own_file(element, part);
         others.push_back(std::move(element));
     });
     demand_.unsorted.insert(demand_.unsorted.end(), unsorted.begin(), unsorted.end());
@@ -105,10 +127,35 @@ std::vector<Element> DemandReader::routes_of_rerouters(const std::vector<Element
             for (const Element& choice : interval.children)
                 if (choice.name == "routeProbReroute") ids.insert(choice.text("id"));
     }
+    std::vector<Element> distributions;
+    for (const std::string& id : std::set(ids)) {
+        if (!route_choices_.holds(id)) continue;
+        distributions.push_back(route_choices_.element("routeDistribution", id));
+        for (const std::string& member : route_choices_.members(id))
+            ids.insert(member);
+    }
     std::vector<Element> routes;
     for (const std::string& id : ids)
         if (const auto route = routes_.find(id); route != routes_.end()) routes.push_back(route->second);
+    routes.insert(routes.end(), distributions.begin(), distributions.end());
     return routes;
+}
+
+std::vector<Element> DemandReader::with_named(std::vector<Element> elements) const {
+    for (Element& element : elements) {
+        std::vector<std::string> types;
+        for (const std::string& id : words(element.text("vTypes"))) {
+            if (type_choices_.holds(id))
+                std::ranges::copy(type_choices_.members(id), std::back_inserter(types));
+            else
+                types.push_back(id);
+        }
+        if (!types.empty()) element.set("vTypes", fmt::format("{}", fmt::join(types, " ")));
+    }
+    const auto others = std::ranges::stable_partition(elements, is_place_of_stops, &Element::name);
+    const std::vector<Element> routes = routes_of_rerouters(elements);
+    elements.insert(others.begin(), routes.begin(), routes.end());
+    return elements;
 }
 
 bool DemandReader::take(Element& element, const std::filesystem::path& file) {
@@ -239,7 +286,9 @@ double DemandReader::scale_of_type(const Element& source, const std::string& id)
 
 void DemandReader::resolve_person(const Pending& pending) {
     const Element& person = pending.element;
-    if (const auto reason = reason_not_to_walk(person))
+    const auto reason = unsupported_plan(person);
+    if (reason) note_lines(person, demand_.lines_of_left_out);
+    if (reason)
         return left_out_.add((person.name == "personFlow" ? "flows of " : "") + *reason, person.text("id"));
     resolve(pending, [&](const std::string& id, const Departure& departure) {
         add_person(pending, id, departure.at_s);
@@ -271,7 +320,7 @@ void DemandReader::add_person(const Pending& pending, const std::string& id, dou
     Person person;
     person.id = id;
     person.depart_s = depart_s;
-    person.element = walking_person(source);
+    person.element = travelling_person(source);
     person.place = fmt::format("{}:{}", pending.file.string(), source.line);
     if (!note_id(id, person.place, person_places_) || !set_type(source, person)) return;
     for (Element& stage : person.element.children)

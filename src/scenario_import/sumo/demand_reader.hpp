@@ -42,12 +42,12 @@ struct RoadUser {
     std::string place;  ///< `city.rou.xml:12`
 };
 
-/// A person who walks.
+/// A person who walks, and rides with vehicles of the same files.
 struct Person {
     std::string id;
     std::string type;  ///< Of `Demand::person_types`.
     double depart_s = 0.0;
-    /// As `walking_person` makes it; walks have edges, or ends between which a route is to be found.
+    /// As `travelling_person` makes it; walks have edges, or ends between which a route is to be found.
     Element element;
     std::string place;  ///< `city.rou.xml:12`
 };
@@ -58,6 +58,8 @@ struct Demand {
     std::map<std::string, Element> types;         ///< `<vType>` by id; those of distributions too.
     std::vector<Person> persons;                  ///< In the same order.
     std::map<std::string, Element> person_types;  ///< By id; all of class pedestrian.
+    /// Lines or vehicles that persons who are left out would take; empty text: any vehicle with a line.
+    std::set<std::string> lines_of_left_out;
     std::set<std::string> types_made_pedestrian;  ///< Of these, those that named no class.
     std::vector<std::filesystem::path> unsorted;  ///< Files whose vehicles are not ordered by departure.
     std::set<std::string> types_made_older;       ///< Of `types`, those with a class that SUMO 1.15 lacks.
@@ -65,10 +67,10 @@ struct Demand {
     std::vector<std::string> changes;             ///< Differences between the demand and the files, in words.
 };
 
-/// Collects vehicles, trips, flows, persons who only walk, routes, types and their distributions from SUMO's
+/// Collects vehicles, trips, flows, persons, routes, types and their distributions from SUMO's
 /// files. What SUMO would draw while it runs (members of distributions, departures of flows by probability,
 /// extra copies by scale) is drawn here, keyed by the id of the vehicle or person. The rest is counted in
-/// `left_out`: persons who ride, containers, vehicles that wait for them.
+/// `left_out`: persons who may ride or take taxis, containers, vehicles that wait for them.
 class DemandReader {
   public:
     /// `scale` is SUMO's option: number of copies of each vehicle and person.
@@ -77,8 +79,9 @@ class DemandReader {
 
     /// Reads the demand elements of a file; returns the others, for example stops and signal programs.
     std::vector<Element> read(const std::filesystem::path& file);
-    /// The routes that rerouters among `elements` name, in order of id.
-    std::vector<Element> routes_of_rerouters(const std::vector<Element>& elements) const;
+    /// `elements` with what they name: routes and their distributions, behind the stops that these may name
+    /// and before all else; in place of distributions of types, their members. After all files.
+    std::vector<Element> with_named(std::vector<Element> elements) const;
     /// After all files. Throws core::InputError with every problem: ids that occur twice, unknown types and
     /// routes, departures that are not times.
     Demand finish();
@@ -111,6 +114,7 @@ class DemandReader {
     void set_trip(const Element& source, RoadUser& vehicle);
     std::optional<Element> inline_route(const Element& source, const RoadUser& vehicle);
     bool set_type(const Element& source, RoadUser& vehicle);
+    std::vector<Element> routes_of_rerouters(const std::vector<Element>& elements) const;
     const Element* find_route(std::string id, const std::string& user, const std::string& place);
     void problem(const std::string& place, const std::string& id, std::string what, std::string allowed = "");
 

@@ -24,6 +24,7 @@ std::vector<Element> Distributions::add(const Element& distribution, std::vector
         if (refers) continue;
         defined.push_back(child);
         defined.back().set("id", id);
+        defined.back().place = distribution.place;
     }
     if (ids != nullptr)
         for (const Member& member : members)
@@ -34,6 +35,25 @@ std::vector<Element> Distributions::add(const Element& distribution, std::vector
 void Distributions::note_probability(const Element& member) {
     if (const auto probability = number(member.text("probability")))
         probabilities_[member.text("id")] = *probability;
+}
+
+std::vector<std::string> Distributions::members(const std::string& id) const {
+    std::vector<std::string> ids;
+    for (const Member& member : choices_.at(id))
+        ids.push_back(member.id);
+    return ids;
+}
+
+Element Distributions::element(const std::string& name, const std::string& id) const {
+    std::vector<double> weights;
+    for (const Member& member : choices_.at(id))
+        weights.push_back(weight_of(member));
+    Element element;
+    element.name = name;
+    element.set("id", id);
+    element.set(list_, fmt::format("{}", fmt::join(members(id), " ")));
+    element.set("probabilities", fmt::format("{:g}", fmt::join(weights, " ")));
+    return element;
 }
 
 double Distributions::weight_of(const Member& member) const {

@@ -22,6 +22,10 @@ class Distributions {
     /// Notes a member's own attribute `probability`: its weight if the distribution states none.
     void note_probability(const Element& member);
     bool holds(const std::string& id) const { return choices_.contains(id); }
+    /// Ids of the members of distribution `id`, in order.
+    std::vector<std::string> members(const std::string& id) const;
+    /// Distribution `id` as an element `name` that refers to its members by id.
+    Element element(const std::string& name, const std::string& id) const;
     /// The member of distribution `id` drawn for `user`; empty when it has none.
     std::string draw(const std::string& id, const std::string& user) const;
 

@@ -11,6 +11,7 @@ namespace {
 constexpr std::array person_attributes = {"departPos", "speedFactor"};
 constexpr std::array walk_attributes = {"edges",      "route",        "from",  "to",
                                         "arrivalPos", "departPosLat", "speed", "duration"};
+constexpr std::array ride_attributes = {"from", "to", "lines", "arrivalPos", "intended"};
 constexpr std::array stop_attributes = {"lane", "edge", "startPos", "endPos", "duration", "until", "actType"};
 /// With any of these, a `<personTrip>` may become a ride.
 constexpr std::array riding_attributes = {"modes", "vTypes", "lines"};
@@ -33,9 +34,16 @@ bool is_walk(const Element& stage) {
     return stage.name == "walk" || stage.name == "personTrip";
 }
 
+bool is_taxi(const std::string& line) {
+    return line == "taxi" || line.starts_with("taxi:");
+}
+
 std::optional<std::string> reason_of_stage(const Element& stage) {
-    if (stage.name == "ride" || (stage.name == "personTrip" && has_any(stage, riding_attributes)))
-        return "persons who ride";
+    if (stage.name == "ride")
+        return std::ranges::any_of(words(stage.text("lines")), is_taxi)
+                   ? std::optional<std::string>("persons who take a taxi")
+                   : std::nullopt;
+    if (stage.name == "personTrip" && has_any(stage, riding_attributes)) return "persons who may ride";
     if (stage.name == "stop")
         return has_any(stage, std::array{"duration", "until"})
                    ? std::nullopt
@@ -53,31 +61,33 @@ const char* named_stop(const Element& stage) {
     return nullptr;
 }
 
-std::optional<std::string> reason_not_to_walk(const Element& person) {
-    if (has_any(person, riding_attributes)) return "persons who ride";
-    bool walks = false;
+std::optional<std::string> unsupported_plan(const Element& person) {
+    if (has_any(person, riding_attributes)) return "persons who may ride";
+    bool moves = false;
     for (const Element& stage : person.children) {
         if (stage.name == "param") continue;
         if (auto reason = reason_of_stage(stage)) return reason;
-        walks |= is_walk(stage);
+        moves |= is_walk(stage) || stage.name == "ride";
     }
     if (person.text("depart") == "triggered" || person.text("begin") == "triggered")
         return "persons who wait for a vehicle";
-    return walks ? std::nullopt : std::optional<std::string>("persons who do not walk");
+    return moves ? std::nullopt : std::optional<std::string>("persons who do not walk");
 }
 
-Element walking_person(const Element& person) {
+Element travelling_person(const Element& person) {
     Element walker;
     walker.name = "person";
     keep(person, person_attributes, walker);
     for (const Element& stage : person.children) {
         if (stage.name == "param") continue;  // For devices and outputs, which do not exist here.
         Element kept;
-        kept.name = is_walk(stage) ? "walk" : "stop";
+        kept.name = is_walk(stage) ? "walk" : stage.name;
         kept.line = stage.line;
         keep(stage, stop_kinds, kept);
         if (is_walk(stage))
             keep(stage, walk_attributes, kept);
+        else if (stage.name == "ride")
+            keep(stage, ride_attributes, kept);
         else
             keep(stage, stop_attributes, kept);
         walker.children.push_back(std::move(kept));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "scenario_import/sumo/stop.hpp"
 #include "scenario_import/sumo/walks.hpp"
 
 namespace clearway::scenario_import::detail {
@@ -47,13 +48,76 @@ void keep_window(const Window& window, std::vector<Person>& persons, Findings& f
 void trim_plans(std::vector<Person>& persons, double end_s, Import& import) {
     const auto trimmed = std::ranges::count_if(persons, [&](Person& person) { return trim(person, end_s); });
     if (trimmed > 0)
-        import.findings.changes.push_back(
-            fmt::format("the plans of {} persons end with the last walk that a run can see", trimmed));
+        import.findings.changes.push_back(fmt::format(
+            "the plans of {} persons end with the last walk or ride that a run can see", trimmed));
     std::erase_if(persons, [&](const Person& person) {
         if (!person.element.children.empty()) return false;
         import.left_out.add("persons who depart after the end of a run", person.id);
         return true;
     });
+}
+
+/// The vehicles that persons can ride with.
+class Rides {
+  public:
+    Rides(const std::vector<RoadUser>& vehicles, const std::vector<Element>& additional) {
+        const StopEdges places(additional);
+        for (const RoadUser& vehicle : vehicles) {
+            Ride ride{vehicle.id, vehicle.element.text("line"), {}};
+            for (const Element& child : vehicle.element.children)
+                if (is_stop(child)) ride.edges.push_back(places.edge_of(child));
+            if (ride.edges.empty()) continue;
+            ride.edges.push_back(vehicle.edges.back());
+            rides_.push_back(std::move(ride));
+        }
+    }
+
+    /// Whether one of them takes a person along.
+    bool take(const Element& stage) const {
+        const std::vector<std::string> lines = words(stage.text("lines"));
+        return std::ranges::any_of(rides_, [&](const Ride& ride) {
+            const auto on = std::ranges::find(ride.edges, stage.text("from"));
+            return (lines.empty() || std::ranges::any_of(lines,
+                                                         [&](const std::string& line) {
+                                                             return line == "ANY" || ride.answers_to(line);
+                                                         })) &&
+                   on != ride.edges.end() &&
+                   std::find(on + 1, ride.edges.end(), stage.text("to")) != ride.edges.end();
+        });
+    }
+    /// Number of those that answer to one of `lines`; an empty text stands for any line.
+    std::size_t count(const std::set<std::string>& lines) const {
+        return static_cast<std::size_t>(std::ranges::count_if(rides_, [&](const Ride& ride) {
+            return std::ranges::any_of(lines, [&](const std::string& line) {
+                return line.empty() ? !ride.line.empty() : ride.answers_to(line);
+            });
+        }));
+    }
+
+  private:
+    struct Ride {
+        std::string id;
+        std::string line;
+        std::vector<std::string> edges;  ///< Of its stops, then the last of its route.
+
+        bool answers_to(const std::string& word) const { return word == id || word == line; }
+    };
+    std::vector<Ride> rides_;
+};
+
+/// Leaves out persons who would wait for a vehicle that does not come, and reports the vehicles that wait
+/// less at stops because passengers are left out.
+void check_rides(const Rides& rides, Demand& demand, Import& import) {
+    std::erase_if(demand.persons, [&](const Person& person) {
+        const auto waits = [&](const Element& stage) { return stage.name == "ride" && !rides.take(stage); };
+        if (std::ranges::none_of(person.element.children, waits)) return false;
+        import.left_out.add("persons whose vehicle does not come in that time", person.id);
+        return true;
+    });
+    if (const std::size_t emptier = rides.count(demand.lines_of_left_out); emptier > 0)
+        import.findings.changes.push_back(fmt::format(
+            "{} vehicles may wait less at stops than in the scenario, because passengers are left out",
+            emptier));
 }
 
 /// The types that are in use.
@@ -72,10 +136,12 @@ std::string types_xml(const Demand& demand, Findings& findings) {
 
 }  // namespace
 
-void add_persons(Import& import, Demand& demand, const roads::Network& network, const Window& window,
+void add_persons(Import& import, Demand& demand, const roads::Network& network,
+                 const std::vector<Element>& additional, const Window& window,
                  scenario::ScenarioConfig& config) {
     std::vector<Person>& persons = demand.persons;
     keep_window(window, persons, import.findings);
+    check_rides(Rides(demand.vehicles, additional), demand, import);
     trim_plans(persons, window.begin_s + config.time.horizon_s, import);
     find_walks(import, persons, network, import.scenario / config.network.file);
     if (persons.empty()) return;

@@ -9,8 +9,11 @@ namespace clearway::scenario_import::detail {
 
 /// Writes the persons of `demand` who depart in the window into persons.rou.xml of the scenario, by
 /// departure, with their types and with times from its begin, and names the file in `config`. Plans are cut
-/// at the horizon of `config`. Does nothing if nobody walks. Call `take_out_bad_persons` first.
-void add_persons(Import& import, Demand& demand, const roads::Network& network, const Window& window,
+/// at the horizon of `config`. Persons who ride need a vehicle of `demand` that stops where they get on and
+/// then where they get off; `additional` has the places of stops. Reports the vehicles whose passengers are
+/// left out. Call `take_out_bad_persons` first.
+void add_persons(Import& import, Demand& demand, const roads::Network& network,
+                 const std::vector<Element>& additional, const Window& window,
                  scenario::ScenarioConfig& config);
 
 }  // namespace clearway::scenario_import::detail

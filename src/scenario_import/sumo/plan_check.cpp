@@ -97,7 +97,10 @@ class PlanCheck {
         if (auto fault = fault_of_positive(person, "speedFactor")) return fault;
         for (Element& stage : person.children) {
             if (auto fault = fault_of_values(stage)) return fault;
-            if (auto fault = stage.name == "walk" ? settle_walk(stage) : settle_stop(stage)) return fault;
+            if (auto fault = stage.name == "walk"   ? settle_walk(stage)
+                             : stage.name == "ride" ? settle_ride(stage)
+                                                    : settle_stop(stage))
+                return fault;
         }
         return std::nullopt;
     }
@@ -144,6 +147,25 @@ class PlanCheck {
         }
         if (auto fault = fault_of_start(*network_.find_edge(walk.text("from")))) return fault;
         at_ = stop != nullptr ? stop->front() : *network_.find_edge(walk.text("to"));
+        return std::nullopt;
+    }
+
+    /// The ride gets `from` and `to`.
+    Fault settle_ride(Element& ride) {
+        if (!ride.has("from") && at_) ride.set("from", id_of(*at_));
+        if (const char* const kind = named_stop(ride)) {
+            const StopPlaces::Edges* const stop = stops_.find(kind, ride.text(kind));
+            if (stop == nullptr) return no_stop(ride, kind);
+            ride.set("to", id_of(stop->front()));
+        }
+        for (const char* const name : {"from", "to"}) {
+            if (!ride.has(name)) return fmt::format("has a ride without a \"{}\"", name);
+            if (!find_edge(ride.text(name))) return no_edge(ride.text(name));
+        }
+        if (at_ && id_of(*at_) != ride.text("from"))
+            return fmt::format("rides from edge \"{}\" after it came to \"{}\"", ride.text("from"),
+                               id_of(*at_));
+        at_ = find_edge(ride.text("to"));
         return std::nullopt;
     }
 

@@ -27,6 +27,10 @@ bool waits(const Element& stop) {
 
 }  // namespace
 
+bool is_place_of_stops(const std::string& name) {
+    return std::ranges::find(kinds, name) != kinds.end();
+}
+
 void end_waiting(Element& vehicle, LeftOut& left_out) {
     std::erase_if(vehicle.children, [&](Element& stop) {
         if (stop.name != "stop" || !waits(stop)) return false;
@@ -43,7 +47,7 @@ void end_waiting(Element& vehicle, LeftOut& left_out) {
 
 StopEdges::StopEdges(const std::vector<Element>& additional) {
     for (const Element& element : additional)
-        if (std::ranges::find(kinds, element.name) != kinds.end())
+        if (is_place_of_stops(element.name))
             edges_[{element.name, element.text("id")}] = edge_of_lane(element.text("lane"));
 }
 

@@ -15,6 +15,9 @@ namespace clearway::scenario_import::detail {
 /// `until`, because what they wait for may not exist here. Stops with neither are removed.
 void end_waiting(Element& vehicle, LeftOut& left_out);
 
+/// Whether elements of this name are places for the stops of vehicles.
+bool is_place_of_stops(const std::string& name);
+
 /// Edges of the stops that additional files define.
 class StopEdges {
   public:

@@ -26,9 +26,10 @@ const std::string& number_text(const std::string& text) {
 void for_each_open_walk(Element& person, const std::function<void(Element&, const WalkKey&)>& take) {
     std::string position = number_text(person.text("departPos"));
     for (Element& stage : person.children) {
-        if (stage.name != "walk") continue;
+        if (stage.name == "stop") continue;
         const std::string arrival = number_text(stage.text("arrivalPos"));
-        if (stage.has("from")) take(stage, {stage.text("from"), stage.text("to"), position, arrival});
+        if (stage.name == "walk" && stage.has("from"))
+            take(stage, {stage.text("from"), stage.text("to"), position, arrival});
         position = arrival;
     }
 }

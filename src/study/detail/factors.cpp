@@ -204,7 +204,8 @@ std::vector<std::string> scenario_names() {
         for (const core::SettingInfo& row : table.rows)
             names.push_back(row.name);
     }
-    for (const char* const list : {"measured.routes", "measured.additional", "measured.persons"})
+    for (const char* const list :
+         {"network.additional", "measured.routes", "measured.additional", "measured.persons"})
         names.emplace_back(list);
     return names;
 }

@@ -208,9 +208,19 @@ class ApiGateway : public Sumo {
     void add(const Insertion& insertion) override {
         call([&] {
             const std::string route = "clearway:" + insertion.vehicle;
-            api::Route::add(route, insertion.edges);
-            api::Vehicle::add(insertion.vehicle, route, insertion.type, insertion.depart,
-                              insertion.depart_lane, "base", insertion.depart_speed);
+            const auto add_on = [&](const std::string& id, const std::vector<std::string>& edges) {
+                api::Route::add(id, edges);
+                api::Vehicle::add(insertion.vehicle, id, insertion.type, insertion.depart,
+                                  insertion.depart_lane, "base", insertion.depart_speed);
+            };
+            try {
+                add_on(route, insertion.edges);
+            } catch (const ::libsumo::TraCIException&) {
+                const auto way = api::Simulation::findRoute(insertion.edges.front(), insertion.edges.back(),
+                                                            insertion.type);
+                if (way.edges.empty()) throw;
+                add_on(route + ":open", way.edges);
+            }
         });
     }
 

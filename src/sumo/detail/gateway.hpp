@@ -141,6 +141,7 @@ class Sumo {
     virtual bool has_person(const std::string& edge) = 0;
 
     // --- Commands ---
+    /// Where its route is closed, the vehicle takes the fastest open one between the same ends.
     virtual void add(const Insertion& insertion) = 0;
     /// Negative: SUMO decides again.
     virtual void set_speed(const std::string& vehicle, double speed_mps) = 0;
