@@ -1,8 +1,14 @@
 // Cities from the command line: import, check, run, trajectories.
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <stop_token>
+#include <thread>
 
+#include <fcntl.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "scenario_import/town.hpp"
 #include "user.hpp"
@@ -83,6 +89,23 @@ TEST_F(CityTest, a_scenario_of_sumo_is_imported_checked_and_run_with_its_persons
             << name;
     ASSERT_EQ(clearway({"export", "trajectories", "out/town/corridor/0", "--out", "ways"}).code, 0);
     EXPECT_THAT(read("ways/sumo/run.sumocfg"), HasSubstr("emergency.rou.xml,persons.rou.xml"));
+}
+
+/// A pipe that nobody writes into holds up the import for longer than the lines are apart.
+TEST_F(CityTest, an_import_says_every_ten_seconds_that_it_works) {
+    const std::filesystem::path pipe = folder() / "pipe.rou.xml";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    std::jthread writer([&](const std::stop_token& stop) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10'500));
+        while (!stop.stop_requested()) {
+            const int file = ::open(pipe.c_str(), O_WRONLY | O_NONBLOCK);
+            if (file >= 0) ::close(file);
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    });
+    const Ended import = clearway({"scenario", "import", "pipe.rou.xml", "--name", "town"});
+    EXPECT_EQ(import.code, 3);
+    EXPECT_THAT(import.err, AllOf(HasSubstr("import: reading, 0:10 elapsed"), HasSubstr("is empty")));
 }
 
 TEST_F(CityTest, emergency_vehicles_go_round_a_road_that_is_closed_to_them) {

@@ -303,7 +303,8 @@ void write_programs(Import& import, std::vector<Element>& others, const std::fil
 
 /// Without vehicles, what belongs to the network is kept.
 void keep_network(Import& import, const Demand& demand, std::vector<Element>& others, double begin_s,
-                  const std::filesystem::path& network_file, scenario::ScenarioConfig& config) {
+                  scenario::ScenarioConfig& config) {
+    const std::filesystem::path network_file = import.scenario / config.network.file;
     write_programs(import, others, network_file);
     begin_programs_at(begin_s, network_file);
     config.network.additional = write_additional(import, others, demand.types, begin_s);
@@ -347,7 +348,7 @@ bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Networ
         if (demand.names_vehicles) refuse_without_vehicles(import);
         note_places(import, demand, others);
         const double begin_s = import.request.begin_s.value_or(files.begin_s.value_or(0.0));
-        keep_network(import, demand, others, begin_s, network_file, config);
+        keep_network(import, demand, others, begin_s, config);
         return false;
     }
 
@@ -368,7 +369,8 @@ bool add_sumo_demand(Import& import, const SumoFiles& files, const roads::Networ
     note_places(import, demand, others);
     config.measured->additional = write_additional(import, others, demand.types, window.begin_s);
     begin_programs_at(window.begin_s, network_file);
-    add_persons(import, demand, network, others, window, config);
+    check_rides(import, demand, others, window);
+    add_persons(import, demand, network, window, config);
     std::string routes;
     for (RoadUser& vehicle : demand.vehicles)
         routes += vehicle_xml(vehicle, window.begin_s, import.left_out);

@@ -152,9 +152,11 @@ std::vector<Element> DemandReader::with_named(std::vector<Element> elements) con
         }
         if (!types.empty()) element.set("vTypes", fmt::format("{}", fmt::join(types, " ")));
     }
-    const auto others = std::ranges::stable_partition(elements, is_place_of_stops, &Element::name);
+    const auto others = std::stable_partition(elements.begin(), elements.end(), [](const Element& element) {
+        return is_place_of_stops(element.name);
+    });
     const std::vector<Element> routes = routes_of_rerouters(elements);
-    elements.insert(others.begin(), routes.begin(), routes.end());
+    elements.insert(others, routes.begin(), routes.end());
     return elements;
 }
 

@@ -105,21 +105,6 @@ class Rides {
     std::vector<Ride> rides_;
 };
 
-/// Leaves out persons who would wait for a vehicle that does not come, and reports the vehicles that wait
-/// less at stops because passengers are left out.
-void check_rides(const Rides& rides, Demand& demand, Import& import) {
-    std::erase_if(demand.persons, [&](const Person& person) {
-        const auto waits = [&](const Element& stage) { return stage.name == "ride" && !rides.take(stage); };
-        if (std::ranges::none_of(person.element.children, waits)) return false;
-        import.left_out.add("persons whose vehicle does not come in that time", person.id);
-        return true;
-    });
-    if (const std::size_t emptier = rides.count(demand.lines_of_left_out); emptier > 0)
-        import.findings.changes.push_back(fmt::format(
-            "{} vehicles may wait less at stops than in the scenario, because passengers are left out",
-            emptier));
-}
-
 /// The types that are in use.
 std::string types_xml(const Demand& demand, Findings& findings) {
     std::set<std::string> used;
@@ -136,12 +121,26 @@ std::string types_xml(const Demand& demand, Findings& findings) {
 
 }  // namespace
 
-void add_persons(Import& import, Demand& demand, const roads::Network& network,
-                 const std::vector<Element>& additional, const Window& window,
+void check_rides(Import& import, Demand& demand, const std::vector<Element>& additional,
+                 const Window& window) {
+    const Rides rides(demand.vehicles, additional);
+    std::erase_if(demand.persons, [&](const Person& person) {
+        const auto waits = [&](const Element& stage) { return stage.name == "ride" && !rides.take(stage); };
+        if (!window.holds(person.depart_s) || std::ranges::none_of(person.element.children, waits))
+            return false;
+        import.left_out.add("persons whose vehicle does not come in that time", person.id);
+        return true;
+    });
+    if (const std::size_t emptier = rides.count(demand.lines_of_left_out); emptier > 0)
+        import.findings.changes.push_back(fmt::format(
+            "{} vehicles may wait less at stops than in the scenario, because passengers are left out",
+            emptier));
+}
+
+void add_persons(Import& import, Demand& demand, const roads::Network& network, const Window& window,
                  scenario::ScenarioConfig& config) {
     std::vector<Person>& persons = demand.persons;
     keep_window(window, persons, import.findings);
-    check_rides(Rides(demand.vehicles, additional), demand, import);
     trim_plans(persons, window.begin_s + config.time.horizon_s, import);
     find_walks(import, persons, network, import.scenario / config.network.file);
     if (persons.empty()) return;
