@@ -41,7 +41,7 @@ TEST(PartName, resolves_to_an_absolute_file_with_the_hash_of_its_content) {
     EXPECT_EQ(resolved(word, "/elsewhere", "--policy"), word);
     EXPECT_EQ(resolved("corridor", folder.path(), "--policy"), "corridor");
     core::write_atomically(folder.path() / "mine.py", "class Mine: act = 1\n");
-    EXPECT_THROW(resolved(word, folder.path(), "--policy"), core::InputError);
+    EXPECT_THROW(resolved(word, folder.path(), "--policy"), core::ConflictError);
     EXPECT_THROW(resolved("mine.py", folder.path(), "--policy"), core::InputError);
     EXPECT_THROW(resolved("other.py:Mine", folder.path(), "--policy"), core::InputError);
 }
