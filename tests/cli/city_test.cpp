@@ -220,7 +220,8 @@ TEST_F(CityTest, check_says_when_vehicles_drive_one_edge_alone) {
     write_line_scenario("to = \"second\"", "to = \"first\"");
     const Ended ended = clearway({"scenario", "check", "line"});
     EXPECT_EQ(ended.code, 6) << ended.out << ended.err;
-    EXPECT_THAT(ended.out, AllOf(testing::ContainsRegex("short +routes"), testing::ContainsRegex("1 of\\s+1 EV")));
+    EXPECT_THAT(ended.out,
+                AllOf(testing::ContainsRegex("short +routes"), testing::ContainsRegex("1 of\\s+1 EV")));
 }
 
 TEST_F(CityTest, check_of_a_run_that_fails_exits_with_1_and_keeps_the_inputs) {
