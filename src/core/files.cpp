@@ -50,7 +50,7 @@ std::string read_file(const std::filesystem::path& file) {
     const Descriptor source{::open(file.c_str(), O_RDONLY | O_CLOEXEC)};
     if (source.number < 0) fail_to_read(file, errno);
     std::string text;
-    std::array<char, 1 << 16> buffer;
+    std::array<char, 1 << 16> buffer{};
     for (;;) {
         const ssize_t count = ::read(source.number, buffer.data(), buffer.size());
         if (count < 0 && errno == EINTR) continue;
