@@ -215,7 +215,10 @@ class ApiGateway : public Sumo {
             };
             try {
                 add_on(route, insertion.edges);
-            } catch (const ::libsumo::TraCIException&) {
+            } catch (const ::libsumo::TraCIException& refused) {
+                const bool is_closed =
+                    std::string_view(refused.what()).find("no valid route") != std::string_view::npos;
+                if (!is_closed) throw;
                 const auto way = api::Simulation::findRoute(insertion.edges.front(), insertion.edges.back(),
                                                             insertion.type);
                 if (way.edges.empty()) throw;
