@@ -1,0 +1,424 @@
+"""What goes wrong in policies and predictors in Python is told, and ends."""
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+from pathlib import Path
+
+import clearway
+from support import FolderCase, PROGRAMS, program
+
+FAULTS = """
+import os, sys, time
+import numpy as np
+from clearway import Lease, Policy
+class Raises(Policy):
+    def act(self, belief):
+        return 1 / 0
+class Leaves(Policy):
+    def act(self, belief):
+        sys.exit(0)
+class Dies(Policy):
+    def act(self, belief):
+        os.kill(os.getpid(), 9)
+class NotANumber(Policy):
+    def act(self, belief):
+        return [Lease.drive_at(1, float("nan"))]
+class NotALease(Policy):
+    def act(self, belief):
+        return ["hold_green"]
+class Nothing(Policy):
+    def act(self, belief):
+        pass
+class Writes(Policy):
+    def act(self, belief):
+        belief.vehicles.x_m[:] = 0.0
+        return []
+class Gone(Policy):
+    def act(self, belief):
+        return [Lease.drive_at(12345, 10.0, reason="to nobody")]
+class NoSignal(Policy):
+    def act(self, belief):
+        return [Lease.hold_green(77, [99], serves=ev) for ev in belief.emergency_vehicles]
+class Sleeps(Policy):
+    def act(self, belief):
+        time.sleep(1000)
+class Interrupts(Policy):
+    def act(self, belief):
+        raise KeyboardInterrupt
+class Draws(Policy):
+    def act(self, belief):
+        import random
+        raise OSError(f"drawn {random.random()} {np.random.random()} {list({'a', 'b', 'c', 'd', 'e', 'f'})}")
+class Starts(Policy):
+    def __init__(self):
+        import subprocess
+        subprocess.Popen([sys.executable, "-c", "import time; time.sleep(1000)  # clearway._host, for hosts_of"])
+    def act(self, belief):
+        return []
+class NoAct:
+    pass
+class Inherits(Policy):
+    pass
+class OwnFields(Policy):
+    def act(self, belief):
+        return [Lease({"action": "fly"})]
+class TooMuch(Policy):
+    def act(self, belief):
+        return [Lease.hold_lane(1, reason="x" * 1000)] * 80000
+class Important(Policy):
+    def act(self, belief):
+        return [Lease.hold_lane(1, priority=10**30)]
+class Number(Policy):
+    def act(self, belief):
+        return 3
+class WrongShape:
+    def predict(self, observation):
+        return np.zeros(len(observation.pairs[0]) + 1)
+class WrongNumber:
+    def predict(self, observation):
+        return np.full(observation.pairs.shape[1], np.nan)
+"""
+
+
+def hosts_of(folder: Path) -> list[int]:
+    """Processes of parts or workers that were started for this folder."""
+    found = []
+    for process in Path("/proc").glob("[0-9]*"):
+        try:
+            words = (process / "cmdline").read_bytes()
+            place = os.readlink(process / "cwd")
+        except OSError:
+            continue
+        if any(word in words for word in (b"clearway._host", b"clearway._nursery", b"bin/clearway")) and place == str(folder):
+            found.append(int(process.name))
+    return found
+
+
+# What reaches behind the package and answers as it likes.
+RUDE = """
+import json, struct, sys
+import numpy as np
+host = sys.modules.get("clearway._host") or sys.modules["__main__"]
+GOOD = {"action": "hold_lane", "vehicle": 1, "beneficiary": 0, "lasting_s": 2.0, "priority": 0, "reason": "rude"}
+class Rude:
+    answer = [GOOD]
+    def __init__(self):
+        host.checked_leases = lambda answer: answer
+    def act(self, belief):
+        return self.answer
+class Fine(Rude):
+    pass
+class NoList(Rude):
+    answer = {"a": 1}
+class NoAction(Rude):
+    answer = [{**GOOD, "action": "fly"}]
+class NoTarget(Rude):
+    answer = [{name: value for name, value in GOOD.items() if name != "vehicle"}]
+class Fast(Rude):
+    answer = [{**GOOD, "action": "drive_at", "speed_mps": 1e300}]
+class Huge(Rude):
+    answer = [{**GOOD, "priority": 10**12}]
+class Half(Rude):
+    answer = [{**GOOD, "vehicle": 1.5}]
+class Negative(Rude):
+    answer = [{**GOOD, "signal": -1}]
+class ManyLinks(Rude):
+    answer = [{**GOOD, "action": "hold_green", "signal": 0, "links": [70000]}]
+class Unordered(Rude):
+    answer = [{**GOOD, "action": "hold_green", "signal": 0, "links": [2, 1]}]
+class Past(Rude):
+    answer = [{**GOOD, "lasting_s": -5}]
+class Up(Rude):
+    answer = [{**GOOD, "action": "pull_aside", "side": "up"}]
+class NoJson:
+    def act(self, belief):
+        host.json.dumps = lambda *a, **k: "[{"
+        return []
+class Bell:
+    def act(self, belief):
+        host.ANSWER = b"?"
+        return []
+class Outside:
+    def __init__(self):
+        host.Sheet.write = lambda sheet, name, values: struct.pack_into("<2Q", sheet._memory, 0, 2**63, 2**62)
+    def predict(self, observation):
+        return np.zeros(observation.pairs.shape[1])
+class Likely:
+    def __init__(self):
+        host.checked_probabilities = lambda answer, count: answer.astype("f4")
+    def predict(self, observation):
+        return np.full(observation.pairs.shape[1], 7.0)
+class Few:
+    def __init__(self):
+        host.checked_probabilities = lambda answer, count: answer[:-1]
+    def predict(self, observation):
+        return np.zeros(observation.pairs.shape[1])
+"""
+
+
+class FaultTest(FolderCase):
+    def setUp(self) -> None:
+        super().setUp()
+        self.write("bad.py", FAULTS)
+
+    def run_all(self, names: list[str], **arguments: object) -> clearway.Results:
+        conditions = [clearway.Condition(name, policy=f"bad.py:{name}") for name in names]
+        with self.assertWarnsRegex(RuntimeWarning, f"{len(names)} runs failed"):
+            return clearway.run("intersection", conditions, seeds=1, out="runs", **arguments)
+
+    def test_an_exception_is_that_runs_failure_and_the_study_goes_on(self) -> None:
+        says = {"Raises": "ZeroDivisionError: division by zero", "Leaves": "SystemExit: 0", "Dies": "killed by signal 9",
+                "Interrupts": "KeyboardInterrupt",
+                "NotANumber": "speed_mps is nan (allowed: 0 to 200)", "NotALease": "'hold_green' in its list, which is not a",
+                "Nothing": "act returned None", "Writes": "read-only", "OwnFields": "made by its class methods", "Important": "priority is 1000",
+                "TooMuch": "bytes (allowed", "Number": "act returned 3, which is not a list"}
+        results = self.run_all(list(says))
+        for name, message in says.items():
+            failed = results.errors.where(condition=name)
+            (found,) = failed["message"]
+            self.assertIn(message, found)
+            if name != "Dies":
+                self.assertRegex(found.splitlines()[0], r"bad.py: (\w+Error|SystemExit|KeyboardInterrupt)")  # the cause comes first
+                self.assertIn("Traceback", found)
+                if name == "Raises":
+                    self.assertRegex(found.splitlines()[0], r"division by zero \(bad.py, line \d+\)")
+                answered = ("NotALease", "Nothing", "TooMuch", "Number")  # `act` has returned, so that nothing else is on the stack
+                self.assertEqual("_host.py" in found, name in answered, found)
+                self.assertIn("bad.py" if name not in ("Nothing", "TooMuch", "Number") else "act", found)
+        self.assertEqual(set(results.errors["cause"]), {"python"})
+        self.assertEqual(list(results.runs["condition"]), ["baseline"])
+        self.assertEqual(hosts_of(self.folder), [])
+
+    def test_a_signal_that_does_not_exist_is_refused(self) -> None:
+        conditions = [clearway.Condition("no_signal", policy="bad.py:NoSignal"),
+                      clearway.Condition("by_radio", policy="bad.py:NoSignal", failure="perfect,signal_request_propagation=sharp")]
+        refused = clearway.run("intersection", conditions, seeds=1, out="runs").leases
+        for condition in ("no_signal", "by_radio"):
+            self.assertGreater(refused.where(condition=condition, reason="no_such_signal")["leases"].sum(), 0, condition)
+
+    def test_a_file_that_changes_during_a_study_blames_no_run_and_once_restored_the_study_goes_on(self) -> None:
+        text = ("import pathlib\nfrom clearway import Policy\nonce = pathlib.Path('%s')\nclass Moody(Policy):\n"
+                "    def act(self, belief):\n        if not once.exists():\n            once.touch()\n"
+                "            pathlib.Path('%s').write_text('# changed')\n        return []\n")
+        text %= (self.folder / "once", self.folder / "moody.py")
+        file = self.write("moody.py", text)
+        study = ["run", "intersection", "--policy", "moody.py:Moody", "--seeds", "2", "--no-solo", "--jobs", "1", "--out", "runs"]
+        program(*study, code=7)
+        self.assertEqual(list(clearway.open("runs").errors["cause"]), [""])  # missing, not failed
+        file.write_text(text)
+        program(*study)
+        self.assertEqual(clearway.open("runs").runs.row_count, 4)
+
+    def test_an_answer_that_the_package_did_not_check_is_that_runs_failure(self) -> None:
+        self.write("rude.py", RUDE)
+        says = {"NoList": "it is no list", "NoAction": "`fly` is not an action", "NoTarget": "vehicle", "Fast": "speed_mps is 1e+300",
+                "Huge": "priority is 1000000000000, not a whole number", "Half": "vehicle is 1.5", "Negative": "signal is -1",
+                "ManyLinks": "links is 70000", "Unordered": "not in order", "Past": "lasting_s is -5", "Up": "side is `up`",
+                "NoJson": "parse error", "Bell": "answered with byte 63"}
+        predictors = {"Outside": "lies outside the memory", "Likely": "each 0 to 1", "Few": "are not the probabilities of"}
+        conditions = [clearway.Condition(name, policy=f"rude.py:{name}") for name in ("Fine", *says)]
+        conditions += [clearway.Condition(name, policy="corridor", failure="B10", predictor=f"rude.py:{name}") for name in predictors]
+        with self.assertWarnsRegex(RuntimeWarning, f"{len(says) + len(predictors)} runs failed"):
+            results = clearway.run("intersection", conditions, seeds=1, out="runs")
+        for name, message in {**says, **predictors}.items():
+            (found,) = results.errors.where(condition=name)["message"]
+            self.assertIn(message, found)
+            self.assertIn(name, found)
+        self.assertEqual(set(results.errors["cause"]), {"python"})
+        self.assertEqual(set(results.runs["condition"]), {"baseline", "Fine"})
+
+    def test_a_predictor_of_wrong_shape_or_with_nan_fails(self) -> None:
+        conditions = [clearway.Condition(name, policy="corridor", failure="B10", predictor=f"bad.py:{name}")
+                      for name in ("WrongShape", "WrongNumber")]
+        with self.assertWarns(RuntimeWarning):
+            results = clearway.run("intersection", conditions, seeds=1, out="runs")
+        self.assertIn("one number for each of the", results.errors.where(condition="WrongShape")["message"][0])
+        self.assertIn("the probability nan for pair 0 (allowed: 0 to 1)", results.errors.where(condition="WrongNumber")["message"][0])
+
+    def test_links_evaluate_ends_with_the_traceback_of_a_predictor_that_fails(self) -> None:
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "links", "evaluate", "intersection", "--predictor", "bad.py:WrongShape",
+                                "--failure", "B10", "--exits", "known", "--seeds", "1", "--validation-seeds", "1", "--out", "runs"],
+                               capture_output=True, text=True, check=False)
+        self.assertEqual(ended.returncode, 1)
+        self.assertIn("one number for each of the", ended.stderr)
+
+    def test_whatever_is_drawn_without_a_seed_is_drawn_again(self) -> None:
+        drawn = set()
+        for folder in ("one", "two"):
+            with self.assertWarnsRegex(RuntimeWarning, "2 runs failed"):
+                results = clearway.run("intersection", [clearway.Condition("Draws", policy="bad.py:Draws")], seeds=2, out=folder)
+            drawn |= {message.rpartition("drawn")[2] for message in results.errors["message"]}
+        self.assertEqual(len(drawn), 1)
+        self.assertIn("0.844", drawn.pop())  # random.seed(0)
+
+    def test_what_a_policy_starts_ends_with_it(self) -> None:
+        results = clearway.run("intersection", [clearway.Condition("Starts", policy="bad.py:Starts")], seeds=1, out="runs")
+        self.assertEqual(results.errors.row_count, 0)
+        end = time.monotonic() + 5.0
+        while hosts_of(self.folder) and time.monotonic() < end:
+            time.sleep(0.1)
+        self.assertEqual(hosts_of(self.folder), [])
+
+    def test_a_lease_for_a_vehicle_that_is_gone_is_counted(self) -> None:
+        results = clearway.run("intersection", [clearway.Condition("Gone", policy="bad.py:Gone")], seeds=1, out="runs")
+        leases = results.leases.where(policy="Gone", reason="vehicle_gone")
+        self.assertGreater(leases["leases"].sum(), 0)
+
+    def test_what_cannot_be_loaded_is_told_before_anything_runs(self) -> None:
+        self.write("syntax.py", "class Mine(:\n")
+        self.write("raises.py", "raise OSError('no net here')\n")
+        for word, says in (("nowhere.py:Mine", "nowhere.py is not a file"), ("bad.py:Mine", "has no class 'Mine'; it has Raises"),
+                           ("bad.py:Raise", "Did you mean 'Raises'?"), ("bad.py:NoAct", "NoAct has no method act()"),
+                           ("bad.py:Inherits", "Inherits has no method act()"), ("bad.py", "FILE.py:CLASS"),
+                           ("syntax.py:Mine", "SyntaxError"), ("raises.py:Mine", "OSError: no net here")):
+            ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", word, "--out", "runs"],
+                                   capture_output=True, text=True, check=False)
+            self.assertEqual(ended.returncode, 3, ended.stderr)
+            self.assertIn(says, ended.stderr)
+            self.assertFalse(Path("runs").exists())
+
+    def test_another_python_is_told_what_it_lacks(self) -> None:
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "bad.py:Gone", "--out", "runs"],
+                               capture_output=True, text=True, check=False, env={**os.environ, "CLEARWAY_PYTHON": "/no/python"})
+        self.assertEqual(ended.returncode, 3)
+        self.assertIn("exit code 127", ended.stderr)
+        self.assertIn("CLEARWAY_PYTHON", ended.stderr)
+
+    def test_a_python_without_numpy_is_told(self) -> None:
+        subprocess.run([sys.executable, "-m", "venv", "--without-pip", "bare"], check=True)
+        bare = str(self.folder / "bare/bin/python3")
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "bad.py:Gone", "--out", "runs"],
+                               capture_output=True, text=True, check=False, env={**os.environ, "CLEARWAY_PYTHON": bare})
+        self.assertEqual(ended.returncode, 3)
+        self.assertIn(f"clearway needs numpy, which {bare} does not have", ended.stderr)
+
+    def start_sleeping(self) -> subprocess.Popen:
+        return self.started([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "bad.py:Sleeps", "--no-solo", "--seeds", "1",
+                             "--out", "runs"])
+
+    def started(self, words: list[str]) -> subprocess.Popen:
+        process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        end = time.monotonic() + 60.0
+        while time.monotonic() < end and not self.sleeping():
+            time.sleep(0.1)
+        return process
+
+    def sleeping(self) -> bool:
+        """Whether a run (not only the check before it) has asked its part: the nursery has become it."""
+        nurseries = [pid for pid in hosts_of(self.folder) if b"_nursery" in Path(f"/proc/{pid}/cmdline").read_bytes()]
+        return len(nurseries) == 2
+
+    def test_killed_parents_leave_no_process(self) -> None:
+        self.check_kill(self.start_sleeping())
+
+    def test_a_killed_python_leaves_no_study_behind(self) -> None:
+        self.check_kill(self.started([sys.executable, "-c", "import clearway; clearway.run('intersection', [clearway.Condition('mine', "
+                                      "policy='bad.py:Sleeps')], seeds=1, out='runs')"]))
+
+    def check_kill(self, process: subprocess.Popen) -> None:
+        self.assertGreaterEqual(len(hosts_of(self.folder)), 5)  # program, worker, its child, nursery, the part
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        end = time.monotonic() + 20.0
+        while hosts_of(self.folder) and time.monotonic() < end:
+            time.sleep(0.1)
+        self.assertEqual(hosts_of(self.folder), [])
+
+    def test_a_part_that_does_not_answer_ends_with_the_time_limit(self) -> None:
+        program("run", "intersection", "--policy", "bad.py:Sleeps", "--no-solo", "--seeds", "1", "--out", "runs", "--run-time-limit",
+                "20", code=1)
+        self.assertIn("did not end within", clearway.open("runs").errors["message"][0])
+        time.sleep(1.5)
+        self.assertEqual(hosts_of(self.folder), [])
+
+
+# A policy and what runs it, in one file, as one would write it first.
+CLASS = """
+import clearway
+class G(clearway.Policy):
+    def act(self, belief):
+        return []
+"""
+RUN = 'clearway.run("intersection", [clearway.Condition("g", policy=G)], seeds=2)\n'
+CURE = 'below `if __name__ == "__main__":`'
+#: Stands where the program does and writes down each call; ends the fourth, so that a failing test starts no more.
+COUNTING = """#!/bin/sh
+echo "$*" >> '{log}'
+[ $(wc -l < '{log}') -le 3 ] && exec '{program}' "$@"
+echo "started again and again" >&2
+exit 1
+"""
+
+
+class StartedAgainTest(FolderCase):
+    def setUp(self) -> None:
+        super().setUp()
+        (self.folder / "bin").mkdir()
+        (self.folder / "bin/clearway-run").symlink_to(PROGRAMS / "clearway-run")
+        self.write("bin/clearway", COUNTING.format(log=self.folder / "calls", program=PROGRAMS / "clearway")).chmod(0o755)
+
+    def ended(self, *words: str) -> subprocess.CompletedProcess:
+        """Python with these words. ``started`` is then the verb of each call of the program."""
+        (self.folder / "calls").write_text("")
+        ended = subprocess.run([sys.executable, *words], capture_output=True, text=True, check=False, timeout=100,
+                               env={**os.environ, "CLEARWAY_PROGRAMS": str(self.folder / "bin")})
+        self.assertEqual(hosts_of(self.folder), [])
+        self.started = [line.split()[0] for line in (self.folder / "calls").read_text().splitlines()]
+        return ended
+
+    def test_a_file_that_starts_a_study_each_time_it_is_loaded_starts_one(self) -> None:
+        ended = self.ended(str(self.write("mine.py", CLASS + RUN)))
+        self.assertEqual(ended.returncode, 1)
+        self.assertIn(f"{self.folder}/mine.py:G: clearway.run() was called while a run had loaded this part", ended.stderr)
+        self.assertIn(CURE, ended.stderr)
+        self.assertEqual(self.started, ["study"])
+
+    def test_a_file_that_makes_an_environment_each_time_it_is_loaded_makes_one(self) -> None:
+        for call in ("env('intersection', policy=G)", "parallel_env('intersection', policy=G)", "vector_env('intersection', 1, policy=G)"):
+            ended = self.ended(str(self.write("mine.py", f"{CLASS}clearway.{call}\n")))
+            self.assertEqual(ended.returncode, 1)
+            self.assertIn("clearway.env() was called while a run had loaded this part", ended.stderr)
+            self.assertIn(CURE, ended.stderr)
+            self.assertEqual(self.started, ["python"])
+
+    def test_a_study_file_that_names_the_file_that_runs_it_is_run_once(self) -> None:
+        self.write("study.toml", "name = 'own'\nreplications = 1\nscenarios = ['intersection']\n[[condition]]\nname = 'g'\n"
+                                 "policy = 'mine.py:G'\n")
+        ended = self.ended(str(self.write("mine.py", CLASS + "clearway.study('study.toml')\n")))
+        self.assertEqual(ended.returncode, 1)
+        self.assertIn("clearway.study() was called while a run had loaded this part", ended.stderr)
+        self.assertEqual(self.started, ["study"])
+
+    def test_a_process_that_multiprocessing_starts_does_not_start_what_its_parent_did(self) -> None:
+        for call in ("study('none.toml')", "env('none')"):
+            script = self.write("mine.py", f"import multiprocessing, clearway\ntry:\n    clearway.{call}\n"
+                                           "except clearway.ClearwayError as error:\n    print(error, flush=True)\n"
+                                           "if __name__ == '__main__':\n    child = multiprocessing.get_context('spawn').Process(target=int)\n"
+                                           "    child.start()\n    child.join()\n")
+            ended = self.ended(str(script))
+            self.assertEqual(ended.returncode, 0, ended.stderr)
+            first, second = ended.stdout.splitlines()
+            self.assertIn("none", first)
+            self.assertIn("() was called while multiprocessing loaded the main file in a new process", second)
+            self.assertIn(CURE, second)
+            self.assertLessEqual(len(self.started), 1)
+
+    def test_a_class_that_is_in_no_file_is_refused_with_the_cure(self) -> None:
+        for call in (RUN, "clearway.env('intersection', policy=G)"):  # -c, like a notebook's cell, is the main module without a file
+            ended = self.ended("-c", CLASS + call)
+            self.assertEqual(ended.returncode, 1)
+            self.assertIn("InputError: G is not at the top of a file", ended.stderr)
+            self.assertIn("name it my_policy.py:G", ended.stderr)
+            self.assertEqual(self.started, [])
+
+    def test_with_the_guard_it_runs(self) -> None:
+        ended = self.ended(str(self.write("mine.py", f"{CLASS}if __name__ == '__main__':\n    print({RUN.strip()}.runs.row_count)\n")))
+        self.assertEqual((ended.returncode, ended.stdout), (0, "4\n"), ended.stderr)
+        self.assertEqual(self.started.count("study"), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
