@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 
 #include "campaign/detail/run_cost.hpp"
-#include "campaign/detail/work_estimate.hpp"
 #include "campaign/programs.hpp"
 #include "core/files.hpp"
 #include "core/supervisor.hpp"
 #include "experiment/job.hpp"
 #include "study/folder_lock.hpp"
+#include "study/work_estimate.hpp"
 
 namespace clearway::campaign {
 namespace {
@@ -319,7 +319,7 @@ class Workers : private core::TaskList {
     std::vector<int> attempts_;                                   ///< By unit, in this call.
     std::vector<std::chrono::steady_clock::time_point> began_;    ///< By unit: its last attempt.
     std::vector<std::map<std::string, std::size_t>> open_cells_;  ///< By unit: cells of open conditions.
-    WorkEstimate work_;
+    study::WorkEstimate work_;
     Counts settled_;  ///< Runs of the units that no worker is working on.
     StudyProgress progress_;
     std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();

@@ -5,6 +5,7 @@
 
 #include "study/folder_lock.hpp"
 #include "study/shard.hpp"
+#include "study/work_estimate.hpp"
 
 namespace clearway::study {
 namespace {
@@ -57,22 +58,19 @@ std::optional<double> time_left_s(const results::Store& store, const StudyStatus
         note.started_unix_s;
     const std::size_t ended = status.complete + status.failed;
     if (ended <= note.ended_runs || elapsed_s <= 0.0) return std::nullopt;
-    double done_s = 0.0;
-    double open_s = 0.0;
-    std::size_t known = 0;
-    std::size_t unknown = 0;
-    for (const CellStatus& cell : status.cells) {
-        const std::size_t gone = cell.complete + cell.failed;
-        const std::size_t open = cell.runs - std::min(cell.runs, gone);
+    WorkEstimate work(std::vector<double>(status.cells.size(), 1.0));
+    for (std::size_t row = 0; row < status.cells.size(); ++row) {
+        const CellStatus& cell = status.cells[row];
         const std::optional<double> each_s = run_s(store, cell);
-        (each_s ? known : unknown) += each_s ? gone : open;
-        done_s += each_s.value_or(0.0) * static_cast<double>(gone);
-        open_s += each_s.value_or(0.0) * static_cast<double>(open);
+        for (std::size_t run = 0; run < cell.runs; ++run)
+            work.add(row);
+        for (std::size_t run = 0; each_s && run < cell.complete + cell.failed; ++run)
+            work.end(row, *each_s);
     }
-    if (known == 0 || done_s <= 0.0) return std::nullopt;
-    open_s += done_s / static_cast<double>(known) * static_cast<double>(unknown);
-    const double since_s = done_s * static_cast<double>(ended - note.ended_runs) / static_cast<double>(ended);
-    return elapsed_s * open_s / since_s;
+    const double since_s =
+        work.done_s() * static_cast<double>(ended - note.ended_runs) / static_cast<double>(ended);
+    if (since_s <= 0.0) return std::nullopt;
+    return elapsed_s * (work.total_s() - work.done_s()) / since_s;
 }
 
 }  // namespace

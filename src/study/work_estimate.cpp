@@ -1,6 +1,6 @@
-#include "campaign/detail/work_estimate.hpp"
+#include "study/work_estimate.hpp"
 
-namespace clearway::campaign {
+namespace clearway::study {
 
 WorkEstimate::WorkEstimate(std::vector<double> expected_s) {
     for (const double run_s : expected_s)
@@ -31,4 +31,4 @@ double WorkEstimate::total_s() const {
     return sum_s;
 }
 
-}  // namespace clearway::campaign
+}  // namespace clearway::study

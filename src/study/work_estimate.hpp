@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace clearway::campaign {
+namespace clearway::study {
 
 /// How much of the work of a study is done, in wall time of its runs, so that a study whose cheap runs come
 /// first does not promise too early an end. A cell is a scenario under a condition. A run costs what ended
@@ -38,4 +38,4 @@ class WorkEstimate {
     double expected_s_ = 0.0;  ///< Of the same runs.
 };
 
-}  // namespace clearway::campaign
+}  // namespace clearway::study

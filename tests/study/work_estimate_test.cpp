@@ -1,9 +1,9 @@
 // The work of a study by the wall time of its runs.
-#include "campaign/detail/work_estimate.hpp"
+#include "study/work_estimate.hpp"
 
 #include <gtest/gtest.h>
 
-namespace clearway::campaign {
+namespace clearway::study {
 namespace {
 
 constexpr std::size_t cheap = 0;
@@ -35,4 +35,4 @@ TEST(WorkEstimate, what_is_measured_corrects_what_is_expected_elsewhere) {
 }
 
 }  // namespace
-}  // namespace clearway::campaign
+}  // namespace clearway::study
