@@ -19,11 +19,11 @@
 namespace clearway::campaign {
 
 core::Problem unknown_name(const std::string& where, const std::string& name,
-                           const std::vector<std::string>& known, const std::string& table) {
+                           const std::vector<std::string>& known, const std::string& listed_by) {
     constexpr std::size_t most_listed = 40;
     return {where, fmt::format("`{}` is unknown", name),
             known.size() > most_listed ? "" : core::listed(known),
-            core::did_you_mean(name, known, fmt::format("`clearway list{}` describes them", table))};
+            core::did_you_mean(name, known, fmt::format("`{}` describes them", listed_by))};
 }
 
 std::vector<std::string> failure_names() {

@@ -9,9 +9,10 @@
 namespace clearway::campaign {
 
 /// The problem of a `name` at `where` that is not in `known`; lists them, if they are few, and suggests the
-/// nearest. `table` is that of `clearway list` which describes them, with a space before it.
+/// nearest. `listed_by` is the command that describes them.
 core::Problem unknown_name(const std::string& where, const std::string& name,
-                           const std::vector<std::string>& known, const std::string& table = "");
+                           const std::vector<std::string>& known,
+                           const std::string& listed_by = "clearway list");
 
 std::vector<std::string> failure_names();
 

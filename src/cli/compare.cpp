@@ -80,7 +80,7 @@ std::vector<report::Tolerance> check(Arguments& arguments) {
     std::vector<core::Problem> problems;
     for (const std::string& metric : arguments.metrics) {
         if (std::ranges::find(known, metric) == known.end())
-            problems.push_back(campaign::unknown_name("metric", metric, known, " columns"));
+            problems.push_back(campaign::unknown_name("metric", metric, known, "clearway list columns"));
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
     return tolerances;

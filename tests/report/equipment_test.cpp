@@ -230,13 +230,18 @@ TEST(Equipment, IsMappedWithCandidatesAndChosenDrawnApart) {
 TEST(Equipment, HasAPageWithAnswerMapTablesAndCommand) {
     EquipmentFacts facts = two_of_twelve();
     facts.roads = three_roads();
+    facts.attribution = "OpenStreetMap contributors";
     std::ostringstream page;
     write_equipment_page(facts, page);
     const std::string html = page.str();
-    EXPECT_THAT(html, AllOf(HasSubstr("<section id=\"equipment\">"), HasSubstr("<section id=\"candidates\">"),
-                            HasSubstr("id=\"map\""), HasSubstr("id=\"curve\""),
-                            HasSubstr("clearway equip town &lt;&amp;&gt;"),
-                            HasSubstr("12.0 [\u22121.0, 25.0]"), HasSubstr("not shown")));
+    EXPECT_THAT(
+        html,
+        AllOf(HasSubstr("<section id=\"equipment\">"), HasSubstr("<section id=\"candidates\">"),
+              HasSubstr("id=\"map\""), HasSubstr("id=\"curve\""),
+              HasSubstr("clearway equip town &lt;&amp;&gt;"), HasSubstr("12.0 [\u22121.0, 25.0]"),
+              HasSubstr("not shown"), HasSubstr("OpenStreetMap contributors"),
+              testing::ContainsRegex(
+                  "the others lose [^.]* s each \\(not shown\\)|the others lose .* s each \\(shown\\)")));
     EXPECT_THAT(html, Not(HasSubstr("north<&>")));
     EXPECT_THAT(html, Not(HasSubstr("south of the old town&#39;s gate"))) << "long names are cut";
     EXPECT_THAT(html, HasSubstr("south of the old town..."));

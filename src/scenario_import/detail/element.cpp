@@ -53,9 +53,7 @@ class TreeHandler : public core::XmlHandler {
 };
 
 bool is_one_of(std::string_view text, std::initializer_list<std::string_view> words) {
-    std::string lower(text);
-    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
-    return std::ranges::find(words, lower) != words.end();
+    return std::ranges::find(words, lower(text)) != words.end();
 }
 
 }  // namespace
@@ -151,6 +149,12 @@ std::optional<double> time_s(std::string_view text) {
         total = total * (row == 0 ? 1.0 : after_days ? 24.0 : 60.0) + *part;
     }
     return total;
+}
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    std::ranges::transform(result, result.begin(), [](unsigned char c) { return std::tolower(c); });
+    return result;
 }
 
 std::vector<std::string> words(std::string_view text, std::string_view separators) {

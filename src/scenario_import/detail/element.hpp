@@ -55,6 +55,8 @@ bool is_true(std::string_view text);
 bool is_false(std::string_view text);
 /// All of `text` as a finite number.
 std::optional<double> number(std::string_view text);
+/// With small letters in place of the capitals of ASCII.
+std::string lower(std::string_view text);
 /// The non-empty parts of a list, split at any of `separators`.
 std::vector<std::string> words(std::string_view text, std::string_view separators = " \t\r\n");
 

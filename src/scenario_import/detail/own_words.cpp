@@ -1,21 +1,16 @@
 #include "scenario_import/detail/own_words.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <cstring>
 #include <iterator>
 
 #include <fmt/format.h>
 
+#include "scenario_import/detail/element.hpp"
+
 namespace clearway::scenario_import::detail {
 
 namespace {
-
-std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
 
 /// How surely a complaint is about an element: 2 with its name, 1 by its id alone, 0 not at all.
 int match(const std::string& complaint, const NamedElement& element) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "scenario_import/detail/element.hpp"
 #include "scenario_import/detail/packed_file.hpp"
 
 namespace clearway::scenario_import::detail {
@@ -24,12 +24,6 @@ constexpr const char* what_is_read =
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what,
                          const std::string& cure) {
     throw core::InputError(core::Problem{file.string(), what, what_is_read, cure});
-}
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    std::ranges::transform(result, result.begin(), [](unsigned char c) { return std::tolower(c); });
-    return result;
 }
 
 /// The name of the first element, in lower case; `!doctype html` for a web page; empty if there is none.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
 #include "core/files.hpp"
 #include "scenario_import/sumo/stop.hpp"
 #include "scenario_import/sumo/walks.hpp"
@@ -40,16 +41,17 @@ void keep_window(const Window& window, std::vector<Person>& persons, Findings& f
     const std::size_t all = persons.size();
     std::erase_if(persons, [&](const Person& person) { return !window.holds(person.depart_s); });
     if (persons.size() < all)
-        findings.changes.push_back(
-            fmt::format("of {} persons the {} that depart from {:.0f} s to {:.0f} s are taken", all,
-                        persons.size(), window.begin_s, window.end_s()));
+        findings.changes.push_back(fmt::format("of {} the {} that depart from {:.0f} s to {:.0f} s are taken",
+                                               core::counted(all, "person"), persons.size(), window.begin_s,
+                                               window.end_s()));
 }
 
 void trim_plans(std::vector<Person>& persons, double end_s, Import& import) {
     const auto trimmed = std::ranges::count_if(persons, [&](Person& person) { return trim(person, end_s); });
     if (trimmed > 0)
-        import.findings.changes.push_back(fmt::format(
-            "the plans of {} persons end with the last walk or ride that a run can see", trimmed));
+        import.findings.changes.push_back(
+            fmt::format("the plans of {} end with the last walk or ride that a run can see",
+                        core::counted(static_cast<std::size_t>(trimmed), "person")));
     std::erase_if(persons, [&](const Person& person) {
         if (!person.element.children.empty()) return false;
         import.left_out.add("persons who depart after the end of a run", person.id);
@@ -132,9 +134,9 @@ void check_rides(Import& import, Demand& demand, const std::vector<Element>& add
         return true;
     });
     if (const std::size_t emptier = rides.count(demand.lines_of_left_out); emptier > 0)
-        import.findings.changes.push_back(fmt::format(
-            "{} vehicles may wait less at stops than in the scenario, because passengers are left out",
-            emptier));
+        import.findings.changes.push_back(
+            fmt::format("{} may wait less at stops than in the scenario, because passengers are left out",
+                        core::counted(emptier, "vehicle")));
 }
 
 void add_persons(Import& import, Demand& demand, const roads::Network& network, const Window& window,
