@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace clearway::core {
 
 namespace {
@@ -19,6 +21,12 @@ bool is_folder_name(std::string_view name) {
     const auto is_allowed = [](char letter) { return is_plain(letter) || letter == '+' || letter == '='; };
     return !name.empty() && name.size() <= longest && name.front() != '.' &&
            std::ranges::all_of(name, is_allowed);
+}
+
+void check_folder_name(const std::string& where, const std::string& name, std::vector<Problem>& problems) {
+    if (is_folder_name(name)) return;
+    problems.push_back({where, fmt::format("\"{}\" cannot be the name of a folder", name),
+                        "1 to 100 letters, digits and _ - . + =, not starting with '.'", "Rename it"});
 }
 
 std::string as_folder_name(std::string text) {

@@ -2,6 +2,9 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
 
 namespace clearway::core {
 
@@ -14,7 +17,8 @@ bool is_folder_name(std::string_view name);
 /// separate fields in names.
 std::string as_folder_name(std::string text);
 
-/// The rule in words, for messages.
-constexpr const char* folder_name_rule = "1 to 100 letters, digits and _ - . + =, not starting with '.'";
+/// Adds a problem at `where` unless `name` is a folder name. Every name that becomes part of a path passes
+/// this check where it is read, so that no folder of others leads out of the one that is written.
+void check_folder_name(const std::string& where, const std::string& name, std::vector<Problem>& problems);
 
 }  // namespace clearway::core

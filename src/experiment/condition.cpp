@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/folder_name.hpp"
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
 #include "python/part_name.hpp"
@@ -49,6 +50,7 @@ ConditionSpec condition_from(const core::Json& object, const std::string& where,
     ConditionSpec condition;
     core::ObjectReader reader(object, where, problems);
     reader.read("name", condition.name);
+    core::check_folder_name(where + ": name", condition.name, problems);
     reader.read_fields(condition);
     reader.read("policies", condition.policies);
     reader.read_if_there("settings", condition.settings);

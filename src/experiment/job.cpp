@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "core/folder_name.hpp"
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
 
@@ -49,6 +50,8 @@ template <class Table, class Value>
 void read_table(const Source& source, ObjectReader& reader, Value& value) {
     const std::size_t before = source.problems.size();
     reader.read_fields<Table>(value);
+    if constexpr (std::is_same_v<Table, Simulation>)
+        core::check_folder_name(source.where + ": scenario", value.scenario, source.problems);
     if (source.problems.size() == before) check_ranges<Table>(source, value);
 }
 

@@ -51,7 +51,8 @@ std::string to_text(const PartName& name) {
 std::string resolved(const std::string& word, const std::filesystem::path& folder, const std::string& where) {
     std::optional<PartName> name = part_name_from(word);
     if (!name) return word;
-    if (name->object.empty() && !is_torch_script(name->file.string()))
+    const bool is_nameless = name->object.empty() && !is_torch_script(name->file.string());
+    if (is_nameless || name->object.find('/') != std::string::npos)
         throw core::InputError({where, fmt::format("`{}` does not name a class", word), "FILE.py:CLASS",
                                 "Add a colon and the class"});
     if (name->file.is_relative()) name->file = folder / name->file;

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/folder_name.hpp"
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
 
@@ -79,6 +80,7 @@ ScenarioEntry scenario_from(const core::Json& object, const std::string& where,
     core::ObjectReader reader(object, where, problems);
     reader.read_fields(scenario);
     reader.read_if_there("factors", scenario.factors);
+    core::check_folder_name(where + ": name", scenario.name, problems);
     return scenario;
 }
 
@@ -164,6 +166,7 @@ Manifest manifest_from_json(const std::string& text, const std::string& where) {
     std::vector<core::Problem> problems;
     core::ObjectReader reader(object, where, problems);
     reader.read("study", manifest.study);
+    core::check_folder_name(where + ": study", manifest.study, problems);
     reader.read("clearway_version", manifest.clearway_version);
     reader.read("clearway_build", manifest.clearway_build);
     reader.read("sumo_version", manifest.sumo_version);

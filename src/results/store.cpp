@@ -89,6 +89,13 @@ void require_same(const fs::path& file, const std::string& content, const experi
                     file.string(), to_text(key)));
 }
 
+/// Throws core::InputError when a file holds another run than its place says.
+void require_key(const experiment::RunKey& held, const experiment::RunKey& key, const fs::path& file) {
+    if (held == key) return;
+    throw core::InputError({file.string(), "is of run " + to_text(held), to_text(key),
+                            "Repeat the command that made the study (command.txt)"});
+}
+
 /// Throws core::InputError, naming what differs, if a folder's study cannot be extended to the wanted one.
 void require_continues(const Manifest& wanted, const Manifest& stored, const fs::path& folder) {
     if (continues(wanted, stored)) return;
@@ -299,8 +306,7 @@ RunRecord Store::read_checked(const experiment::RunKey& key, std::string& vehicl
     const std::string file = (folder / "run.json").string();
     vehicles = core::read_file(folder / "vehicles.csv");
     RunRecord record = detail::run_from_json(core::read_file(file), vehicles, file);
-    if (record.key != key)
-        throw core::InputError({file, "is of run " + to_text(record.key), to_text(key), ""});
+    require_key(record.key, key, file);
     return record;
 }
 
@@ -380,7 +386,9 @@ std::optional<RunTiming> Store::read_timing(const experiment::RunKey& key) const
 std::optional<RunError> Store::read_error(const experiment::RunKey& key) const {
     const fs::path file = error_file(key);
     if (!fs::exists(file)) return std::nullopt;
-    return detail::error_from_json(core::read_file(file), file.string());
+    RunError error = detail::error_from_json(core::read_file(file), file.string());
+    require_key(error.key, key, file);
+    return error;
 }
 
 void Store::forget_error(const experiment::RunKey& key) const {

@@ -209,9 +209,9 @@ void init(const std::filesystem::path& folder, const std::string& from) {
         throw core::InputError(core::Problem{folder.string(), "exists and is not an empty folder",
                                              "a new or an empty folder", "choose another name"});
     const std::filesystem::path named = folder.has_filename() ? folder : folder.parent_path();
-    if (!core::is_folder_name(named.filename().string()))
-        throw core::InputError(core::Problem{folder.string(), "cannot be the name of a scenario",
-                                             core::folder_name_rule, "Choose another name"});
+    std::vector<core::Problem> problems;
+    core::check_folder_name(folder.string(), named.filename().string(), problems);
+    if (!problems.empty()) throw core::InputError(std::move(problems));
     const std::filesystem::path source = detail::scenario_file(from);
     const ScenarioConfig config = load(from);
     const std::string text = core::read_file(source);

@@ -50,11 +50,9 @@ struct Sources {
 };
 
 void check_folder(const std::filesystem::path& folder) {
-    const std::string name = folder.filename().string();
-    if (!core::is_folder_name(name))
-        throw core::InputError(core::Problem{"--name",
-                                             fmt::format("\"{}\" is not a valid scenario name", name),
-                                             core::folder_name_rule, "choose another name"});
+    std::vector<core::Problem> problems;
+    core::check_folder_name("--name", folder.filename().string(), problems);
+    if (!problems.empty()) throw core::InputError(std::move(problems));
     if (folder.string().find(',') != std::string::npos)
         throw core::InputError(
             core::Problem{folder.string(),

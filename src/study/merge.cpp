@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/plain_files.hpp"
 #include "study/folder_lock.hpp"
 #include "study/shard.hpp"
 
@@ -18,6 +19,17 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t named_missing = 10;
+
+/// Everything that a merge reads of a run folder is a file or a folder.
+void require_plain(const fs::path& folder) {
+    for (const char* const part :
+         {"manifest.json", ".shard", "command.txt", "scenarios", "training", "runs", "errors", "recordings"})
+        core::require_plain_files(folder / part);
+}
+
+bool is_run_folder(const fs::path& folder) {
+    return fs::exists(fs::symlink_status(folder / "manifest.json"));
+}
 
 void require_same_study(const results::Store& first, const results::Store& other) {
     const std::string differing = results::differences(first.manifest(), other.manifest());
@@ -120,12 +132,12 @@ std::vector<experiment::RunKey> first_missing(const results::Store& store) {
 }  // namespace
 
 std::vector<fs::path> run_folders(const fs::path& path) {
-    if (fs::exists(path / "manifest.json")) return {path};
+    if (is_run_folder(path)) return {path};
     std::vector<fs::path> folders;
     std::error_code none;
     for (auto entry = fs::directory_iterator(path / "shards", none);
          !none && entry != fs::directory_iterator(); entry.increment(none)) {
-        if (fs::exists(entry->path() / "manifest.json")) folders.push_back(entry->path());
+        if (is_run_folder(entry->path())) folders.push_back(entry->path());
     }
     std::ranges::sort(folders);
     if (folders.empty())
@@ -139,6 +151,7 @@ MergeResult merge(const std::vector<fs::path>& sources, const fs::path& out,
     std::vector<fs::path> folders;
     for (const fs::path& source : sources)
         std::ranges::copy(run_folders(source), std::back_inserter(folders));
+    std::ranges::for_each(folders, require_plain);
     const results::Store first = results::Store::open(folders.front());
     for (const fs::path& folder : folders)
         require_same_study(first, results::Store::open(folder));

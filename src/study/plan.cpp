@@ -26,9 +26,7 @@ constexpr const char* scenario_file_name = "scenario.toml";
 
 void check_name(const std::string& what, const std::string& name, std::set<std::string>& seen,
                 std::vector<core::Problem>& problems) {
-    if (!core::is_folder_name(name))
-        problems.push_back({what, fmt::format("\"{}\" cannot be the name of a folder", name),
-                            core::folder_name_rule, "Rename it"});
+    core::check_folder_name(what, name, problems);
     if (!seen.insert(name).second)
         problems.push_back({what, fmt::format("\"{}\" is used twice", name), "each name once", "Rename one"});
 }

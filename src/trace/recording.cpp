@@ -9,6 +9,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/folder_name.hpp"
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
 #include "experiment/settings.hpp"
@@ -43,6 +44,8 @@ RecordingInfo info_from(const core::Json& object, const std::string& where) {
     using Type = core::Json::value_t;
     reader.read("scenario", info.key.scenario);
     reader.read("condition", info.key.condition);
+    core::check_folder_name(where + ": scenario", info.key.scenario, problems);
+    core::check_folder_name(where + ": condition", info.key.condition, problems);
     reader.read("replication", info.key.replication);
     info.condition =
         experiment::condition_from(reader.child("condition_spec", Type::object), where, problems);

@@ -375,5 +375,27 @@ TEST_F(BadInputTest, a_published_data_set_is_one_snapshot) {
     EXPECT_FALSE(std::filesystem::exists(folder() / "data"));
 }
 
+TEST_F(BadInputTest, a_scenario_whose_name_leads_out_of_the_folder_is_refused_by_every_verb) {
+    write_line_scenario("name = \"line\"", "name = \"../../../OUTSIDE\"");
+    write("my.toml", "scenarios = [\"./line\"]\nconditions = [\"baseline\"]\n");
+    const std::vector<std::vector<std::string>> commands = {
+        {"run", "line", "--seeds", "1", "--no-solo"},
+        {"study", "my.toml"},
+        {"links", "dataset", "line", "--samples"},
+        {"links", "evaluate", "line", "--predictor", "last_seen"},
+        {"equip", "line", "--budget", "1"}};
+    for (std::vector<std::string> words : commands) {
+        const std::string named = words[0] + " " + words[1];
+        words.insert(words.end(), {"--out", "a/b/c/out"});
+        const Ended ended = clearway(words);
+        EXPECT_EQ(ended.code, 3) << named;
+        EXPECT_THAT(ended.err, AllOf(HasSubstr("line/scenario.toml:1:1: name"),
+                                     HasSubstr("\"../../../OUTSIDE\" cannot be the name of a folder"),
+                                     HasSubstr("allowed: 1 to 100 letters")))
+            << named;
+        EXPECT_FALSE(std::filesystem::exists(folder() / "a" / "OUTSIDE")) << named;
+    }
+}
+
 }  // namespace
 }  // namespace clearway::cli

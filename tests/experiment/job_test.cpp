@@ -32,7 +32,9 @@ RunJob run_job() {
     condition.model_file = "/models/net.weights";
     condition.model_hash = "00ff";
     condition.bluelight = traffic::BlueLight::on;
-    job.conditions = {condition, ConditionSpec{}};
+    ConditionSpec plain;
+    plain.name = "plain";
+    job.conditions = {condition, plain};
     job.limits = {.wall_s = 12.5, .memory_mib = 300};
     job.output = "/out";
     return job;
@@ -154,6 +156,20 @@ TEST_F(JobTest, RefusesNumbersOutOfRangeAndWordsThatAreNotKnown) {
     text.replace(text.find("repair"), 6, "unread");
     EXPECT_THAT(complaint(text),
                 AllOf(HasSubstr("\"unread\" is not known"), HasSubstr("published, samples")));
+}
+
+TEST_F(JobTest, RefusesNamesThatLeadOutOfAFolder) {
+    RunJob run = run_job();
+    run.scenario = "../escaped";
+    EXPECT_THAT(complaint(to_json(run)),
+                HasSubstr("scenario: \"../escaped\" cannot be the name of a folder"));
+    run = run_job();
+    run.conditions.front().name = "../escaped";
+    EXPECT_THAT(complaint(to_json(run)),
+                HasSubstr("conditions: name: \"../escaped\" cannot be the name of a folder"));
+    DatasetJob dataset = dataset_job();
+    dataset.scenario = "../escaped";
+    EXPECT_THAT(complaint(to_json(dataset)), HasSubstr("cannot be the name of a folder"));
 }
 
 }  // namespace

@@ -48,5 +48,27 @@ TEST(Manifest, IsRefusedWhenEditedOrOfAnotherFormat) {
     }
 }
 
+TEST(Manifest, IsRefusedWhenANameLeadsOutOfItsFolder) {
+    for (const char* const name : {"../../escaped", "/tmp/escaped", "..", "a/b", ""}) {
+        Manifest study = synthetic::manifest();
+        study.study = name;
+        Manifest scenario = synthetic::manifest();
+        scenario.scenarios[1].name = name;
+        Manifest condition = synthetic::manifest();
+        condition.conditions[1].name = name;
+        for (const auto& [manifest, where] :
+             {std::pair(study, "m.json: study: "), std::pair(scenario, "m.json: scenarios: name: "),
+              std::pair(condition, "m.json: conditions: name: ")}) {
+            try {
+                manifest_from_json(to_json(manifest), "m.json");
+                ADD_FAILURE() << where << name;
+            } catch (const core::InputError& error) {
+                EXPECT_THAT(error.what(), testing::HasSubstr(where + ('"' + std::string(name)) +
+                                                             "\" cannot be the name of a folder (allowed: "));
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace clearway::results

@@ -64,6 +64,7 @@ TEST_F(RunName, LeadsToItsRecording) {
     const auto record = [&](const experiment::RunKey& held) {
         trace::RecordingInfo info;
         info.key = held;
+        info.condition.name = held.condition;
         trace::RecordingWriter(file, info).finish();
     };
     record({"alpha", "baseline", 1});

@@ -181,6 +181,22 @@ TEST_F(StoreOfAStudy, SetsADamagedFailureAside) {
     EXPECT_TRUE(std::filesystem::exists(moved[0].place / "error.json"));
 }
 
+TEST_F(StoreOfAStudy, RefusesAFailureOfAnotherRunThanItsPlaceSays) {
+    store_.write(error(treated));
+    const std::filesystem::path file = store_.folder() / "errors" / "alpha" / "baseline" / "00001.json";
+    std::string text = core::read_file(file);
+    text.replace(text.find("\"alpha\""), 7, "\"../../../escaped\"");
+    core::write_atomically(file, text);
+    try {
+        store_.read_error(treated);
+        FAIL();
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr(file.string()),
+                                                 testing::HasSubstr("../../../escaped/baseline/1"),
+                                                 testing::HasSubstr("allowed: alpha/baseline/1")));
+    }
+}
+
 TEST_F(StoreOfAStudy, RemembersAFailureUntilTheRunSucceeds) {
     store_.write(error(treated));
     EXPECT_EQ(*store_.read_error(treated), error(treated));

@@ -244,6 +244,18 @@ TEST_F(Config, path_out_of_the_folder_is_refused) {
     EXPECT_THAT(problems[0].what, HasSubstr("leaves the scenario's folder"));
 }
 
+TEST_F(Config, name_out_of_the_folder_is_refused) {
+    for (const char* const name : {"../../../OUTSIDE", "/tmp/OUTSIDE", "..", "a/b", "two words"}) {
+        std::string text = line_head;
+        text.replace(text.find("name = \"") + 8, text.find('"', text.find("name = \"") + 8) - 8, name);
+        const auto problems = problems_of([&] { load(write("scenario.toml", text).string()); });
+        ASSERT_EQ(problems.size(), 1U) << name;
+        EXPECT_THAT(problems[0].where, EndsWith("scenario.toml:1:1: name"));
+        EXPECT_THAT(problems[0].what, HasSubstr(std::string(name) + "\" cannot be the name of a folder"));
+        EXPECT_THAT(problems[0].allowed, HasSubstr("letters, digits"));
+    }
+}
+
 TEST_F(Config, shares_must_add_up) {
     const core::Problem problem = only_problem("[[flow]]\nfrom = \"first\"\nto = \"second\"\nshare = 0.9\n");
     EXPECT_THAT(problem.where, HasSubstr(":9:1: flow[0].share"));

@@ -121,7 +121,7 @@ TEST_F(BadMap, a_bomb) {
 TEST_F(BadMap, a_name_that_is_taken_or_none) {
     const auto map = write("town.osm", town_map());
     for (const char* const name : {".hidden", "a,b", "line\nbreak", "Köln Süd", "a\"b"})
-        EXPECT_THAT(refusal(request({map}, name)), HasSubstr("is not a valid scenario name"));
+        EXPECT_THAT(refusal(request({map}, name)), HasSubstr("cannot be the name of a folder"));
     std::filesystem::create_directories(out() / "town");
     EXPECT_THROW(run(request({map})), core::InputError);
     EXPECT_TRUE(std::filesystem::is_empty(out() / "town"));

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -236,6 +237,49 @@ TEST_F(Status, SeesWhoWorksThereFromAnotherProcessAndWhenHeIsDead) {
     EXPECT_EQ(read_status(place("out")).state, State::stopped);
     close(ready[0]);
     close(ready[1]);
+}
+
+TEST_F(Merge, RefusesAShardWhoseNamesLeadOutOfTheFolder) {
+    store("a");
+    results::Manifest manifest = results::synthetic::manifest(merged_replications);
+    manifest.scenarios[0].name = "../../escaped";
+    core::write_atomically(place("a") / "manifest.json", results::to_json(manifest));
+    std::filesystem::create_directories(place("a") / "scenarios");
+    std::filesystem::create_directories(place("escaped"));
+    core::write_atomically(place("escaped") / "network.svg", "<svg/>");
+    EXPECT_THROW(merge_into("below/out", {place("a")}), core::InputError);
+    EXPECT_FALSE(std::filesystem::exists(place("below")));
+}
+
+TEST_F(Merge, RefusesByNameWhatIsNeitherFileNorFolderInAShard) {
+    const auto refusal_of = [&](const std::string& name) {
+        std::string said;
+        try {
+            merge_into("out", {place("a")});
+        } catch (const core::InputError& error) {
+            said = error.what();
+        }
+        EXPECT_THAT(said, HasSubstr((place("a") / name).string() + ": is "));
+        EXPECT_FALSE(std::filesystem::exists(place("out")));
+        std::filesystem::remove(place("a") / name);
+        return said;
+    };
+    divided(1, "shard");
+    std::filesystem::rename(place("shard1"), place("a"));
+    core::write_atomically(place("secret"), "of another user");
+    std::filesystem::create_directories(place("a") / "training" / "net");
+    for (const char* const name :
+         {"command.txt", "runs/alpha/baseline/00000/more.txt", "training/net/losses.csv"}) {
+        std::filesystem::create_symlink(place("secret"), place("a") / name);
+        EXPECT_THAT(refusal_of(name), HasSubstr("is a symbolic link (allowed: files and folders)"));
+        std::filesystem::create_directory_symlink("..", place("a") / name);
+        EXPECT_THAT(refusal_of(name), HasSubstr("is a symbolic link"));
+        ASSERT_EQ(mkfifo((place("a") / name).c_str(), 0600), 0);
+        EXPECT_THAT(refusal_of(name), HasSubstr("is neither a file nor a folder"));
+    }
+    std::filesystem::remove(place("a") / "manifest.json");
+    std::filesystem::create_symlink("manifest.json", place("a") / "manifest.json");
+    EXPECT_THAT(refusal_of("manifest.json"), HasSubstr("is a symbolic link"));
 }
 
 }  // namespace

@@ -82,6 +82,7 @@ TEST_F(PlannedStudy, ReadsItsComparisons) {
 
 TEST_F(PlannedStudy, KeepsThePlanInTheManifest) {
     results::Manifest manifest;
+    manifest.study = "mine";
     manifest.plan = read(std::string(study_text) + plan_text).plan;
     const results::Manifest same = results::manifest_from_json(results::to_json(manifest), "manifest.json");
     EXPECT_EQ(same.plan, manifest.plan);

@@ -91,9 +91,10 @@ void expect_same(const trace::RecordedStep& one, const trace::RecordedStep& othe
 
 class Recording : public testing::Test {
   protected:
-    std::filesystem::path record(const std::string& name, int steps, unsigned seed = 1) const {
+    std::filesystem::path record(const std::string& name, int steps, unsigned seed = 1,
+                                 const trace::RecordingInfo& info = RandomRun::info()) const {
         const std::filesystem::path file = folder_.path() / name;
-        trace::RecordingWriter writer(file, RandomRun::info());
+        trace::RecordingWriter writer(file, info);
         RandomRun run(seed);
         for (int step = 0; step < steps; ++step)
             writer.write(run.next());
@@ -276,6 +277,17 @@ TEST_F(Recording, ThatDoesNotFitOnTheDiskLeavesNothing) {
     setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
     EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+TEST_F(Recording, is_refused_when_a_name_leads_out_of_a_folder) {
+    trace::RecordingInfo info = RandomRun::info();
+    info.key.scenario = "../../escaped";
+    EXPECT_THAT(problem_of(record("scenario.h5", 1, 1, info)),
+                HasSubstr("scenario: \"../../escaped\" cannot be the name of a folder"));
+    info = RandomRun::info();
+    info.key.condition = "a/b";
+    EXPECT_THAT(problem_of(record("condition.h5", 1, 1, info)),
+                HasSubstr("condition: \"a/b\" cannot be the name of a folder"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/folder_name.hpp"
 #include "scenario/preemption.hpp"
 #include "traffic/vehicle.hpp"
 
@@ -253,6 +254,7 @@ void check_drivers(const ScenarioConfig& config, Problems& problems) {
 
 void check(const ScenarioConfig& config, Problems& problems) {
     require_text(config, "name", config.name, problems);
+    if (!config.name.empty()) core::check_folder_name(config.where("name"), config.name, problems);
     require_text(config, "version", config.version, problems);
     check_network(config, problems);
     check_time(config, problems);
