@@ -43,14 +43,23 @@ def clean_commit(check):
 
 def base(check):
     """The commit to compare with, or None: CLEARWAY_BASE, else where this branch left origin/main, else the last commit below
-    this one that the check found clean on this machine, else the commit before."""
+    this one that the check found clean on this machine, else the commit before. This commit itself, where the branch has not
+    left it and files differ from it."""
+    chosen = os.environ.get("CLEARWAY_BASE")
+    if chosen:
+        found = git("rev-parse", "--verify", "--quiet", f"{chosen}^{{commit}}")
+        if not found:
+            sys.exit(f"{check}: CLEARWAY_BASE={chosen} is no commit of this repository (allowed: what git rev-parse knows). "
+                     "Correct or unset it")
+        return found[0]
     here = git("rev-parse", "HEAD")
-    candidates = [os.environ.get("CLEARWAY_BASE"), *(git("merge-base", "HEAD", "origin/main") or [])]
+    candidates = git("merge-base", "HEAD", "origin/main") or []
     if clean_commit(check).exists():
         candidates += git("merge-base", "HEAD", clean_commit(check).read_text().strip()) or []
+    committed = not git("status", "--porcelain")
     for commit in [*candidates, "HEAD~1"]:
-        found = commit and git("rev-parse", "--verify", "--quiet", f"{commit}^{{commit}}")
-        if found and found != here:
+        found = git("rev-parse", "--verify", "--quiet", f"{commit}^{{commit}}")
+        if found and (found != here or not committed):
             return found[0]
     return None
 

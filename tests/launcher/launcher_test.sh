@@ -359,6 +359,15 @@ test_command_returns_the_verdict_of_ctest() {
     ((code != 0)) || fail 'no test ran, and that passed'
 }
 
+test_command_explains_itself_without_building() {
+    make_tree "$work/tree"
+    run "$tree/test" --help
+    expect_equal "$code" 0
+    expect_line "$work/out" '^Everything that must pass: ./test'
+    expect_no_line "$work/out" 'set -euo|^#'
+    expect_builds 0
+}
+
 test_command_checks_the_format() {
     make_tree "$work/tree"
     printf 'int main( )  {return 0;}\n' >"$tree/src/ugly.cpp"

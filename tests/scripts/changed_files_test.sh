@@ -85,6 +85,18 @@ only_what_differs_from_the_base_is_looked_at() {
     CLEARWAY_BASE=HEAD~2 check --changed
     expect 1 'check-alone: 2 files, 1 known to be clean, 1 with findings'
     CLEARWAY_BASE=HEAD check --changed
+    expect 0 'check-alone: 0 files'
+    CLEARWAY_BASE=nowhere check --changed
+    expect 1 'CLEARWAY_BASE=nowhere is no commit of this repository'
+}
+
+# A branch that has not left origin/main is compared with itself while files differ.
+what_is_not_committed_is_compared_with_this_commit() {
+    echo '// more' >>"$tree/src/part/second.cpp"
+    commit 'more'
+    git -C "$tree" update-ref refs/remotes/origin/main HEAD
+    echo '// more' >>"$tree/src/part/first.cpp"
+    check --changed
     expect 0 'check-alone: 1 files'
 }
 
