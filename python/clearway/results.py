@@ -46,16 +46,23 @@ class Table(Mapping[str, np.ndarray]):
         return iter(self._columns)
 
     def __len__(self) -> int:
-        return len(self._columns)
+        """Rows, as in pandas; iterating yields the columns."""
+        return self.row_count
 
     def where(self, **values: Any) -> "Table":
-        """The rows whose columns have these values: ``runs.where(scenario="city", condition="corridor")``."""
+        """The rows whose columns have these values: ``runs.where(scenario="city", condition="corridor")``. Raises InputError for
+        a scenario or condition that no row has.
+        """
         chosen = np.ones(self.row_count, dtype=bool)
         for column, value in values.items():
             array = self[column]
             if np.ndim(value) != 0 or isinstance(value, str) != (array.dtype.kind == "U"):
                 kind = "a text" if array.dtype.kind == "U" else "a number"
                 raise _program.InputError(f"column {column!r} is compared with {value!r} (allowed: {kind})")
+            if column in ("scenario", "condition") and self.row_count and not np.any(array == value):
+                there = sorted(set(array))
+                raise _program.InputError(f"no row has the {column} {value!r}; there are {', '.join(there)}"
+                                          f"{_program.did_you_mean(value, there)}")
             chosen &= array == value
         return Table({name: array[chosen] for name, array in self._columns.items()})
 
@@ -84,7 +91,7 @@ class Table(Mapping[str, np.ndarray]):
         shown = self.head(SHOWN_ROWS)
         rows = zip(*([_cell(value) for value in array] for array in shown.values()))
         return (f"<table><thead>{row('th', self)}</thead><tbody>{''.join(row('td', one) for one in rows)}</tbody></table>"
-                f"<p>{_program.counted(self.row_count, 'row')}, {_program.counted(len(self), 'column')}"
+                f"<p>{_program.counted(self.row_count, 'row')}, {_program.counted(len(self._columns), 'column')}"
                 f"{f'; the first {SHOWN_ROWS} rows are shown' if self.row_count > SHOWN_ROWS else ''}</p>")
 
 
@@ -204,24 +211,26 @@ class Results:
         from .recording import Recording
         return Recording(self.folder / "recordings" / scenario / condition / f"{replication:05d}.h5")
 
-    def paired_difference(self, metric: str, condition: str, scenario: str | None = None) -> Difference:
+    def paired_difference(self, metric: str, condition: str, scenario: str | None = None, against: str | None = None) -> Difference:
         """The paired difference of a condition and its baseline, with the console's intervals (the program works it out).
 
-        ``metric`` is a column of ``runs``, ``scenario`` may be left out where there is one. Raises InputError for names that the
-        folder does not have.
+        ``metric`` is a column of ``runs``, ``scenario`` may be left out where there is one, ``against`` names another condition
+        in place of the baseline. Raises InputError for names that the folder does not have.
         """
-        found = [one for one in self.paired_differences(metric) if one.condition == condition]
+        there = self.paired_differences(metric, against)
+        found = [one for one in there if one.condition == condition]
         if scenario is not None:
             found = [one for one in found if one.scenario == scenario]
         if len(found) == 1:
             return found[0]
-        compared = ", ".join(f"{one.scenario}/{one.condition}" for one in self.paired_differences(metric))
-        what = "several scenarios have it: name one" if found else "is not compared with a baseline here"
+        compared = ", ".join(f"{one.scenario}/{one.condition}" for one in there)
+        what = "several scenarios have it: name one" if found else f"is not compared with {against or 'a baseline'} here"
         raise _program.InputError(f"condition {condition!r}: {what}; there are {compared}")
 
-    def paired_differences(self, metric: str) -> list[Difference]:
-        """All conditions of the folder against their baselines."""
-        rows = _program.call_json(["compare", str(self.folder.absolute()), "--metric", str(metric)])["comparisons"]
+    def paired_differences(self, metric: str, against: str | None = None) -> list[Difference]:
+        """All conditions of the folder against their baselines, or against the condition ``against``."""
+        chosen = [] if against is None else ["--against", against]
+        rows = _program.call_json(["compare", str(self.folder.absolute()), "--metric", str(metric), *chosen])["comparisons"]
         differences = []
         for row in rows:
             numbers = row["metrics"][metric]

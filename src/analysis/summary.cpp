@@ -219,11 +219,14 @@ void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, Re
     summary.gap_closed = gap_closed(with, without, alone, resamples.of(with.size()));
 }
 
-/// The condition that `condition` is compared with; nullptr for baselines and solo.
-const ConditionSpec* baseline_of(const ConditionSpec& condition, const std::vector<ConditionSpec>& all) {
+/// The condition that `condition` is compared with: `against`, or when that is empty its baseline. Nullptr
+/// for solo, for that condition itself and where there is none.
+const ConditionSpec* compared_with(const ConditionSpec& condition, const std::vector<ConditionSpec>& all,
+                                   const std::string& against) {
     if (condition.traffic_model == TrafficModel::free_flow) return nullptr;
     const auto found = std::ranges::find_if(all, [&](const ConditionSpec& other) {
-        return !other.acts() && experiment::same_environment(other, condition);
+        return experiment::same_environment(other, condition) &&
+               (against.empty() ? !other.acts() : other.name == against);
     });
     return found == all.end() || found->name == condition.name ? nullptr : &*found;
 }
@@ -322,7 +325,7 @@ namespace {
 
 ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEntry& entry,
                                    const results::Manifest& manifest, ResampleCache& resamples,
-                                   std::optional<double> response_threshold_s) {
+                                   std::optional<double> response_threshold_s, const std::string& against) {
     const std::vector<ConditionSpec>& conditions = manifest.conditions;
     const double threshold_s = detail::threshold_of(index, entry.name, conditions, response_threshold_s);
     ScenarioSummary scenario{entry.name, entry.title, {}};
@@ -330,14 +333,14 @@ ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEn
         scenario.conditions.push_back(detail::describe_condition(index, entry.name, condition, resamples));
     const auto solo = std::ranges::find(conditions, TrafficModel::free_flow, &ConditionSpec::traffic_model);
     for (ConditionSummary& summary : scenario.conditions) {
-        const ConditionSpec* const baseline = baseline_of(summary.condition, conditions);
+        const ConditionSpec* const baseline = compared_with(summary.condition, conditions, against);
         const Runs runs = index.runs(entry.name, summary.condition.name);
         const Runs baseline_runs = baseline == nullptr ? Runs{} : index.runs(entry.name, baseline->name);
         summary.response = response_of(runs, baseline_runs, threshold_s, resamples.level());
         if (baseline == nullptr) continue;
         summary.baseline = baseline->name;
         detail::compare_conditions(runs, baseline_runs, *scenario.find(baseline->name), resamples, summary);
-        if (solo == conditions.end()) continue;
+        if (solo == conditions.end() || !against.empty()) continue;
         close_gap(runs, baseline_runs, index.runs(entry.name, solo->name), resamples, summary);
     }
     detail::adjust(scenario);
@@ -392,7 +395,8 @@ const ConditionSummary* ScenarioSummary::find(const std::string& condition) cons
     return found == conditions.end() ? nullptr : &*found;
 }
 
-Summary summarise(const results::Results& results, double level, std::optional<double> response_threshold_s) {
+Summary summarise(const results::Results& results, double level, std::optional<double> response_threshold_s,
+                  const std::string& against) {
     Summary summary;
     summary.manifest = results.manifest;
     summary.level = level;
@@ -400,7 +404,7 @@ Summary summarise(const results::Results& results, double level, std::optional<d
     ResampleCache resamples(level);
     for (const results::ScenarioEntry& entry : results.manifest.scenarios) {
         summary.scenarios.push_back(
-            summarise_scenario(index, entry, results.manifest, resamples, response_threshold_s));
+            summarise_scenario(index, entry, results.manifest, resamples, response_threshold_s, against));
         for (const ConditionSummary& condition : summary.scenarios.back().conditions)
             detail::add_unfinished(entry.name, condition, "", summary.unpaired);
     }

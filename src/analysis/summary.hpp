@@ -97,7 +97,7 @@ struct IdlePart {
 
 struct ConditionSummary {
     experiment::ConditionSpec condition;
-    std::string baseline;  ///< Condition it is compared with; empty for baselines and solo.
+    std::string baseline;  ///< Condition it is compared with; empty for that one itself and solo.
     std::size_t complete_runs = 0;
     std::size_t failed_runs = 0;
     std::size_t missing_runs = 0;
@@ -158,8 +158,9 @@ Summary compare_studies(const results::Results& first, const results::Results& s
 
 /// A condition's baseline is the first condition of the same traffic model without policies; its solo times
 /// are those of the first free-flow condition. Without `response_threshold_s`, each scenario has its own (see
-/// usual_response_threshold_s). Deterministic.
+/// usual_response_threshold_s). With `against`, the name of a condition, that one is the baseline of all
+/// others of its environment, and no share of a gap is given. Deterministic.
 Summary summarise(const results::Results& results, double level = usual_level,
-                  std::optional<double> response_threshold_s = {});
+                  std::optional<double> response_threshold_s = {}, const std::string& against = {});
 
 }  // namespace clearway::analysis

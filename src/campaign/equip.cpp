@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "campaign/detail/run_cost.hpp"
 #include "campaign/equip_rounds.hpp"
@@ -26,6 +27,7 @@
 #include "report/equipment.hpp"
 #include "report/text.hpp"
 #include "scenario/network.hpp"
+#include "scenario/signal_sheet.hpp"
 
 namespace clearway::campaign {
 namespace {
@@ -52,21 +54,37 @@ void check_condition(const experiment::ConditionSpec& base) {
 struct Signals {
     scenario::BuiltNetwork built;
     EquipCandidates candidates;
+    std::vector<std::string> all_streets;  ///< By core::SignalIndex.
 
     /// As `clearway scenario signals` counts, from 1.
     std::size_t number(std::size_t candidate) const { return candidates.signals.at(candidate).value + 1U; }
+    const std::string& streets(std::size_t candidate) const {
+        return all_streets.at(candidates.signals.at(candidate).value);
+    }
     const std::string& id(std::size_t candidate) const {
         return built.network.signal(candidates.signals.at(candidate)).id;
     }
 };
 
+/// `Via Po / Via Roma`, each once.
+std::string streets_of(const scenario::SignalSheet& sheet) {
+    std::vector<std::string> names;
+    for (const scenario::SignalApproach& approach : sheet.approaches) {
+        if (!approach.street.empty() && std::ranges::find(names, approach.street) == names.end())
+            names.push_back(approach.street);
+    }
+    return fmt::format("{}", fmt::join(names, " / "));
+}
+
 Signals signals_of(const study::StudyConfig& config, std::size_t most, const std::filesystem::path& folder) {
     const scenario::ScenarioConfig& scenario = config.scenarios.front();
-    Signals signals{scenario::build_network(scenario, folder), {}};
+    Signals signals{scenario::build_network(scenario, folder), {}, {}};
     if (signals.built.network.signals().empty())
         throw core::InputError({"scenario " + scenario.name, "has no signals", "a network with signals",
                                 "`clearway scenario signals SCENARIO` lists those of a scenario"});
     signals.candidates = equip_candidates(config, signals.built, most);
+    for (const scenario::SignalSheet& sheet : scenario::signal_sheets(signals.built.network, {}))
+        signals.all_streets.push_back(streets_of(sheet));
     return signals;
 }
 
@@ -97,8 +115,8 @@ void add_candidates(const analysis::EquipPlan& plan, const Signals& signals, rep
     for (std::size_t candidate = 0; candidate < plan.candidates.size(); ++candidate) {
         const analysis::EquipCandidate& found = plan.candidates[candidate];
         facts.candidates.push_back({signals.number(candidate), signals.id(candidate),
-                                    signals.candidates.trips[candidate], found.gain, found.left_race,
-                                    std::nullopt});
+                                    signals.streets(candidate), signals.candidates.trips[candidate],
+                                    found.gain, found.left_race, std::nullopt});
     }
     for (std::size_t rank = 0; rank < plan.steps.size(); ++rank)
         facts.candidates.at(plan.steps[rank].candidate).rank = rank + 1;
@@ -122,9 +140,9 @@ void add_outcomes(const analysis::EquipPlan& plan, const Signals& signals, const
         const analysis::EquipStep& step = plan.steps[rank];
         const EquipOutcome& before = rank == 0 ? fresh.none : fresh.chosen[rank - 1];
         const EquipOutcome& after = fresh.chosen.at(rank);
-        facts.ranked.push_back({signals.number(step.candidate), signals.id(step.candidate),
-                                less(before.emergency_s, after.emergency_s, together), gain(after),
-                                loss(after), step.gain});
+        facts.ranked.push_back(
+            {signals.number(step.candidate), signals.id(step.candidate), signals.streets(step.candidate),
+             less(before.emergency_s, after.emergency_s, together), gain(after), loss(after), step.gain});
     }
 }
 
@@ -278,6 +296,10 @@ core::ExitCode equip_dry_run(EquipRequest request) {
                                                cost.measured ? "from runs of this scenario here"
                                                              : "rough: accurate to a factor of about three")
                                  : "Time unknown: a run of this scenario beside that folder tells.";
+    const std::string few = request.budget > candidates
+                                ? fmt::format(" The budget is {}, and {} could gain.", request.budget,
+                                              report::counted(candidates, "signal"))
+                                : "";
     print({{{"folder", request.run.folder.string()},
             {"candidates", candidates},
             {"runs", runs.likely()},
@@ -285,7 +307,7 @@ core::ExitCode equip_dry_run(EquipRequest request) {
             {"estimated_time_s", seconds(runs.likely())},
             {"estimate_measured", cost.measured}},
            {table},
-           core::wrapped(size, 0) + "\n" + core::wrapped(time, 0) + "\n"},
+           core::wrapped(size + few, 0) + "\n" + core::wrapped(time, 0) + "\n"},
           request.run.publish.printing);
     return core::ExitCode::ok;
 }

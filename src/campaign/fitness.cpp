@@ -320,8 +320,11 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double a
         const results::RunTiming timing = store.read_timing(key).value_or(results::RunTiming{});
         findings.push_back({"memory", Grade::ok, fmt::format("{} MiB", timing.peak_kib / 1024)});
         remove_runs(options.folder);
-        if (lock_trials > 0)
+        if (lock_trials > 0) {
+            fmt::print(stderr, "clearway: {} more to look for locks\n",
+                       report::counted(2 * std::size_t{lock_trials}, "run"));
             findings.push_back(lock_finding(try_locks(scenario, seed, lock_trials, options)));
+        }
     } else {
         findings = {error_finding(store.read_error(key).value_or(results::RunError{}), options.folder)};
     }

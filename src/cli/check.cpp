@@ -21,8 +21,9 @@ Action configure_check(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
     add_scenario_argument(app, arguments->scenario);
     add_seed_option(app, arguments->seed);
-    app.add_option("--lock-trials", arguments->lock_trials,
-                   "Also look for locks in N runs with time.ignore_junction_blocker_s, and in N without")
+    app.add_option(
+           "--lock-trials", arguments->lock_trials,
+           "Also look for locks: makes N more runs with time.ignore_junction_blocker_s, and N without")
         ->check(CLI::Range(0U, 1000U))
         ->option_text("N, 0 to 1000 [0]");
     add_limit_options(app, arguments->run.limits);

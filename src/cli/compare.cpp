@@ -23,6 +23,7 @@ namespace {
 struct Arguments {
     std::string first;
     std::string second;
+    std::string against;               ///< Empty: the baselines.
     std::vector<std::string> metrics;  ///< Empty: `usual_metrics`.
     std::vector<std::string> tolerances;
     std::optional<double> response_threshold_s;
@@ -86,23 +87,38 @@ std::vector<report::Tolerance> check(Arguments& arguments) {
     return tolerances;
 }
 
+void check_against(const Arguments& arguments, const results::Manifest& manifest) {
+    const std::vector<std::string> names =
+        core::texts_of(manifest.conditions, &experiment::ConditionSpec::name);
+    if (!arguments.second.empty())
+        throw core::InputError(
+            {"--against", "is for one run folder, and there are two", "", "Leave out " + arguments.second});
+    if (std::ranges::find(names, arguments.against) == names.end())
+        throw core::InputError(campaign::unknown_name("--against", arguments.against, names,
+                                                      "clearway study status " + arguments.first));
+}
+
 analysis::Summary summary_of(const Arguments& arguments) {
     const results::Results first =
         results::read_results(results::Store::open(arguments.first), results::VehicleRows::emergency);
+    if (!arguments.against.empty()) check_against(arguments, first.manifest);
     if (!arguments.second.empty())
         return analysis::compare_studies(
             first,
             results::read_results(results::Store::open(arguments.second), results::VehicleRows::emergency),
             analysis::usual_level, arguments.response_threshold_s);
     analysis::Summary summary =
-        analysis::summarise(first, analysis::usual_level, arguments.response_threshold_s);
+        analysis::summarise(first, analysis::usual_level, arguments.response_threshold_s, arguments.against);
     const bool compared = std::ranges::any_of(summary.scenarios, [](const auto& scenario) {
         return std::ranges::any_of(scenario.conditions,
                                    [](const auto& condition) { return !condition.baseline.empty(); });
     });
     if (!compared && arguments.publication.file.empty())
-        throw core::InputError({arguments.first, "has no condition besides its baselines", "",
-                                "Name a second run folder to compare it with"});
+        throw core::InputError({arguments.first,
+                                arguments.against.empty()
+                                    ? "has no condition besides its baselines"
+                                    : "has no other condition in the environment of " + arguments.against,
+                                "", "Name a second run folder to compare it with"});
     return summary;
 }
 
@@ -110,6 +126,9 @@ core::ExitCode compare(Arguments arguments) {
     if (!arguments.publication.file.empty() && !arguments.second.empty())
         throw core::InputError({"--publish", "writes the rows of one run folder, and there are two", "",
                                 "Leave out " + arguments.second});
+    if (!arguments.publication.file.empty() && !arguments.against.empty())
+        throw core::InputError({"--publish", "writes differences from baselines, and there is --against", "",
+                                "Leave out one of them"});
     const std::vector<report::Tolerance> tolerances = check(arguments);
     const analysis::Summary summary = summary_of(arguments);
     const std::vector<report::Shortfall> found = report::shortfalls(summary, tolerances);
@@ -120,6 +139,9 @@ core::ExitCode compare(Arguments arguments) {
         if (!arguments.second.empty())
             fmt::print("diff.: {} minus {}, paired by scenario, condition and replication.\n",
                        arguments.second, arguments.first);
+        if (!arguments.against.empty())
+            fmt::print("diff.: minus {} (here the baseline), paired by scenario and replication.\n",
+                       arguments.against);
     }
     if (!arguments.publication.file.empty())
         campaign::publish_study(arguments.publication, results::Store::open(arguments.first), summary,
@@ -140,6 +162,9 @@ Action configure_compare(CLI::App& app) {
     app.add_option("other", arguments->second,
                    "Second run folder: its runs are compared with the same runs of the first")
         ->option_text("DIR [none]");
+    app.add_option("--against", arguments->against,
+                   "Condition of the run folder that the others are compared with")
+        ->option_text("NAME [the baselines]");
     app.add_option("--metric", arguments->metrics, "Metric to compare, a column of runs.csv; may be repeated")
         ->allow_extra_args(false)
         ->option_text("NAME [EV and others' times, collisions, teleports]");

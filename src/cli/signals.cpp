@@ -200,7 +200,8 @@ core::ExitCode show(const Arguments& arguments) {
     const scenario::BuiltNetwork built = scenario::build_network(config, folder.path());
     const std::vector<SignalSheet> sheets = scenario::signal_sheets(built.network, built.preemption);
     if (!arguments.picture.empty())
-        core::write_atomically(arguments.picture, scenario::signals_picture(built.network, config.title));
+        core::write_atomically(arguments.picture, scenario::signals_picture(built.network, config.title,
+                                                                            config.network.attribution));
     if (!arguments.parameters.empty())
         core::write_atomically(arguments.parameters, scenario::preemption_csv(built.network, to_edit(built)));
     campaign::print(printout_of(config.name, sheets), arguments.printing);

@@ -1,8 +1,12 @@
 #include "experiment/condition.hpp"
 
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "core/error.hpp"
 #include "core/folder_name.hpp"
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
@@ -19,6 +23,20 @@ std::string part_without_folder(const std::string& word) {
     return python::to_text(*name);
 }
 
+/// The files of a condition with the hashes of their contents: parts in Python and the model.
+std::map<std::string, std::string> hashes_of(const ConditionSpec& condition) {
+    std::map<std::string, std::string> hashes;
+    std::vector<std::string> words = condition.policies;
+    words.push_back(condition.predictor);
+    for (const std::string& word : words) {
+        if (const auto part = python::part_name_from(word))
+            hashes[part->file.filename().string()] = part->hash;
+    }
+    if (!condition.model_file.empty())
+        hashes[std::filesystem::path(condition.model_file).filename().string()] = condition.model_hash;
+    return hashes;
+}
+
 }  // namespace
 
 ConditionSpec without_folders(ConditionSpec condition) {
@@ -31,6 +49,25 @@ ConditionSpec without_folders(ConditionSpec condition) {
 
 bool ConditionSpec::operator==(const ConditionSpec& other) const {
     return to_json(without_folders(*this)) == to_json(without_folders(other));
+}
+
+std::string what_differs(const ConditionSpec& one, const ConditionSpec& other) {
+    const auto before = hashes_of(one);
+    std::vector<std::string> found;
+    for (const auto& [file, hash] : hashes_of(other)) {
+        const auto same = before.find(file);
+        if (same != before.end() && same->second != hash) found.push_back(file + " has changed");
+    }
+    if (!found.empty()) return core::listed(found);
+    const core::Json left = to_json(without_folders(one));
+    const core::Json right = to_json(without_folders(other));
+    for (const auto& [key, value] : right.items()) {
+        if (!left.contains(key) || left[key] != value) found.push_back(key);
+    }
+    for (const auto& [key, value] : left.items()) {
+        if (!right.contains(key)) found.push_back(key);
+    }
+    return core::listed(found);
 }
 
 core::Json to_json(const ConditionSpec& condition) {

@@ -86,8 +86,7 @@ void check_part(const PartName& name, PartKind kind, const core::Settings& setti
     try {
         const PartProcess process(name, {.kind = kind, .settings = settings});
     } catch (const PartError& error) {
-        throw core::InputError(
-            {where, error.what(), "", "Correct the file; CLEARWAY_PYTHON names another Python"});
+        throw core::InputError({where, error.what(), "", "Correct the file or the settings"});
     }
 }
 

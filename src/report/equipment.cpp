@@ -24,7 +24,7 @@ using Where = detail::SheetColumn::Shown;
 constexpr double great_share = 0.8;
 
 EquippedSignal all_of(const EquipmentFacts& facts) {
-    return {0, "all signals", std::nullopt, facts.all_gain, facts.all_others};
+    return {0, "all signals", "", std::nullopt, facts.all_gain, facts.all_others};
 }
 
 SheetCell count_or_nothing(std::size_t count) {
@@ -35,6 +35,7 @@ std::vector<detail::SheetColumn> ranked_columns() {
     return {{"equipped", "#"},
             {"number", "No."},
             {"signal", "Signal"},
+            {"streets", "Streets", Where::not_on_terminal},
             {"gain_s", "Gain, s"},
             {"shown", "Effect"},
             {"gain_so_far_s", "So far, s"},
@@ -48,21 +49,19 @@ std::vector<SheetCell> ranked_row(const EquipmentFacts& facts, std::size_t equip
                                   const EquippedSignal& signal) {
     const bool is_signal = signal.number > 0;
     const std::optional<double> share = share_of_all(facts, signal);
-    return {equipped,
-            count_or_nothing(signal.number),
-            signal.signal,
-            signal.gain,
-            is_signal ? SheetCell(is_shown(signal.gain)) : SheetCell(),
-            signal.so_far,
-            share ? SheetCell(Share{*share}) : SheetCell(),
-            signal.others,
-            signal.chosen_by};
+    return {equipped,      count_or_nothing(signal.number),
+            signal.signal, signal.streets,
+            signal.gain,   is_signal ? SheetCell(is_shown(signal.gain)) : SheetCell(),
+            signal.so_far, share ? SheetCell(Share{*share}) : SheetCell(),
+            signal.others, signal.chosen_by};
 }
 
 std::string names_of(const EquipmentFacts& facts) {
     std::vector<std::string> names;
     for (const EquippedSignal& signal : facts.ranked)
-        names.push_back(fmt::format("{} ({})", signal.number, short_signal_name(signal.signal)));
+        names.push_back(fmt::format(
+            "{} ({})", signal.number,
+            signal.streets.empty() ? short_signal_name(signal.signal) : printable(signal.streets)));
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -137,6 +136,7 @@ Sheet ranked_sheet(const EquipmentFacts& facts, LastRow last) {
 Sheet candidate_sheet(const EquipmentFacts& facts) {
     Sheet sheet{{{"number", "No."},
                  {"signal", "Signal"},
+                 {"streets", "Streets", Where::not_on_terminal},
                  {"share_of_trips", "EVs, %"},
                  {"gain_s", "Gain alone, s"},
                  {"shown", "Effect"},
@@ -149,8 +149,8 @@ Sheet candidate_sheet(const EquipmentFacts& facts) {
         return analysis::mean_of(one.gain).value_or(-1e30);
     });
     for (const EquipCandidateFacts& one : candidates)
-        sheet.rows.push_back({one.number, one.signal, Share{one.trips}, one.gain, is_shown(one.gain),
-                              one.gain ? one.gain->n : std::size_t{0}, one.left_race,
+        sheet.rows.push_back({one.number, one.signal, one.streets, Share{one.trips}, one.gain,
+                              is_shown(one.gain), one.gain ? one.gain->n : std::size_t{0}, one.left_race,
                               count_or_nothing(one.rank.value_or(0))});
     return sheet;
 }
@@ -278,7 +278,7 @@ std::string equipment_csv(const EquipmentFacts& facts) {
     Sheet sheet = detail::ranked_sheet(facts, detail::LastRow::all);
     const analysis::Estimate nothing{};
     sheet.rows.back()[2] = std::string();
-    sheet.rows.insert(sheet.rows.begin(), ranked_row(facts, 0, {0, "", std::nullopt, nothing, nothing}));
+    sheet.rows.insert(sheet.rows.begin(), ranked_row(facts, 0, {0, "", "", std::nullopt, nothing, nothing}));
     return detail::csv_of(sheet);
 }
 

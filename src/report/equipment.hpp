@@ -17,6 +17,8 @@ namespace clearway::report {
 struct EquippedSignal {
     std::size_t number = 0;  ///< As `clearway scenario signals` counts, from 1.
     std::string signal;      ///< Its id; text from a file.
+    std::string
+        streets;  ///< Names of those that lead to it, with ` / ` between; text from a file. May be empty.
     /// Over those of better rank, s of EV time. The intervals of all ranks hold together (Bonferroni).
     analysis::MaybeEstimate gain;
     analysis::MaybeEstimate so_far;          ///< Over no signal equipped.
@@ -28,6 +30,7 @@ struct EquippedSignal {
 struct EquipCandidateFacts {
     std::size_t number = 0;
     std::string signal;
+    std::string streets;           ///< As EquippedSignal has them.
     double trips = 0.0;            ///< Share of the emergency vehicles that pass it.
     analysis::MaybeEstimate gain;  ///< As analysis::EquipCandidate has it.
     bool left_race = false;
@@ -87,8 +90,8 @@ std::string equipment_csv(const EquipmentFacts& facts);
 std::string candidates_csv(const EquipmentFacts& facts);
 /// The curve of gain against number equipped with its intervals, and the gain of all: a stand-alone SVG.
 std::string equipment_curve(const EquipmentFacts& facts);
-/// The roads with the ranks of the chosen signals, the other candidates and those left out, as a stand-alone
-/// SVG; empty without roads.
+/// The roads with the numbers of the chosen signals, the other candidates and those left out, as a
+/// stand-alone SVG; empty without roads.
 std::string equipment_map(const EquipmentFacts& facts);
 
 /// One self-contained page with the answer, map, tables and curves.

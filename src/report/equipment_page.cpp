@@ -20,13 +20,13 @@ namespace {
 
 constexpr std::size_t drawn_candidates = 30;  ///< Those with the greatest gains; the table has all.
 
-/// A disc with its rank: filled where the gain is shown.
-std::string disc(const core::Spot& at, const std::string& rank, bool shown) {
+/// A disc with the signal's number: filled where the gain is shown.
+std::string disc(const core::Spot& at, const std::string& number, bool shown) {
     return fmt::format(
         "<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\"/><text class=\"{}\" x=\"{:.1f}\" "
         "y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
         shown ? "dot better" : "station", at.x, at.y, core::disc_radius, shown ? "onDot" : "rank", at.x,
-        at.y + 4.0, rank);
+        at.y + 4.0, number);
 }
 
 void draw_ranks(detail::MapCanvas& canvas, const EquipmentFacts& facts) {
@@ -52,7 +52,8 @@ void draw_ranks(detail::MapCanvas& canvas, const EquipmentFacts& facts) {
         const std::size_t rank = ranks.at(facts.roads->signals[row].id);
         if (spots[row] != places[row])
             canvas.path({{places[row].x, places[row].y}, {spots[row].x, spots[row].y}}, "zero");
-        canvas.add(disc(spots[row], std::to_string(rank + 1), is_shown(facts.ranked[rank].gain)));
+        const EquippedSignal& signal = facts.ranked[rank];
+        canvas.add(disc(spots[row], std::to_string(signal.number), is_shown(signal.gain)));
     }
 }
 
@@ -61,9 +62,9 @@ std::vector<detail::LegendEntry> map_entries(const EquipmentFacts& facts) {
         facts.ranked, [](const EquippedSignal& signal) { return is_shown(signal.gain); });
     const std::size_t chosen = facts.ranked.size();
     std::vector<detail::LegendEntry> entries;
-    if (shown > 0) entries.push_back({disc({20.0, 5.0}, "1", true), "chosen, gain shown"});
+    if (shown > 0) entries.push_back({disc({20.0, 5.0}, "n", true), "chosen, gain shown"});
     if (static_cast<std::size_t>(shown) < chosen)
-        entries.push_back({disc({20.0, 5.0}, "2", false), "chosen, gain not shown"});
+        entries.push_back({disc({20.0, 5.0}, "n", false), "chosen, gain not shown"});
     if (facts.candidates.size() > chosen) entries.push_back(detail::dot_entry("held", "other candidate"));
     if (facts.signals > facts.candidates.size())
         entries.push_back({"<circle class=\"tick\" cx=\"20\" cy=\"5\" r=\"2\"/>", "left out"});
@@ -177,8 +178,9 @@ Figure equipment_map_figure(const EquipmentFacts& facts) {
     canvas.edges(edges, "road");
     canvas.scale_bar();
     draw_ranks(canvas, facts);
+    canvas.credit(facts.attribution);
     canvas.legend(map_entries(facts));
-    return {"map", "Where they are", canvas.finish(), facts.attribution, {}};
+    return {"map", "Where they are", canvas.finish(), "Signals bear their numbers.", {}};
 }
 
 }  // namespace detail

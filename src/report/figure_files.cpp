@@ -1,11 +1,15 @@
 #include "report/figure_files.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <sstream>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "report/detail/figures.hpp"
 #include "report/detail/style.hpp"
@@ -15,8 +19,30 @@
 namespace clearway::report {
 namespace {
 
+namespace fs = std::filesystem;
 using detail::Figure;
 using detail::Table;
+
+/// Names of the figures and tables that an export has written, a line each, without endings.
+constexpr const char* list_name = ".clearway-figures";
+
+/// Removes what an earlier export has written. Throws core::InputError for a folder that holds something
+/// else.
+void remove_former(const fs::path& folder) {
+    if (!fs::is_directory(folder) || fs::is_empty(folder)) return;
+    if (!fs::exists(folder / list_name))
+        throw core::InputError({"--out", fmt::format("{} holds something else", folder.string()),
+                                "a new or empty folder, or one of clearway export figures",
+                                "Choose another folder"});
+    std::istringstream names(core::read_file(folder / list_name));
+    for (std::string name; std::getline(names, name);) {
+        if (name.find_first_of("/.") != std::string::npos) continue;
+        for (const char* const ending : {".svg", ".pdf", ".png", ".csv", ".tex"})
+            fs::remove(folder / (name + ending));
+    }
+    fs::remove(folder / "index.html");
+    fs::remove(folder / list_name);
+}
 
 class FileWriter : public detail::Writer {
   public:
@@ -30,8 +56,12 @@ class FileWriter : public detail::Writer {
     const FigureFiles& files() const { return files_; }
 
   private:
-    std::filesystem::path write(const std::string& name, const char* ending, const std::string& text) {
-        std::filesystem::path file = folder_ / (name + ending);
+    fs::path write(const std::string& name, const char* ending, const std::string& text) {
+        fs::path file = folder_ / (name + ending);
+        if (names_.empty() || names_.back() != name) {
+            names_.push_back(name);
+            core::write_atomically(folder_ / list_name, fmt::format("{}\n", fmt::join(names_, "\n")));
+        }
         core::write_atomically(file, text);
         return file;
     }
@@ -62,6 +92,7 @@ class FileWriter : public detail::Writer {
     const StudyFacts& study_;
     std::string section_;
     std::string topic_;  ///< The latest heading, or the section.
+    std::vector<std::string> names_;
     FigureFiles files_;
 };
 
@@ -118,6 +149,7 @@ void write_index(const FigureFiles& files, const std::filesystem::path& folder,
 }
 
 FigureFiles write_figures(const StudyFacts& study, const std::filesystem::path& folder) {
+    remove_former(folder);
     core::make_folder(folder);
     FileWriter writer(folder, study);
     for (const detail::Section& section : detail::sections()) {

@@ -27,7 +27,8 @@ struct FigureFiles {
 };
 
 /// Writes every figure of the report as NAME.svg, on white paper, and its data as NAME.csv; every table as
-/// NAME.csv and NAME.tex. Names are those of the page's downloads. Makes the folder. Throws
+/// NAME.csv and NAME.tex. Names are those of the page's downloads. Makes the folder, and removes what an
+/// earlier call has written there. Throws core::InputError for a folder with other content,
 /// core::EnvironmentError when it cannot be written.
 FigureFiles write_figures(const StudyFacts& study, const std::filesystem::path& folder);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -118,10 +119,37 @@ std::vector<experiment::RunKey> Manifest::runs() const {
     return keys;
 }
 
+namespace {
+
+/// `conditions (Soft: soft.py has changed; extra is new)`, at most three of them.
+std::string differing_conditions(const Manifest& left, const Manifest& right) {
+    constexpr std::size_t most = 3;
+    std::vector<std::string> found;
+    for (const experiment::ConditionSpec& one : right.conditions) {
+        const auto same = std::ranges::find(left.conditions, one.name, &experiment::ConditionSpec::name);
+        if (same == left.conditions.end())
+            found.push_back(one.name + " is new");
+        else if (*same != one)
+            found.push_back(one.name + ": " + experiment::what_differs(*same, one));
+    }
+    for (const experiment::ConditionSpec& one : left.conditions) {
+        if (std::ranges::find(right.conditions, one.name, &experiment::ConditionSpec::name) ==
+            right.conditions.end())
+            found.push_back(one.name + " is not asked for");
+    }
+    if (found.empty()) return "order of conditions";
+    const std::size_t more = found.size() - std::min(found.size(), most);
+    found.resize(std::min(found.size(), most));
+    return fmt::format("conditions ({}{})", fmt::join(found, "; "),
+                       more > 0 ? fmt::format("; and {} more", more) : "");
+}
+
+}  // namespace
+
 std::string differences(const Manifest& left, const Manifest& right) {
     std::string list;
-    const auto add = [&](bool differs, const char* part) {
-        if (differs) list += (list.empty() ? "" : ", ") + std::string(part);
+    const auto add = [&](bool differs, const std::string& part) {
+        if (differs) list += (list.empty() ? "" : ", ") + part;
     };
     add(left.study != right.study, "study name");
     add(left.clearway_version != right.clearway_version, "Clearway version");
@@ -130,7 +158,8 @@ std::string differences(const Manifest& left, const Manifest& right) {
     add(left.study_seed != right.study_seed, "seed");
     add(left.replications != right.replications, "replications");
     add(left.scenarios != right.scenarios, "scenarios");
-    add(left.conditions != right.conditions, "conditions");
+    const bool others = left.conditions != right.conditions;
+    add(others, others ? differing_conditions(left, right) : "");
     add(left.precision != right.precision, "precision");
     add(left.plan != right.plan, "plan");
     return list;

@@ -122,6 +122,19 @@ void require_continues(const Manifest& wanted, const Manifest& stored, const fs:
                             "Choose another folder with --out, or ask for the same study to resume it"});
 }
 
+/// `It holds run folders: runs/equip-city/fresh-4f2a11 and 3 more`; empty where it holds none.
+std::string run_folders_in(const fs::path& folder) {
+    std::vector<std::string> found;
+    std::error_code unreadable;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, unreadable)) {
+        if (fs::exists(entry.path() / manifest_name)) found.push_back(entry.path().string());
+    }
+    if (found.empty()) return "";
+    const std::string first = *std::ranges::min_element(found);
+    return found.size() == 1 ? fmt::format("It holds a run folder: {}", first)
+                             : fmt::format("It holds run folders: {} and {} more", first, found.size() - 1);
+}
+
 /// `target`, with `.2`, `.3`, ... appended if it exists already.
 fs::path free_place(const fs::path& target) {
     fs::path place = target;
@@ -164,7 +177,7 @@ Store Store::open(const fs::path& folder) {
     const fs::path file = folder / manifest_name;
     if (!fs::exists(file))
         throw core::InputError({folder.string(), "is not a run folder: it has no manifest.json",
-                                "a folder written with --out", ""});
+                                "a folder written with --out", run_folders_in(folder)});
     return {folder, manifest_from_json(core::read_file(file), file.string())};
 }
 

@@ -116,6 +116,13 @@ void draw_scale_bar(const Frame& frame, std::string& svg) {
         frame.stretch > 1.0 ? fmt::format("; drawn {:.1f} times as wide across", frame.stretch) : "");
 }
 
+/// At the right of the scale bar.
+std::string credit_of(const Frame& frame, const std::string& credit) {
+    if (credit.empty()) return "";
+    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>\n",
+                       picture_width - margin, frame.height - 10.0, core::escaped(credit));
+}
+
 /// The opening of a picture, with its title and style.
 std::string opened(const Frame& frame, const std::string& title) {
     return fmt::format(
@@ -220,17 +227,19 @@ void draw_labels(const roads::Network& network, const Frame& frame, std::string&
 
 }  // namespace
 
-std::string network_picture(const roads::Network& network, const std::string& title) {
+std::string network_picture(const roads::Network& network, const std::string& title,
+                            const std::string& credit) {
     const Frame frame = frame_of(network);
-    return opened(frame, title) + roads_of(network, frame) + "</svg>\n";
+    return opened(frame, title) + roads_of(network, frame) + credit_of(frame, credit) + "</svg>\n";
 }
 
-std::string signals_picture(const roads::Network& network, const std::string& title) {
+std::string signals_picture(const roads::Network& network, const std::string& title,
+                            const std::string& credit) {
     const Frame frame = frame_of(network);
     std::string svg = opened(frame, title);
     svg += fmt::format("<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"#fff\"/>\n<g color=\"#444\">\n",
                        picture_width, frame.height);
-    svg += roads_of(network, frame) + "</g>\n";
+    svg += roads_of(network, frame) + credit_of(frame, credit) + "</g>\n";
     draw_labels(network, frame, svg);
     return svg + "</svg>\n";
 }

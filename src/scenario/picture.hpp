@@ -8,11 +8,13 @@ namespace clearway::scenario {
 
 /// A picture of the road network as a stand-alone SVG element, north up, with a scale bar: lanes drawn to
 /// scale (at least a hairline), signals as dots. Colours follow `currentColor`, so it reads on light and on
-/// dark pages. `title` is escaped.
-std::string network_picture(const roads::Network& network, const std::string& title);
+/// dark pages. `title` and `credit` are escaped; the credit, which the map's data may require, can be empty.
+std::string network_picture(const roads::Network& network, const std::string& title,
+                            const std::string& credit);
 
 /// The same on white paper, with the number of each signal (from 1, in the order of the network) and, where
 /// there is room, its name.
-std::string signals_picture(const roads::Network& network, const std::string& title);
+std::string signals_picture(const roads::Network& network, const std::string& title,
+                            const std::string& credit);
 
 }  // namespace clearway::scenario

@@ -357,7 +357,8 @@ Findings import(const ImportRequest& request, const OnProgress& on_progress) {
     }
     core::write_atomically(import.scenario / "scenario.toml", scenario::to_toml(config));
     core::write_atomically(import.scenario / "import.json", to_json(findings));
-    core::write_atomically(import.scenario / "network.svg", scenario::network_picture(network, config.title));
+    core::write_atomically(import.scenario / "network.svg",
+                           scenario::network_picture(network, config.title, config.network.attribution));
     scenario::load((import.scenario / "scenario.toml").string());
     on_progress("done", 0.0);
     move_to(import.scenario, folder);

@@ -64,7 +64,8 @@ void complete_scenario(const scenario::ScenarioConfig& config, const experiment:
     write_counts(config, built.network, folder / "counts.csv");
     core::write_atomically(folder / "streets.json", streets_json(built.network));
     core::write_atomically(folder / "roads.json", detail::road_map_json(built.network, config));
-    core::write_atomically(picture, scenario::network_picture(built.network, title));
+    core::write_atomically(picture,
+                           scenario::network_picture(built.network, title, config.network.attribution));
 }
 
 }  // namespace

@@ -56,6 +56,29 @@ TEST_F(CompareTest, pairs_conditions_and_folders_and_is_a_gate) {
     EXPECT_THAT(refused.err, HasSubstr("another seed"));
 }
 
+TEST_F(CompareTest, compares_with_a_condition_that_is_named) {
+    ASSERT_EQ(clearway(two_conditions("one", 5)).code, 0);
+    const auto tables =
+        nlohmann::json::parse(clearway({"compare", "one", "--against", "graph_simulation", "--json"}).out);
+    const auto usual = nlohmann::json::parse(clearway({"compare", "one", "--json"}).out);
+    ASSERT_EQ(tables.at("comparisons").size(), 1U);
+    const auto& pair = tables["comparisons"][0];
+    EXPECT_EQ(pair["condition"], "baseline");
+    EXPECT_EQ(pair["compared_with"], "graph_simulation");
+    const char* const metric = "emergency_travel_time_s";
+    EXPECT_DOUBLE_EQ(pair["metrics"][metric]["difference"].get<double>(),
+                     -usual["comparisons"][0]["metrics"][metric]["difference"].get<double>());
+    EXPECT_THAT(clearway({"compare", "one", "--against", "graph_simulation"}).out,
+                HasSubstr("diff.: minus graph_simulation (here the baseline)"));
+    const Ended unknown = clearway({"compare", "one", "--against", "graph_simulatoin"});
+    EXPECT_EQ(unknown.code, 3);
+    EXPECT_THAT(unknown.err, HasSubstr("Did you mean 'graph_simulation'?"));
+    EXPECT_EQ(clearway({"compare", "one", "one", "--against", "baseline"}).code, 3);
+    const Ended rows = clearway({"compare", "one", "--against", "baseline", "--publish", "results/x.csv"});
+    EXPECT_EQ(rows.code, 3);
+    EXPECT_THAT(rows.err, HasSubstr("--publish: writes differences from baselines"));
+}
+
 TEST_F(CompareTest, publishes_rows_and_loses_none) {
     ASSERT_EQ(clearway(two_conditions((folder() / "one").string(), 5)).code, 0);
     const std::vector<std::string> words = {"compare",     "one",

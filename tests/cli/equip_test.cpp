@@ -60,7 +60,7 @@ TEST_F(EquipTest, ranks_signals_and_continues_in_its_folder_without_new_runs) {
     }
     EXPECT_THAT(read("out/equip.json"), ended.out);
     EXPECT_THAT(read("out/equip.csv"), HasSubstr("equipped,number,signal"));
-    EXPECT_THAT(read("out/candidates.csv"), HasSubstr("number,signal,share_of_trips,gain_s"));
+    EXPECT_THAT(read("out/candidates.csv"), HasSubstr("number,signal,streets,share_of_trips,gain_s"));
     EXPECT_THAT(read("out/curve.svg"), HasSubstr("<svg"));
     EXPECT_THAT(read("out/map.svg"), HasSubstr("Two crossings: signals to equip first"));
     EXPECT_THAT(read("out/report.html"), HasSubstr("<section id=\"equipment\">"));

@@ -1,4 +1,5 @@
 // Figures and tables of a study as files, from the command line.
+#include <fstream>
 #include <map>
 
 #include "user.hpp"
@@ -56,9 +57,28 @@ TEST_F(FiguresTest, every_drawing_becomes_svg_pdf_and_png_and_every_table_csv_an
     for (const auto& entry : std::filesystem::directory_iterator(folder() / "new/figures")) {
         const std::string name = entry.path().filename();
         const bool is_linked = index.find("href=\"" + name + "\"") != std::string::npos;
-        EXPECT_EQ(is_linked, name != "index.html") << name;
+        EXPECT_EQ(is_linked, name != "index.html" && name != ".clearway-figures") << name;
     }
     EXPECT_THAT(read("new/figures/times-line.tex"), HasSubstr("\\toprule"));
+}
+
+TEST_F(FiguresTest, an_export_replaces_the_last_one_and_nothing_else) {
+    run();
+    const std::vector<std::string> command = {"export", "figures", "study", "--out", "figures", "--svg-only"};
+    ASSERT_EQ(clearway(command).code, 0);
+    const auto first = files("figures");
+    std::filesystem::copy_file(folder() / "figures/times-line.csv", folder() / "figures/times-gone.csv");
+    std::ofstream(folder() / "figures/.clearway-figures", std::ios::app) << "times-gone\n../study/runs\n";
+    std::ofstream(folder() / "figures/mine.csv") << "kept\n";
+    ASSERT_EQ(clearway(command).code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder() / "figures/times-gone.csv"));
+    EXPECT_EQ(read("figures/mine.csv"), "kept\n");
+    std::filesystem::remove(folder() / "figures/mine.csv");
+    EXPECT_EQ(files("figures"), first);
+    const Ended refused = clearway({"export", "figures", "study", "--out", "study", "--svg-only"});
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("--out: study holds something else (allowed: a new or empty folder"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "study/index.html"));
 }
 
 TEST_F(FiguresTest, with_svg_only_no_other_program_is_needed) {

@@ -120,10 +120,10 @@ void PolicyRun::remove(core::VehicleKey vehicle) {
 
 void PolicyRun::expect_legal(const traffic::Lease& lease) {
     SCOPED_TRACE(describe(lease));
-    EXPECT_GT(lease.expiry, bench_.now);
-    EXPECT_LE(lease.expiry.value, bench_.now.value + 60.0);
-    EXPECT_STRNE(lease.reason, "");
-    EXPECT_STRNE(lease.policy, "");
+    EXPECT_GT(lease.expiry, bench_.now) << "it ends before it begins: add a lifetime to the belief's time";
+    EXPECT_LE(lease.expiry.value, bench_.now.value + 60.0) << "renew a shorter one instead";
+    EXPECT_STRNE(lease.reason, "") << "say why in a few words";
+    EXPECT_STRNE(lease.policy, "") << "set it to name()";
     if (const auto* signal = std::get_if<core::SignalIndex>(&lease.target)) {
         ASSERT_LT(signal->value, two_crossings().signals().size());
         if (const auto* hold = std::get_if<traffic::HoldGreen>(&lease.action)) {
@@ -135,12 +135,13 @@ void PolicyRun::expect_legal(const traffic::Lease& lease) {
     }
     const core::VehicleKey vehicle = std::get<core::VehicleKey>(lease.target);
     ASSERT_TRUE(bench_.on_road.contains(vehicle));
-    EXPECT_NE(bench_.scene.roster().find(vehicle)->vehicle_class, VehicleClass::human);
+    EXPECT_NE(bench_.scene.roster().find(vehicle)->vehicle_class, VehicleClass::human)
+        << "human drivers are asked only with ask_humans=1";
     const roads::Lane& lane = two_crossings().lane(bench_.on_road.at(vehicle).lane);
     if (const auto* drive = std::get_if<traffic::DriveAt>(&lease.action)) {
         EXPECT_TRUE(std::isfinite(drive->speed.value));
         EXPECT_GE(drive->speed.value, 0.0);
-        EXPECT_LE(drive->speed.value, lane.speed_limit_mps + 1e-6);
+        EXPECT_LE(drive->speed.value, lane.speed_limit_mps + 1e-6) << "above the limit of its lane";
     }
     if (const auto* change = std::get_if<traffic::ChangeLane>(&lease.action)) {
         EXPECT_LT(change->lane_number, two_crossings().edge(lane.edge).lane_count);

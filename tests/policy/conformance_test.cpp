@@ -26,7 +26,7 @@ class EveryPolicy : public ::testing::TestWithParam<std::string> {
 };
 
 TEST_P(EveryPolicy, knows_its_name) {
-    EXPECT_EQ(make()->name(), python::short_name(GetParam()));
+    EXPECT_EQ(make()->name(), python::short_name(GetParam())) << "name() returns the name of the registry";
 }
 
 TEST_P(EveryPolicy, acts_in_a_scene_made_for_it) {
@@ -34,7 +34,8 @@ TEST_P(EveryPolicy, acts_in_a_scene_made_for_it) {
     add_helpful_scene(bench, to_line_m());
     PolicyRun run(make(), bench);
     run.run_for(5.0);
-    EXPECT_EQ(run.leases().empty(), is_out_of_place());
+    EXPECT_EQ(run.leases().empty(), is_out_of_place())
+        << "add what your policy acts on to add_helpful_scene (tests/policy/conformance.cpp)";
 }
 
 TEST_P(EveryPolicy, does_nothing_in_a_scene_made_against_it) {
@@ -46,7 +47,8 @@ TEST_P(EveryPolicy, does_nothing_in_a_scene_made_against_it) {
     if (GetParam() == "geocast") {
         EXPECT_THAT(run.leases(), ::testing::Each(::testing::HasSubstr("the lane that is cleared")));
     } else {
-        EXPECT_EQ(run.leases(), std::vector<std::string>{});
+        EXPECT_EQ(run.leases(), std::vector<std::string>{})
+            << "nothing of add_needless_scene (tests/policy/conformance.cpp) is in an EV's way";
     }
 }
 
@@ -59,14 +61,15 @@ TEST_P(EveryPolicy, gives_the_same_leases_for_the_same_belief) {
         run.run_for(10.0);
         leases.push_back(run.leases());
     }
-    EXPECT_EQ(leases[0], leases[1]);
+    EXPECT_EQ(leases[0], leases[1])
+        << "no clock, address or chance of its own; state only from what it was shown";
 }
 
 TEST_P(EveryPolicy, does_nothing_on_an_empty_road) {
     ActuationBench bench;
     PolicyRun run(make(), bench);
     run.run_for(5.0);
-    EXPECT_TRUE(run.leases().empty());
+    EXPECT_TRUE(run.leases().empty()) << "return before anything else where the belief has no EV";
 }
 
 TEST_P(EveryPolicy, does_nothing_for_one_vehicle_that_is_no_emergency_vehicle) {
@@ -133,7 +136,7 @@ TEST_P(EveryPolicy, leaves_nothing_behind_when_the_emergency_vehicle_vanishes) {
     const std::size_t before = commands.size();
     bench.actuator.restore_all(commands);
     if (GetParam() != "listing_5_5") {
-        EXPECT_EQ(commands.size(), before) << "all leases had ended already";
+        EXPECT_EQ(commands.size(), before) << "all leases had ended already: let them expire within seconds";
     }
     // The vehicle that vanished took its own settings with it.
     std::erase_if(commands, [](const traffic::Command& command) {

@@ -99,7 +99,10 @@ class ResultsTest(FolderCase):
 
     def test_where_and_pandas(self) -> None:
         corridor = self.results.runs.where(condition="corridor", replication=2)
-        self.assertEqual(corridor.row_count, 1)
+        self.assertEqual((corridor.row_count, len(corridor)), (1, 1))
+        self.assertEqual(len(self.results.runs.where(replication=77)), 0)
+        self.assertIn("no row has the condition 'coridor'; there are baseline, corridor",
+                      self.message_of(clearway.InputError, lambda: self.results.runs.where(condition="coridor")))
         frame = self.results.vehicles.to_pandas()
         self.assertEqual(list(frame.columns), list(self.results.vehicles))
         self.assertEqual(len(frame), self.results.vehicles.row_count)
@@ -115,6 +118,9 @@ class ResultsTest(FolderCase):
         self.assertAlmostEqual(found.interval_95[1], pairs.mean() + half, places=6)
         self.assertEqual((found.complete_pairs, found.compared_with), (5, "baseline"))
         self.assertIn("corridor - baseline", str(found))
+        turned = self.results.paired_difference(metric, "baseline", against="corridor")
+        self.assertAlmostEqual(turned.difference, -found.difference, places=9)
+        self.assertEqual(turned.compared_with, "corridor")
         self.assertEqual((found.locked_pairs, found.difference_without_locks), (0, None))
 
     def test_a_recording_is_what_replay_prints(self) -> None:

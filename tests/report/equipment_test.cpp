@@ -40,13 +40,14 @@ EquipmentFacts two_of_twelve() {
     facts.none_s = about(150.0, 9.0);
     facts.all_s = about(100.0, 8.0);
     facts.alone_s = about(95.0, 7.0);
-    facts.candidates = {{1, "west", 0.1, about(1.0, 2.0), true, std::nullopt},
-                        {4, "north<&>", 0.45, about(31.0, 4.0), false, 1},
-                        {9, "south of the old town's gate", 0.2, about(12.0, 3.0), false, 2}};
+    facts.candidates = {{1, "west", "", 0.1, about(1.0, 2.0), true, std::nullopt},
+                        {4, "north<&>", "Gate <Road> / High Street", 0.45, about(31.0, 4.0), false, 1},
+                        {9, "south of the old town's gate", "", 0.2, about(12.0, 3.0), false, 2}};
     facts.candidates[0].gain->n = 5;
-    facts.ranked = {{4, "north<&>", about(30.0, 4.0), about(30.0, 4.0), about(0.5, 0.2), about(31.0, 4.0)},
-                    {9, "south of the old town's gate", about(12.0, 13.0), about(42.0, 4.0), about(1.0, 0.4),
-                     about(14.0, 3.0)}};
+    facts.ranked = {{4, "north<&>", "Gate <Road> / High Street", about(30.0, 4.0), about(30.0, 4.0),
+                     about(0.5, 0.2), about(31.0, 4.0)},
+                    {9, "south of the old town's gate", "", about(12.0, 13.0), about(42.0, 4.0),
+                     about(1.0, 0.4), about(14.0, 3.0)}};
     facts.end = analysis::EquipEnd::no_gain;
     return facts;
 }
@@ -94,7 +95,8 @@ TEST(Equipment, HasARowForEachCandidateAndRankInEightyColumns) {
 
 TEST(Equipment, EndsWithTheAnswer) {
     const std::string text = flat_text(two_of_twelve());
-    const std::string answer = text.substr(text.find("Equip first: 4 (north<&>), 9 (south of the old"));
+    const std::string answer =
+        text.substr(text.find("Equip first: 4 (Gate <Road> / High Street), 9 (south of"));
     EXPECT_THAT(answer, HasSubstr("42.0 [38.0, 46.0]"));
     EXPECT_THAT(text, HasSubstr("Not shown: the gain of rank 2"));
     EXPECT_THAT(text, HasSubstr("Stopped at 2 of 5"));
@@ -113,7 +115,7 @@ TEST(Equipment, IsShownNowhereWhereNoCandidateGains) {
     EquipmentFacts facts = two_of_twelve();
     facts.ranked.clear();
     for (EquipCandidateFacts& one : facts.candidates)
-        one = {one.number, one.signal, one.trips, about(0.0, 0.0), false, std::nullopt};
+        one = {one.number, one.signal, one.streets, one.trips, about(0.0, 0.0), false, std::nullopt};
     const std::string text = flat_text(facts);
     EXPECT_THAT(text,
                 HasSubstr("No signal to equip: in the mean of the runs none of the 3 candidates gains."));
@@ -172,22 +174,25 @@ TEST(Equipment, IsWholeInJsonWithNullForWhatIsMissing) {
 TEST(Equipment, IsACurveFromNoneToAllAsCsv) {
     const std::vector<std::string> rows = lines_of(equipment_csv(two_of_twelve()));
     ASSERT_EQ(rows.size(), 5U);
-    EXPECT_EQ(rows[0],
-              "equipped,number,signal,gain_s,gain_low_s,gain_high_s,shown,gain_so_far_s,gain_so_far_low_s,"
-              "gain_so_far_high_s,share_of_all,others_time_loss_s,others_time_loss_low_s,"
-              "others_time_loss_high_s,gain_chosen_by_s,gain_chosen_by_low_s,gain_chosen_by_high_s");
-    EXPECT_EQ(rows[1], "0,,,,,,,0,,,0,0,,,,,");
-    EXPECT_EQ(rows[2], "1,4,north<&>,30,26,34,true,30,26,34,0.6,0.5,0.3,0.7,31,27,35");
-    EXPECT_EQ(rows[4], "12,,,,,,,50,45,55,1,2,1,3,,,");
+    EXPECT_EQ(
+        rows[0],
+        "equipped,number,signal,streets,gain_s,gain_low_s,gain_high_s,shown,gain_so_far_s,gain_so_far_low_s,"
+        "gain_so_far_high_s,share_of_all,others_time_loss_s,others_time_loss_low_s,"
+        "others_time_loss_high_s,gain_chosen_by_s,gain_chosen_by_low_s,gain_chosen_by_high_s");
+    EXPECT_EQ(rows[1], "0,,,,,,,,0,,,0,0,,,,,");
+    EXPECT_EQ(rows[2],
+              "1,4,north<&>,Gate <Road> / High Street,30,26,34,true,30,26,34,0.6,0.5,0.3,0.7,31,27,35");
+    EXPECT_EQ(rows[4], "12,,,,,,,,50,45,55,1,2,1,3,,,");
 }
 
 TEST(Equipment, HasItsCandidatesAsCsv) {
     const std::vector<std::string> rows = lines_of(candidates_csv(two_of_twelve()));
     ASSERT_EQ(rows.size(), 4U);
-    EXPECT_EQ(rows[0],
-              "number,signal,share_of_trips,gain_s,gain_low_s,gain_high_s,shown,pairs,left_race,rank");
-    EXPECT_EQ(rows[1], "4,north<&>,0.45,31,27,35,true,10,false,1");
-    EXPECT_EQ(rows[3], "1,west,0.1,1,-1,3,false,5,true,");
+    EXPECT_EQ(
+        rows[0],
+        "number,signal,streets,share_of_trips,gain_s,gain_low_s,gain_high_s,shown,pairs,left_race,rank");
+    EXPECT_EQ(rows[1], "4,north<&>,Gate <Road> / High Street,0.45,31,27,35,true,10,false,1");
+    EXPECT_EQ(rows[3], "1,west,,0.1,1,-1,3,false,5,true,");
 }
 
 TEST(Equipment, IsDrawnAsACurveWithTheGainOfAll) {
@@ -231,6 +236,8 @@ TEST(Equipment, HasAPageWithAnswerMapTablesAndCommand) {
     EquipmentFacts facts = two_of_twelve();
     facts.roads = three_roads();
     facts.attribution = "OpenStreetMap contributors";
+    EXPECT_THAT(equipment_map(facts), AllOf(HasSubstr("OpenStreetMap contributors</text>"),
+                                            HasSubstr("text-anchor=\"middle\">4</text>")));
     std::ostringstream page;
     write_equipment_page(facts, page);
     const std::string html = page.str();

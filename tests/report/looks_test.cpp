@@ -166,6 +166,16 @@ TEST(Looks, make_the_condition_of_the_headline_the_most_prominent) {
     EXPECT_EQ(count_of(figure_of(page, "differences-merge"), "label lead"), 3u) << "once for each measure";
 }
 
+TEST(Differences, of_many_conditions_have_a_figure_for_each_measure) {
+    EXPECT_THAT(figure_of(tests::page_of(crowd(12)), "differences-merge"), HasSubstr("EV waiting time"));
+    const std::string page = tests::page_of(crowd(13));
+    EXPECT_THAT(page, Not(HasSubstr("<figure id=\"differences-merge\">")));
+    for (const char* const measure :
+         {"emergency-restricted-travel-time-s", "emergency-waiting-time-s", "others-time-loss-s"})
+        EXPECT_EQ(count_of(page, "<figure id=\"differences-merge-" + std::string(measure) + "\">"), 1u)
+            << measure;
+}
+
 TEST(TradeOff, moves_numbers_so_that_none_hides_another) {
     const std::string figure = figure_of(tests::page_of(crowd(12)), "tradeoff-merge");
     std::vector<std::pair<double, double>> places;

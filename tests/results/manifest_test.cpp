@@ -1,5 +1,8 @@
 #include "results/manifest.hpp"
 
+#include <utility>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
@@ -31,6 +34,24 @@ TEST(Manifest, HasAnotherHashWhenAnythingDiffers) {
     other = manifest;
     other.scenarios[0].configuration += "# changed\n";
     EXPECT_NE(manifest_hash(other), manifest_hash(manifest));
+}
+
+TEST(Manifest, NamesTheConditionsThatDifferAndWhatDiffersInThem) {
+    const Manifest manifest = synthetic::manifest();
+    Manifest other = manifest;
+    other.conditions[0].policies = {"/here/soft.py:Soft@" + std::string(32, '1')};
+    other.conditions[1].failure = "B10";
+    Manifest changed = other;
+    changed.conditions[0].policies = {"/there/soft.py:Soft@" + std::string(32, '2')};
+    EXPECT_EQ(differences(other, changed), "conditions (baseline: soft.py has changed)");
+    EXPECT_THAT(differences(manifest, other), testing::HasSubstr(manifest.conditions[1].name + ": failure"));
+    changed = manifest;
+    changed.conditions[1].name = "another";
+    EXPECT_EQ(differences(manifest, changed),
+              fmt::format("conditions (another is new; {} is not asked for)", manifest.conditions[1].name));
+    changed = manifest;
+    std::swap(changed.conditions[0], changed.conditions[1]);
+    EXPECT_EQ(differences(manifest, changed), "order of conditions");
 }
 
 TEST(Manifest, IsRefusedWhenEditedOrOfAnotherFormat) {

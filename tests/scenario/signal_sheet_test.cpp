@@ -60,12 +60,13 @@ TEST(SignalSheet, of_a_signal_with_a_crossing_counts_it_apart) {
 
 TEST(SignalsPicture, has_a_number_and_a_name_at_each_signal) {
     const roads::Network network = sheet_crossings();
-    const std::string svg = signals_picture(network, "two <crossings>");
+    const std::string svg = signals_picture(network, "two <crossings>", "Map (c) A & B");
     EXPECT_THAT(svg, HasSubstr("two &lt;crossings&gt;"));
+    EXPECT_THAT(svg, HasSubstr("Map (c) A &amp; B</text>"));
     EXPECT_THAT(svg, HasSubstr(">1</text>"));
     EXPECT_THAT(svg, HasSubstr(">2</text>"));
     EXPECT_THAT(svg, HasSubstr("<title>1: A</title>"));
-    EXPECT_THAT(network_picture(network, "two"), ::testing::Not(HasSubstr(">1</text>")));
+    EXPECT_THAT(network_picture(network, "two", ""), ::testing::Not(HasSubstr(">1</text>")));
 }
 
 }  // namespace

@@ -36,7 +36,6 @@ void add_override(CLI::App& app, const scenario::Override& override, scenario::O
     CLI::Option* const option = app.add_option_function<std::string>(override.option, set, value.doc)
                                     ->option_text(value_text(override));
     if (!value.words.empty()) option->check(CLI::IsMember(value.words));
-    if (override.is_number()) option->check(CLI::Number);
 }
 
 }  // namespace

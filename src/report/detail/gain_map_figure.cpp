@@ -138,6 +138,7 @@ Figure gain_map_figure(const ScenarioFacts& scenario) {
         if (const auto edge = roads.find_edge(losing[row]->edge)) draw_loss(canvas, roads.edges[*edge]);
     }
     canvas.scale_bar();
+    canvas.credit(scenario.attribution);
     canvas.legend(entries_of(map, !losing.empty()));
     std::string note = fmt::format(
         "Seconds that an emergency vehicle gains on an edge and the junction behind it under {}: means over "
@@ -148,8 +149,7 @@ Figure gain_map_figure(const ScenarioFacts& scenario) {
         note += fmt::format(
             " Of {} approaches on which others lose time, the {} with the largest losses are marked.",
             losing.size(), drawn_losses);
-    return {"map-" + scenario.name, "Where time is gained and lost", canvas.finish(),
-            scenario.attribution.empty() ? note : note + " " + scenario.attribution + ".",
+    return {"map-" + scenario.name, "Where time is gained and lost", canvas.finish(), note,
             data_of(roads, map, losing)};
 }
 

@@ -8,9 +8,9 @@ namespace {
 constexpr double heading_height = 20.0;
 constexpr double columns_height = 18.0;
 constexpr double row_height = 24.0;
-constexpr double cells_left = 124.0;
 constexpr double cells_right = 396.0;
 constexpr double gap = 2.0;
+constexpr double letter = 6.5;  ///< Width of one.
 constexpr std::size_t longest_label = 18;
 
 std::string style_of(GridCell::Tone tone) {
@@ -33,6 +33,14 @@ double grid_height(const Grid& grid) {
            row_height * static_cast<double>(grid.rows.size()) + 8.0;
 }
 
+/// Room for the labels of the rows.
+double cells_left_of(const Grid& grid) {
+    std::size_t letters = 4;
+    for (const Grid::Row& row : grid.rows)
+        letters = std::max(letters, std::min(row.label.size(), longest_label));
+    return 7.0 + letter * static_cast<double>(letters);
+}
+
 /// Draws a grid with its upper edge at `top`.
 void draw_grid(const Grid& grid, double top, Canvas& canvas) {
     using Anchor = Canvas::Anchor;
@@ -40,8 +48,9 @@ void draw_grid(const Grid& grid, double top, Canvas& canvas) {
         canvas.text(2.0, top + 14.0, shortened(grid.heading, 60), Anchor::start, "heading");
         top += heading_height;
     }
+    const double cells_left = cells_left_of(grid);
     const double width = (cells_right - cells_left) / static_cast<double>(grid.columns.size());
-    const auto letters = static_cast<std::size_t>(width / 6.5);
+    const auto letters = static_cast<std::size_t>(width / letter);
     for (std::size_t column = 0; column < grid.columns.size(); ++column)
         canvas.text(cells_left + (static_cast<double>(column) + 0.5) * width, top + 12.0,
                     shortened(grid.columns[column], letters), Anchor::middle, "tick");
@@ -59,20 +68,23 @@ void draw_grid(const Grid& grid, double top, Canvas& canvas) {
 }
 
 /// More columns are too narrow for their figures.
-constexpr std::size_t most_columns = 8;
+constexpr std::size_t most_columns = 6;
 
 template <class Cell>
-std::vector<Cell> part_of(const std::vector<Cell>& cells, std::size_t first) {
+std::vector<Cell> part_of(const std::vector<Cell>& cells, std::size_t first, std::size_t count) {
     const auto start = cells.begin() + static_cast<std::ptrdiff_t>(first);
-    return {start, start + static_cast<std::ptrdiff_t>(std::min(most_columns, cells.size() - first))};
+    return {start, start + static_cast<std::ptrdiff_t>(std::min(count, cells.size() - first))};
 }
 
-/// Adds the grid as several that are narrow enough.
+/// Adds the grid as several that are narrow enough, about equally wide.
 void split(const Grid& grid, std::vector<Grid>& parts) {
-    for (std::size_t first = 0; first < grid.columns.size(); first += most_columns) {
-        Grid& part = parts.emplace_back(Grid{grid.heading, part_of(grid.columns, first), {}});
+    const std::size_t columns = grid.columns.size();
+    const std::size_t count = (columns + most_columns - 1) / most_columns;
+    const std::size_t each = count == 0 ? 1 : (columns + count - 1) / count;
+    for (std::size_t first = 0; first < columns; first += each) {
+        Grid& part = parts.emplace_back(Grid{grid.heading, part_of(grid.columns, first, each), {}});
         for (const Grid::Row& row : grid.rows)
-            part.rows.push_back({row.label, part_of(row.cells, first)});
+            part.rows.push_back({row.label, part_of(row.cells, first, each)});
     }
 }
 

@@ -91,4 +91,8 @@ void MapCanvas::scale_bar() {
          Anchor::start, "tick");
 }
 
+void MapCanvas::credit(const std::string& words) {
+    if (!words.empty()) text(width - margin, frame_.height - 6.0, words, Anchor::end, "tick");
+}
+
 }  // namespace clearway::report::detail

@@ -183,6 +183,7 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
         "Up is better for emergency vehicles, left is better for the others. Bars are 95 % intervals. In the "
         "grey band a gain or loss is below {} s and does not count.",
         number(scenario.least_relevant_s, typeset(1)));
+    note += " A number that would hide another has a line to its dot.";
     if (std::ranges::any_of(points, &Point::turned_alone)) note += " Small dots: one setting turned alone.";
     return {"tradeoff-" + scenario.name, "Gain and cost", plot.finish(), note, data_of(points)};
 }

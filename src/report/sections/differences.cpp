@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <span>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,6 +18,7 @@ constexpr std::array forest_measures = {Measure::emergency_restricted_time, Meas
 constexpr double forest_right = 250.0;  // the numbers are to the right of the drawing
 constexpr double heading_height = 28.0;
 constexpr double row_height = 34.0;
+constexpr std::ptrdiff_t most_rows = 12;  ///< With more conditions, each measure has a figure of its own.
 
 Range forest_range(const ScenarioFacts& scenario) {
     Range range;
@@ -35,9 +39,9 @@ void draw_forest_row(Plot& plot, const ConditionFacts& condition, const MaybeEst
     plot.estimate(difference, shown_interval(difference), top + 22.0, series);
 }
 
-DataTable forest_data(const ScenarioFacts& scenario) {
+DataTable forest_data(const ScenarioFacts& scenario, std::span<const Measure> measures) {
     DataTable table{{"Measure, condition", "difference, s", "low 95 %", "high 95 %", "pairs"}, {}};
-    for (const Measure measure : forest_measures) {
+    for (const Measure measure : measures) {
         for (const ConditionFacts& condition : scenario.conditions) {
             if (!condition.is_compared()) continue;
             const MaybeEstimate& difference = condition.difference(measure);
@@ -54,19 +58,22 @@ DataTable forest_data(const ScenarioFacts& scenario) {
     return table;
 }
 
-Figure forest_figure(const ScenarioFacts& scenario, const Looks& looks) {
-    const auto compared = std::ranges::count_if(scenario.conditions, &ConditionFacts::is_compared);
-    if (compared == 0) return {};
-    const double height =
-        forest_measures.size() * (static_cast<double>(compared) * row_height + heading_height) + 10.0 +
-        label_space;
+std::ptrdiff_t compared_in(const ScenarioFacts& scenario) {
+    return std::ranges::count_if(scenario.conditions, &ConditionFacts::is_compared);
+}
+
+/// `name`: of its files.
+Figure forest_figure(const ScenarioFacts& scenario, const Looks& looks, std::span<const Measure> measures,
+                     const std::string& name) {
+    const double rows = static_cast<double>(compared_in(scenario)) * row_height + heading_height;
+    const double height = static_cast<double>(measures.size()) * rows + 10.0 + label_space;
     Plot plot(fmt::format("{}: paired differences to the baseline", scenario.name), height,
               {padded(forest_range(scenario), 0.06), "difference to the baseline, s", 10.0, forest_right},
               {{}, "", 6.0, height - label_space});
     plot.grid_x();
     plot.vertical(0.0);
     double top = 6.0;
-    for (const Measure measure : forest_measures) {
+    for (const Measure measure : measures) {
         plot.text(10.0, top + 18.0, info(measure).title, Plot::Anchor::start, "heading");
         top += heading_height;
         for (std::size_t row = 0; row < scenario.conditions.size(); ++row) {
@@ -76,7 +83,25 @@ Figure forest_figure(const ScenarioFacts& scenario, const Looks& looks) {
             top += row_height;
         }
     }
-    return {"differences-" + scenario.name, scenario.name, plot.finish(), "", forest_data(scenario)};
+    return {name, scenario.name, plot.finish(), "", forest_data(scenario, measures)};
+}
+
+std::vector<Figure> forest_figures(const StudyFacts& study) {
+    std::vector<Figure> figures;
+    for (const ScenarioFacts& scenario : study.scenarios) {
+        const Looks looks = looks_of(study, scenario);
+        const std::string name = "differences-" + scenario.name;
+        const std::ptrdiff_t compared = compared_in(scenario);
+        if (compared > 0 && compared <= most_rows)
+            figures.push_back(forest_figure(scenario, looks, forest_measures, name));
+        if (compared <= most_rows) continue;
+        for (const Measure& measure : forest_measures) {
+            figures.push_back(forest_figure(scenario, looks, {&measure, 1},
+                                            fmt::format("{}-{}", name, info(measure).field)));
+            figures.back().caption += fmt::format(": {}", info(measure).title);
+        }
+    }
+    return figures;
 }
 
 }  // namespace
@@ -86,7 +111,7 @@ void differences_section(const StudyFacts& study, Writer& writer) {
         "<p>Mean of the paired differences with its 95 % interval. Left of the line a condition takes "
         "less time than the baseline, right of it more. The gain of the EVs and the cost to the others "
         "share one axis.</p>\n");
-    writer.figures(figures_of(study, forest_figure));
+    writer.figures(forest_figures(study));
 }
 
 }  // namespace clearway::report::detail

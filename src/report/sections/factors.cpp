@@ -59,6 +59,11 @@ std::string level_of(const Made& made, const std::string& factor) {
     return found == made.condition->factors.end() ? std::string() : found->second;
 }
 
+/// `failure` of `condition.failure`.
+std::string last_part(const std::string& factor) {
+    return factor.substr(factor.rfind('.') + 1);
+}
+
 /// The name that the study file gave: what follows `+` was added by factors.
 std::string plain_name(const std::string& name) {
     return name.substr(0, name.find('+'));
@@ -69,7 +74,8 @@ std::string panel_of(const Made& made, const std::vector<Factor>& factors) {
     std::string panel =
         fmt::format("{}, {}", plain_name(made.scenario->name), plain_name(made.condition->name()));
     for (std::size_t factor = 2; factor < factors.size(); ++factor)
-        panel += fmt::format(", {} {}", factors[factor].name, level_of(made, factors[factor].name));
+        panel +=
+            fmt::format(", {} {}", last_part(factors[factor].name), level_of(made, factors[factor].name));
     return panel;
 }
 
@@ -133,9 +139,10 @@ Figure factors_figure(const std::vector<Made>& made, const std::vector<Factor>& 
     std::vector<Grid> grids;
     for (const auto& [heading, panel] : panels)
         grids.push_back(grid_of(heading, panel, factors, measure));
-    Canvas canvas = draw_grids(
-        caption, grids,
-        fmt::format("across: {}{}", factors[0].name, factors.size() > 1 ? "; down: " + factors[1].name : ""));
+    Canvas canvas =
+        draw_grids(caption, grids,
+                   fmt::format("across: {}{}", last_part(factors[0].name),
+                               factors.size() > 1 ? "; down: " + last_part(factors[1].name) : ""));
     return {name, caption, canvas.finish(), "", data_of(made, factors, measure)};
 }
 
