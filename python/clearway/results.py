@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import dataclasses
 import html
+import json
 import sqlite3
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
@@ -31,8 +32,10 @@ class Table(Mapping[str, np.ndarray]):
     ``str``, a missing text is ``""``.
     """
 
-    def __init__(self, columns: Mapping[str, np.ndarray]) -> None:
+    def __init__(self, columns: Mapping[str, np.ndarray], names: Mapping[str, list[str]] | None = None) -> None:
+        """``names`` are all that a column can hold, such as the conditions of a study."""
         self._columns = dict(columns)
+        self._names = names or {}
         self.row_count = len(next(iter(self._columns.values()))) if self._columns else 0
 
     def __getitem__(self, column: str) -> np.ndarray:
@@ -51,7 +54,7 @@ class Table(Mapping[str, np.ndarray]):
 
     def where(self, **values: Any) -> "Table":
         """The rows whose columns have these values: ``runs.where(scenario="city", condition="corridor")``. Raises InputError for
-        a scenario or condition that no row has.
+        a scenario or condition that the study does not have.
         """
         chosen = np.ones(self.row_count, dtype=bool)
         for column, value in values.items():
@@ -59,12 +62,11 @@ class Table(Mapping[str, np.ndarray]):
             if np.ndim(value) != 0 or isinstance(value, str) != (array.dtype.kind == "U"):
                 kind = "a text" if array.dtype.kind == "U" else "a number"
                 raise _program.InputError(f"column {column!r} is compared with {value!r} (allowed: {kind})")
-            if column in ("scenario", "condition") and self.row_count and not np.any(array == value):
-                there = sorted(set(array))
-                raise _program.InputError(f"no row has the {column} {value!r}; there are {', '.join(there)}"
-                                          f"{_program.did_you_mean(value, there)}")
+            if column in self._names and value not in self._names[column]:
+                raise _program.InputError(f"the study has no {column} {value!r}; it has {', '.join(self._names[column])}"
+                                          f"{_program.did_you_mean(value, self._names[column])}")
             chosen &= array == value
-        return Table({name: array[chosen] for name, array in self._columns.items()})
+        return Table({name: array[chosen] for name, array in self._columns.items()}, self._names)
 
     def to_pandas(self) -> "pandas.DataFrame":
         """The same as a DataFrame. Needs pandas (Debian: python3-pandas)."""
@@ -79,7 +81,7 @@ class Table(Mapping[str, np.ndarray]):
         """The first rows."""
         if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 0:
             raise _program.InputError(f"head: {count!r} (allowed: a number of rows from 0)")
-        return Table({name: array[:count] for name, array in self._columns.items()})
+        return Table({name: array[:count] for name, array in self._columns.items()}, self._names)
 
     def __repr__(self) -> str:
         return f"<Table of {_program.counted(self.row_count, 'row')}: {', '.join(self._columns)}>"
@@ -165,11 +167,15 @@ class Results:
         if name not in self._read:
             database = self.folder / "results.sqlite"
             try:
-                self._read[name] = _read_table(database, name)
+                self._read[name] = Table(_read_table(database, name), self._names())
             except sqlite3.Error as error:
                 raise _program.InputError(f"{database}: cannot be read: {error}. Remove it; `clearway report` on the folder "
                                          "writes it again") from None
         return self._read[name]
+
+    def _names(self) -> dict[str, list[str]]:
+        manifest = json.loads((self.folder / "manifest.json").read_text(encoding="utf-8"))
+        return {kind: [one["name"] for one in manifest[f"{kind}s"]] for kind in ("scenario", "condition")}
 
     @property
     def runs(self) -> Table:
@@ -253,7 +259,7 @@ def open(folder: str | Path) -> Results:
     return Results(folder)
 
 
-def _read_table(database: Path, name: str) -> Table:
+def _read_table(database: Path, name: str) -> dict[str, np.ndarray]:
     connection = sqlite3.connect(database.resolve().as_uri() + "?mode=ro", uri=True)
     try:
         cursor = connection.execute(f'SELECT * FROM "{name}"')
@@ -263,7 +269,7 @@ def _read_table(database: Path, name: str) -> Table:
     finally:
         connection.close()
     columns = list(zip(*rows)) if rows else [()] * len(names)
-    return Table({name: _column(values, types.get(name, "")) for name, values in zip(names, columns)})
+    return {name: _column(values, types.get(name, "")) for name, values in zip(names, columns)}
 
 
 def _column(values: tuple[Any, ...], declared: str) -> np.ndarray:

@@ -101,7 +101,7 @@ class ResultsTest(FolderCase):
         corridor = self.results.runs.where(condition="corridor", replication=2)
         self.assertEqual((corridor.row_count, len(corridor)), (1, 1))
         self.assertEqual(len(self.results.runs.where(replication=77)), 0)
-        self.assertIn("no row has the condition 'coridor'; there are baseline, corridor",
+        self.assertIn("the study has no condition 'coridor'; it has baseline, corridor",
                       self.message_of(clearway.InputError, lambda: self.results.runs.where(condition="coridor")))
         frame = self.results.vehicles.to_pandas()
         self.assertEqual(list(frame.columns), list(self.results.vehicles))
