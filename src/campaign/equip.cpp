@@ -15,7 +15,7 @@
 #include "campaign/equip_rounds.hpp"
 #include "campaign/names.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
+#include "core/leftovers.hpp"
 #include "core/progress.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
@@ -167,12 +167,12 @@ report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipReq
 void write_files(const report::EquipmentFacts& facts, const std::filesystem::path& folder) {
     std::ostringstream page;
     report::write_equipment_page(facts, page);
-    core::write_atomically(folder / "report.html", page.str());
-    core::write_atomically(folder / "equip.csv", report::equipment_csv(facts));
-    core::write_atomically(folder / "candidates.csv", report::candidates_csv(facts));
-    core::write_atomically(folder / "equip.json", report::equipment_json(facts));
-    core::write_atomically(folder / "curve.svg", report::equipment_curve(facts));
-    core::write_atomically(folder / "map.svg", report::equipment_map(facts));
+    core::write_output(folder / "report.html", page.str());
+    core::write_output(folder / "equip.csv", report::equipment_csv(facts));
+    core::write_output(folder / "candidates.csv", report::candidates_csv(facts));
+    core::write_output(folder / "equip.json", report::equipment_json(facts));
+    core::write_output(folder / "curve.svg", report::equipment_curve(facts));
+    core::write_output(folder / "map.svg", report::equipment_map(facts));
 }
 
 /// `runs/equip-SCENARIO-xxxxxx`, where the hash stands for what is run.

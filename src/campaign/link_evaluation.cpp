@@ -12,6 +12,7 @@
 #include "campaign/worker_jobs.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/leftovers.hpp"
 #include "core/shipped_files.hpp"
 #include "experiment/link_job.hpp"
 #include "prediction/predictor.hpp"
@@ -355,11 +356,11 @@ core::ExitCode evaluate_links(const LinkRequest& request) {
     facts.exploratory_gains = !plan.benchmark.comparisons.empty();
     facts.command = request.command;
     const std::string json = report::links_json(facts);
-    core::write_atomically(plan.folder / "evaluation.json", json);
-    core::write_atomically(plan.folder / "evaluation.csv", report::links_csv(facts));
+    core::write_output(plan.folder / "evaluation.json", json);
+    core::write_output(plan.folder / "evaluation.csv", report::links_csv(facts));
     std::ostringstream page;
     report::write_links_page(facts, page);
-    core::write_atomically(plan.folder / "links.html", page.str());
+    core::write_output(plan.folder / "links.html", page.str());
     fmt::print(stderr, "{}\n", (plan.folder / "links.html").string());
     fmt::print("{}", request.printing == Printing::json ? json : report::links_console(facts));
     if (!request.publication.file.empty()) publish_links(request.publication, facts);

@@ -16,7 +16,7 @@
 #include "campaign/names.hpp"
 #include "campaign/programs.hpp"
 #include "core/counted.hpp"
-#include "core/files.hpp"
+#include "core/leftovers.hpp"
 #include "core/progress.hpp"
 #include "core/shipped_files.hpp"
 #include "prediction/predictor.hpp"
@@ -83,15 +83,21 @@ class PresentEstimate {
     std::chrono::steady_clock::time_point read_{};
 };
 
-}  // namespace
-
-bool is_absent_or_empty(const std::filesystem::path& folder) {
+/// Whether a folder is missing or holds only leftovers of killed calls and names that `is_ours`.
+template <class IsOurs>
+bool holds_only(const std::filesystem::path& folder, const IsOurs& is_ours) {
     std::error_code none;
     for (auto entry = std::filesystem::directory_iterator(folder, none);
          !none && entry != std::filesystem::directory_iterator(); entry.increment(none)) {
-        if (!entry->path().filename().string().starts_with('.')) return false;
+        if (!is_ours(entry->path().filename().string()) && !core::is_leftover(entry->path())) return false;
     }
     return true;
+}
+
+}  // namespace
+
+bool is_absent_or_empty(const std::filesystem::path& folder) {
+    return holds_only(folder, [](const std::string& name) { return name.starts_with('.'); });
 }
 
 namespace {
@@ -107,7 +113,7 @@ void write_report(const report::StudyFacts& facts, const ReportReplays& replays,
                   const std::filesystem::path& file) {
     std::ostringstream page;
     report::write_html(facts, page, {replays.markup, replays.script_source});
-    core::write_atomically(file, page.str());
+    core::write_output(file, page.str());
 }
 
 /// `: the last line of a log`, or nothing.
@@ -226,7 +232,9 @@ study::Plan plan_for(const study::StudyConfig& config, RunOptions& options) {
 }
 
 results::Store prepare_run_folder(const study::Plan& plan, const RunOptions& options) {
-    const bool is_new = is_absent_or_empty(options.folder);
+    // Removed below: nothing of the user's may be in it, hidden or not.
+    const bool is_new = holds_only(
+        options.folder, [](const std::string& name) { return name == ".shard" || name == ".lock"; });
     const std::uint32_t before = replications_in(options.folder);
     try {
         results::Store store = study::prepare_folder(plan, options.folder);

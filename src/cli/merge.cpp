@@ -47,6 +47,7 @@ campaign::Printout printout_of(const study::MergeResult& result, const std::stri
              {"missing_runs", result.counts.missing},
              {"new_runs", result.adopted},
              {"runs_seen_before", result.duplicates},
+             {"damaged", result.damaged},
              {"absent_shards", result.absent_shards},
              {"first_missing", missing}},
             {},
@@ -63,6 +64,8 @@ core::ExitCode merge(const Arguments& arguments) {
         study::merge(sources, arguments.out, [&](std::size_t done) { progress.update(done, 0); });
     progress.update(folders, 0);
     progress.finish();
+    for (const std::string& damaged : result.damaged)
+        fmt::print(stderr, "clearway: {}\n", damaged);
     campaign::print(printout_of(result, arguments.out), arguments.printing);
     if (result.counts.missing > 0) return core::ExitCode::incomplete;
     return result.counts.failed > 0 ? core::ExitCode::runs_failed : core::ExitCode::ok;

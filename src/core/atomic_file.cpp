@@ -1,12 +1,9 @@
 #include "core/atomic_file.hpp"
 
 #include <cerrno>
-#include <charconv>
-#include <csignal>
 #include <cstring>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -68,21 +65,6 @@ void AtomicFile::commit() {
 
 void AtomicFile::fail() {
     throw write_error(file_, errno);
-}
-
-void remove_abandoned_parts(const std::filesystem::path& folder) {
-    std::vector<std::filesystem::path> abandoned;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        const std::filesystem::path name = entry.path().filename();
-        if (name.extension() != part_ending) continue;
-        const std::string process = name.stem().extension().string();  // `.1234`
-        int id = 0;
-        const char* const end = process.data() + process.size();
-        if (process.empty() || std::from_chars(process.data() + 1, end, id).ptr != end || id <= 0) continue;
-        if (::kill(id, 0) != 0 && errno == ESRCH) abandoned.push_back(entry.path());
-    }
-    for (const std::filesystem::path& file : abandoned)
-        std::filesystem::remove(file);
 }
 
 }  // namespace clearway::core

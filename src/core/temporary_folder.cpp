@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <charconv>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
@@ -16,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/leftovers.hpp"
 
 namespace clearway::core {
 namespace {
@@ -29,10 +29,6 @@ std::optional<pid_t> process_of(const std::string& name, const std::string& pref
     const auto [rest, error] = std::from_chars(begin, end, process);
     if (error != std::errc{} || rest == end || *rest != '-' || process <= 0) return std::nullopt;
     return process;
-}
-
-bool is_gone(pid_t process) {
-    return ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
 void remove_left_behind(const std::filesystem::path& place, const std::string& prefix) {

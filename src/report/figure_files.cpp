@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/leftovers.hpp"
 #include "report/detail/figures.hpp"
 #include "report/detail/style.hpp"
 #include "report/detail/table_files.hpp"
@@ -29,7 +31,9 @@ constexpr const char* list_name = ".clearway-figures";
 /// Removes what an earlier export has written. Throws core::InputError for a folder that holds something
 /// else.
 void remove_former(const fs::path& folder) {
-    if (!fs::is_directory(folder) || fs::is_empty(folder)) return;
+    if (!fs::is_directory(folder)) return;
+    core::remove_abandoned_parts(folder);
+    if (fs::is_empty(folder)) return;
     if (!fs::exists(folder / list_name))
         throw core::InputError({"--out", fmt::format("{} holds something else", folder.string()),
                                 "a new or empty folder, or one of clearway export figures",
@@ -60,9 +64,9 @@ class FileWriter : public detail::Writer {
         fs::path file = folder_ / (name + ending);
         if (names_.empty() || names_.back() != name) {
             names_.push_back(name);
-            core::write_atomically(folder_ / list_name, fmt::format("{}\n", fmt::join(names_, "\n")));
+            core::write_output(folder_ / list_name, fmt::format("{}\n", fmt::join(names_, "\n")));
         }
-        core::write_atomically(file, text);
+        core::write_output(file, text);
         return file;
     }
     /// A caption that can stand alone, with what is drawn and of which scenario.
@@ -145,7 +149,7 @@ void write_index(const FigureFiles& files, const std::filesystem::path& folder,
         html += entry_markup(entry, more);
     }
     html += section.empty() ? "<p>Nothing to draw.</p>\n" : "</div>\n";
-    core::write_atomically(folder / "index.html", html + "</main>\n</body>\n</html>\n");
+    core::write_output(folder / "index.html", html + "</main>\n</body>\n</html>\n");
 }
 
 FigureFiles write_figures(const StudyFacts& study, const std::filesystem::path& folder) {

@@ -14,7 +14,9 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/leftovers.hpp"
 #include "core/number.hpp"
+#include "core/part_folder.hpp"
 #include "results/detail/record_files.hpp"
 #include "results/detail/signal_event_files.hpp"
 #include "results/detail/traffic_files.hpp"
@@ -36,49 +38,13 @@ void write_unflushed(const fs::path& file, const std::string& content) {
     if (!stream.flush()) throw core::write_error(file, errno);
 }
 
-/// A folder that is being filled; removed with this object unless it was put in place.
-class PartFolder {
-  public:
-    explicit PartFolder(const fs::path& target)
-        : target_(target),
-          part_(target.parent_path() /
-                fmt::format(".{}.{}{}", target.filename().string(), ::getpid(), part_suffix)) {
-        core::make_folder(part_);
-    }
-    ~PartFolder() {
-        std::error_code ignored;
-        fs::remove_all(part_, ignored);
-    }
-    PartFolder(const PartFolder&) = delete;
-    PartFolder& operator=(const PartFolder&) = delete;
-
-    const fs::path& path() const { return part_; }
-
-    /// False when the target exists. rename(2) never replaces a folder that is not empty, on any file system.
-    /// The parent folder is flushed once per unit by Store::flush, not here: that takes 8 ms, runs take about
-    /// 70 ms, and a rename lost in a power failure only means that a run is repeated.
-    bool put_in_place() {
-        if (::rename(part_.c_str(), target_.c_str()) != 0) {
-            if (errno == EEXIST || errno == ENOTEMPTY) return false;
-            throw core::write_error(target_, errno);
-        }
-        return true;
-    }
-
-  private:
-    fs::path target_;
-    fs::path part_;
-};
-
-void link_or_copy(const fs::path& file, const fs::path& place) {
-    std::error_code error;
-    fs::create_hard_link(file, place, error);
-    if (error) core::write_atomically(place, core::read_file(file));
+/// Hidden files are those of locks and shards.
+bool is_leftover_or_hidden(const fs::directory_entry& entry) {
+    return entry.path().filename().string().starts_with(".") || core::is_leftover(entry.path());
 }
 
 bool holds_something(const fs::path& folder) {
-    return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
-                       [](const auto& entry) { return !entry.path().filename().string().starts_with("."); });
+    return !std::all_of(fs::directory_iterator(folder), fs::directory_iterator(), is_leftover_or_hidden);
 }
 
 void require_same(const fs::path& file, const std::string& content, const experiment::RunKey& key) {
@@ -169,7 +135,8 @@ Store Store::create(const fs::path& folder, const Manifest& manifest) {
     if (holds_something(folder))
         throw core::InputError({folder.string(), "is not empty and not a run folder", "a new or empty folder",
                                 "Choose another folder with --out"});
-    core::write_atomically(file, to_json(manifest));
+    core::write_output(file, to_json(manifest));
+    core::flush_folder(fs::absolute(folder).lexically_normal().parent_path());
     return {folder, manifest};
 }
 
@@ -206,7 +173,7 @@ Store::Written Store::write(const RunRecord& record, const RunTiming& timing) co
     const std::string vehicles = detail::vehicles_to_csv(record.vehicles);
     const std::string run = detail::run_to_json(record, vehicles, manifest_.clearway_build);
     core::make_folder(target.parent_path());
-    PartFolder part(target);
+    core::PartFolder part(target);
     core::write_atomically(part.path() / "vehicles.csv", vehicles);
     if (record.signal_events)
         core::write_atomically(part.path() / signal_events_name,
@@ -225,33 +192,38 @@ Store::Written Store::write(const RunRecord& record, const RunTiming& timing) co
 }
 
 Store::Written Store::adopt(const Store& other, const experiment::RunKey& key) const {
+    other.check(key);
     const fs::path source = other.run_folder(key);
     const fs::path target = run_folder(key);
-    bool first = false;
-    if (!complete(key)) {
-        core::make_folder(target.parent_path());
-        PartFolder part(target);
+    const bool first = !complete(key);
+    if (first) {
+        core::PartFolder part(target);
         for (const auto& entry : fs::directory_iterator(source))
-            link_or_copy(entry.path(), part.path() / entry.path().filename());
-        first = part.put_in_place();
+            core::copy_file(entry.path(), part.path() / entry.path().filename(), core::Copying::links);
+        part.put_in_place();
     }
-    const fs::path recording = trace::recording_file(other.folder_, key);
-    const fs::path recording_place = trace::recording_file(folder_, key);
-    if (fs::exists(recording) && !fs::exists(recording_place)) {
-        core::make_folder(recording_place.parent_path());
-        link_or_copy(recording, recording_place);
+    for (const char* const name : {"run.json", "vehicles.csv"}) {
+        if (first || core::read_file(source / name) == core::read_file(target / name)) continue;
+        throw core::ConflictError(
+            fmt::format("run {} differs between {} and {} ({}). Equal inputs must give equal bytes; keep "
+                        "both folders and compare versions and machines",
+                        to_text(key), source.string(), target.string(), name));
     }
-    if (!first) {
-        for (const char* const name : {"run.json", "vehicles.csv"}) {
-            if (core::read_file(source / name) == core::read_file(target / name)) continue;
-            throw core::ConflictError(
-                fmt::format("run {} differs between {} and {} ({}). Equal inputs must give equal bytes; keep "
-                            "both folders and compare versions and machines",
-                            to_text(key), source.string(), target.string(), name));
-        }
-    }
+    adopt_recording(other, key);
     forget_error(key);
     return first ? Written::first : Written::already_there;
+}
+
+void Store::adopt_recording(const Store& other, const experiment::RunKey& key) const {
+    const fs::path recording = trace::recording_file(other.folder_, key);
+    const fs::path place = trace::recording_file(folder_, key);
+    if (!fs::exists(recording)) return;
+    if (fs::exists(place) && fs::file_size(place) == fs::file_size(recording)) return;
+    core::make_folder(place.parent_path());
+    const fs::path part = place.string() + fmt::format(".{}{}", ::getpid(), part_suffix);
+    core::copy_file(recording, part, core::Copying::links);
+    fs::rename(part, place);
+    core::flush_folder(place.parent_path());
 }
 
 std::vector<experiment::RunKey> Store::complete_runs() const {
@@ -289,10 +261,15 @@ void Store::for_each_file(const fs::path& root,
 void Store::flush(const std::vector<experiment::RunKey>& keys) const {
     std::set<fs::path> folders;
     for (const experiment::RunKey& key : keys) {
-        if (complete(key)) folders.insert(run_folder(key).parent_path());
+        if (!complete(key)) continue;
+        core::flush_folder(run_folder(key));
+        for (const fs::path& entry : {run_folder(key), trace::recording_file(folder_, key)})
+            for (fs::path folder = entry.parent_path(); folder != folder_; folder = folder.parent_path())
+                folders.insert(folder);
     }
     for (const fs::path& folder : folders)
-        core::flush_folder(folder);
+        if (fs::exists(folder)) core::flush_folder(folder);
+    core::flush_folder(folder_);
 }
 
 void Store::write(const RunError& error) const {
@@ -392,7 +369,7 @@ std::optional<std::vector<metrics::SignalEvent>> Store::read_signal_events(
 
 std::optional<RunTiming> Store::read_timing(const experiment::RunKey& key) const {
     const fs::path file = run_folder(key) / "timing.json";
-    if (!fs::exists(file)) return std::nullopt;
+    if (!fs::exists(file) || fs::is_empty(file)) return std::nullopt;
     return detail::timing_from_json(core::read_file(file), file.string());
 }
 

@@ -64,13 +64,15 @@ class Store {
     /// the same bytes, else core::ConflictError is thrown. Throws core::EnvironmentError (disk full) and then
     /// leaves nothing behind.
     Written write(const RunRecord& record, const RunTiming& timing) const;
-    /// Adopts a complete run from another store of the same study: its files are linked, or copied if they
-    /// cannot be linked. As with `write`, the first wins and a second must be equal.
+    /// Adopts a complete run from another store of the same study: its files are linked, or copied and
+    /// flushed if they cannot be linked; `flush` flushes their entries. Throws core::InputError for a damaged
+    /// record, which is not adopted. As with `write`, the first wins and a second must be equal.
     Written adopt(const Store& other, const experiment::RunKey& key) const;
     /// Complete runs, and failed runs that are not complete; in no particular order.
     std::vector<experiment::RunKey> complete_runs() const;
     std::vector<experiment::RunKey> failed_runs() const;
-    /// Flushes the folder entries of those runs that are complete. Their content is on the disk already.
+    /// Flushes the folders and the folder entries of those runs that are complete. Their content is on the
+    /// disk already.
     void flush(const std::vector<experiment::RunKey>& keys) const;
     /// Replaces an earlier error of the same run; does nothing when the run is complete.
     void write(const RunError& error) const;
@@ -88,6 +90,7 @@ class Store {
     /// The event log of the signals; nothing for runs that are not complete or kept none. Throws
     /// core::InputError, naming file and line, for a log that is damaged or missing.
     std::optional<std::vector<metrics::SignalEvent>> read_signal_events(const experiment::RunKey& key) const;
+    /// Nothing, too, when a power failure took it: it is the one file that is not flushed.
     std::optional<RunTiming> read_timing(const experiment::RunKey& key) const;
     std::optional<RunError> read_error(const experiment::RunKey& key) const;
     /// Forgets an error so that the run can be tried again.
@@ -109,6 +112,7 @@ class Store {
     /// hashes.
     RunRecord read_checked(const experiment::RunKey& key, std::string& vehicles) const;
     void check(const experiment::RunKey& key) const;
+    void adopt_recording(const Store& other, const experiment::RunKey& key) const;
 
     std::filesystem::path folder_;
     Manifest manifest_;

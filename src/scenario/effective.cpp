@@ -8,6 +8,8 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/folder_name.hpp"
+#include "core/leftovers.hpp"
+#include "core/part_folder.hpp"
 #include "scenario/config.hpp"
 #include "scenario/detail/library.hpp"
 #include "scenario/detail/tables.hpp"
@@ -217,9 +219,11 @@ void init(const std::filesystem::path& folder, const std::string& from) {
     const std::string text = core::read_file(source);
     const std::string copy =
         unlocked(renamed(is_whole(text) ? text : to_toml(config), named.filename().string()));
-    core::make_folder(folder);
-    copy_files(config, folder);
-    core::write_atomically(folder / "scenario.toml", copy);
+    core::remove_leftovers_of(named);
+    core::PartFolder part(named);
+    copy_files(config, part.path());
+    core::write_atomically(part.path() / "scenario.toml", copy);
+    part.replace();
 }
 
 }  // namespace clearway::scenario

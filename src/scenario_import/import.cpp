@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/folder_name.hpp"
+#include "core/leftovers.hpp"
 #include "core/temporary_folder.hpp"
 #include "roads/crossings.hpp"
 #include "scenario/network_document.hpp"
@@ -325,6 +326,7 @@ Findings import(const ImportRequest& request, const OnProgress& on_progress) {
     const std::filesystem::path folder = std::filesystem::absolute(request.folder).lexically_normal();
     check_folder(folder);
     core::make_folder(folder.parent_path());
+    core::remove_leftovers_of(folder);
     const std::filesystem::path beside =
         folder.parent_path() / fmt::format(".{}.importing-{}", folder.filename().string(), ::getpid());
     std::filesystem::remove_all(beside);

@@ -5,10 +5,10 @@
 #include <span>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/part_folder.hpp"
 #include "core/plain_files.hpp"
 #include "study/folder_lock.hpp"
 #include "study/shard.hpp"
@@ -46,32 +46,34 @@ void require_same_study(const results::Store& first, const results::Store& other
          "shards of one study", "Merge only run folders of one study file"});
 }
 
-/// Copies a folder atomically; does nothing when the target exists.
-void copy_folder(const fs::path& source, const fs::path& target) {
-    if (fs::exists(target) || !fs::exists(source)) return;
-    core::make_folder(target.parent_path());
-    const fs::path part =
-        target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
-    try {
-        fs::copy(source, part, fs::copy_options::recursive);
-        fs::rename(part, target);
-    } catch (const fs::filesystem_error& error) {
-        std::error_code ignored;
-        fs::remove_all(part, ignored);
-        throw core::EnvironmentError(fmt::format("{}: {}", target.string(), error.what()));
-    }
+/// Whether a study has completed the scenario's folder. Its picture is made last, and no file is empty that
+/// was not lost in a power failure.
+bool is_whole(const fs::path& folder) {
+    if (!fs::exists(folder / "network.svg")) return false;
+    const auto is_lost = [](const auto& entry) { return entry.is_regular_file() && entry.file_size() == 0; };
+    return std::none_of(fs::recursive_directory_iterator(folder), fs::recursive_directory_iterator(),
+                        is_lost);
+}
+
+/// The folder `part` of the first of these run folders that has it whole; an empty path when none has.
+template <class IsWhole>
+fs::path first_whole(const std::vector<fs::path>& folders, const fs::path& part, const IsWhole& is_whole) {
+    const auto found =
+        std::ranges::find_if(folders, [&](const fs::path& each) { return is_whole(each / part); });
+    return found == folders.end() ? fs::path() : *found / part;
 }
 
 /// Copies what a report needs besides the runs: configurations, networks, pictures, the command.
-void copy_surroundings(const results::Store& source, const results::Store& target) {
-    for (const results::ScenarioEntry& scenario : source.manifest().scenarios) {
-        const fs::path from = source.scenario_folder(scenario.name);
-        // The picture is made last, so a scenario that has it is complete.
-        if (fs::exists(from / "network.svg")) copy_folder(from, target.scenario_folder(scenario.name));
+void copy_surroundings(const std::vector<fs::path>& folders, const results::Store& target) {
+    for (const results::ScenarioEntry& scenario : target.manifest().scenarios) {
+        const fs::path part = fs::path("scenarios") / scenario.name;
+        // Demand of single runs is made anew where it is needed.
+        core::copy_folder(first_whole(folders, part, is_whole), target.folder() / part, "demand");
     }
-    copy_folder(source.folder() / "training", target.folder() / "training");
-    const fs::path command = source.folder() / "command.txt";
-    if (fs::exists(command) && !fs::exists(target.folder() / "command.txt"))
+    const auto is_there = [](const fs::path& path) { return fs::exists(path); };
+    core::copy_folder(first_whole(folders, "training", is_there), target.folder() / "training");
+    const fs::path command = first_whole(folders, "command.txt", is_there);
+    if (!command.empty() && !fs::exists(target.folder() / "command.txt"))
         core::write_atomically(target.folder() / "command.txt", core::read_file(command));
 }
 
@@ -83,24 +85,36 @@ std::string holder_of(const experiment::RunKey& key, std::span<const fs::path> f
     return "an earlier merge";
 }
 
-/// Adds the runs of `folders[number]` to `target`.
+/// Adds the runs of `folders[number]` to `target`. A damaged record is never adopted, and one that the target
+/// has gives way.
 void adopt_runs(const std::vector<fs::path>& folders, std::size_t number, const results::Store& target,
                 MergeResult& result) {
     const results::Store source = results::Store::open(folders[number]);
-    for (const experiment::RunKey& key : source.complete_runs()) {
+    const std::vector<experiment::RunKey> keys = source.complete_runs();
+    for (const experiment::RunKey& key : keys) {
+        for (const results::SetAside& damaged : target.set_damaged_aside({key}))
+            result.damaged.push_back(
+                fmt::format("{}. It is kept in {}", damaged.why, damaged.place.string()));
         try {
             const bool first = target.adopt(source, key) == results::Store::Written::first;
             ++(first ? result.adopted : result.duplicates);
+        } catch (const core::InputError& error) {
+            result.damaged.push_back(fmt::format("{}. It is left out", error.what()));
         } catch (const core::ConflictError& error) {
             throw core::ConflictError(fmt::format("{}. The other one is from {}", error.what(),
                                                   holder_of(key, std::span(folders).first(number))));
         }
     }
+    target.flush(keys);
 }
 
-void adopt_errors(const results::Store& source, const results::Store& target) {
+void adopt_errors(const results::Store& source, const results::Store& target, MergeResult& result) {
     for (const experiment::RunKey& key : source.failed_runs()) {
-        if (const auto error = source.read_error(key)) target.write(*error);
+        try {
+            if (const auto error = source.read_error(key)) target.write(*error);
+        } catch (const core::InputError& error) {
+            result.damaged.push_back(fmt::format("{}. It is left out", error.what()));
+        }
     }
 }
 
@@ -159,13 +173,13 @@ MergeResult merge(const std::vector<fs::path>& sources, const fs::path& out,
     const FolderLock lock(out);
     const results::Store target = results::Store::create(out, first.manifest());
     MergeResult result;
+    copy_surroundings(folders, target);
     for (std::size_t number = 0; number < folders.size(); ++number) {
         on_folder(number);
-        copy_surroundings(results::Store::open(folders[number]), target);
         adopt_runs(folders, number, target, result);
     }
     for (const fs::path& folder : folders)
-        adopt_errors(results::Store::open(folder), target);
+        adopt_errors(results::Store::open(folder), target, result);
     target.remove_leftovers();
     result.counts = results::write_tables(target);
     if (result.counts.missing > 0) {

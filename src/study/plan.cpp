@@ -5,10 +5,10 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "core/error.hpp"
 #include "core/folder_name.hpp"
+#include "core/part_folder.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/settings.hpp"
 #include "scenario/network.hpp"
@@ -81,23 +81,14 @@ void check(const StudyConfig& config) {
 }
 
 /// Stores a scenario and its network atomically.
-void prepare_scenario(const scenario::ScenarioConfig& config, const fs::path& target) {
+void prepare_scenario(const scenario::ScenarioConfig& config, const fs::path& target) try {
     if (fs::exists(target)) return;
-    const fs::path part =
-        target.parent_path() / fmt::format(".{}.{}.part", target.filename().string(), ::getpid());
-    try {
-        scenario::store(config, part);
-        scenario::build_network(config, part / network_name);
-        fs::rename(part, target);
-    } catch (const fs::filesystem_error& error) {
-        std::error_code ignored;
-        fs::remove_all(part, ignored);
-        throw core::EnvironmentError(fmt::format("{}: {}", target.string(), error.what()));
-    } catch (...) {
-        std::error_code ignored;
-        fs::remove_all(part, ignored);
-        throw;
-    }
+    core::PartFolder part(target);
+    scenario::store(config, part.path());
+    scenario::build_network(config, part.path() / network_name);
+    part.replace();
+} catch (const fs::filesystem_error& error) {
+    throw core::EnvironmentError(fmt::format("{}: {}", target.string(), error.what()));
 }
 
 }  // namespace

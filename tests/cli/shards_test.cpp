@@ -59,16 +59,23 @@ TEST_F(ShardsTest, a_merge_that_lacks_a_shard_names_it_and_exits_with_5) {
     EXPECT_EQ(clearway({"report", "all"}).code, 5);
 }
 
-TEST_F(ShardsTest, records_that_differ_exit_with_7_and_are_named) {
+TEST_F(ShardsTest, a_damaged_record_is_named_and_taken_from_the_shard_that_has_it_whole) {
     ASSERT_EQ(clearway({"study", "my.toml", "--out", "one"}).code, 0);
     ASSERT_EQ(clearway({"study", "my.toml", "--out", "two"}).code, 0);
     const std::string file = "two/runs/line/baseline/00002/run.json";
     std::string text = read(file);
     text.replace(text.find("\"vehicle_count\": "), 18, "\"vehicle_count\": 8");
     write(file, text);
-    const Ended merged = clearway({"study", "merge", "one", "two", "--out", "all"});
-    EXPECT_EQ(merged.code, 7);
-    EXPECT_THAT(merged.err, HasSubstr("line/baseline/2"));
+    for (const auto& sources : {std::vector<std::string>{"one", "two"}, {"two", "one"}}) {
+        const Ended merged = clearway({"study", "merge", sources[0], sources[1], "--out", "all"});
+        EXPECT_EQ(merged.code, 0) << merged.err;
+        EXPECT_THAT(merged.err, AllOf(HasSubstr(file), HasSubstr("It is left out")));
+        EXPECT_EQ(read("all/runs.csv"), read("one/runs.csv"));
+        std::filesystem::remove_all(folder() / "all");
+    }
+    const Ended lacking = clearway({"study", "merge", "two", "--out", "all"});
+    EXPECT_EQ(lacking.code, 5);
+    EXPECT_THAT(lacking.out, HasSubstr("missing: line/baseline/2"));
 }
 
 TEST_F(ShardsTest, conflicting_shards_are_refused_before_anything_runs) {

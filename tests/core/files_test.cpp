@@ -11,6 +11,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/leftovers.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::core {
@@ -129,6 +130,27 @@ TEST(ContentHash, ChangesWithEveryByte) {
         EXPECT_NE(content_hash(other), hash);
     }
     EXPECT_EQ(content_hash(std::string(1000, 'x')), hash);
+}
+
+TEST_F(FilesTest, an_output_is_written_after_what_killed_calls_left_of_it_is_removed) {
+    const std::string gone = "2147483647";
+    const auto running = folder_.write("a.html." + std::to_string(getppid()) + ".part", "");
+    const auto other = folder_.write("b.html." + gone + ".part", "");
+    std::vector<std::filesystem::path> left = {folder_.write("a.html." + gone + ".part", "")};
+    for (const std::string& name : {".a.html." + gone + ".part", ".a.html.importing-" + gone}) {
+        std::filesystem::create_directories(folder_.path() / name / "network");
+        left.push_back(folder_.path() / name);
+    }
+    for (const auto& path : left)
+        EXPECT_TRUE(is_leftover(path)) << path;
+    write_output(folder_.path() / "a.html", "whole");
+    EXPECT_EQ(read_file(folder_.path() / "a.html"), "whole");
+    for (const auto& path : left)
+        EXPECT_FALSE(std::filesystem::exists(path)) << path;
+    EXPECT_TRUE(std::filesystem::exists(running));
+    EXPECT_TRUE(std::filesystem::exists(other)) << "of another file";
+    for (const char* const name : {"a.part", "a.1x.part", "importing-3", "a.-1.part", "part", ".importing-"})
+        EXPECT_FALSE(is_leftover(name)) << name;
 }
 
 TEST_F(FilesTest, parts_of_killed_writers_go_and_those_of_others_stay) {

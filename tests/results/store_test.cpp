@@ -197,6 +197,15 @@ TEST_F(StoreOfAStudy, RefusesAFailureOfAnotherRunThanItsPlaceSays) {
     }
 }
 
+TEST(StoreOfANewFolder, IsMadeWhereACallWasKilledAtTheFirstManifest) {
+    const support::TemporaryFolder folder;
+    const std::filesystem::path out = folder.path() / "out";
+    std::filesystem::create_directories(out);
+    core::write_atomically(out / "manifest.json.2147483647.part", "{");
+    EXPECT_EQ(Store::create(out, synthetic::manifest()).manifest(), synthetic::manifest());
+    EXPECT_FALSE(std::filesystem::exists(out / "manifest.json.2147483647.part"));
+}
+
 TEST_F(StoreOfAStudy, RemembersAFailureUntilTheRunSucceeds) {
     store_.write(error(treated));
     EXPECT_EQ(*store_.read_error(treated), error(treated));

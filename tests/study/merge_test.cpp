@@ -282,5 +282,68 @@ TEST_F(Merge, RefusesByNameWhatIsNeitherFileNorFolderInAShard) {
     EXPECT_THAT(refusal_of("manifest.json"), HasSubstr("is a symbolic link"));
 }
 
+TEST_F(Merge, NeverAdoptsADamagedRecord) {
+    const std::vector<std::filesystem::path> sources = divided(1, "a");
+    const std::filesystem::path record = sources[0] / "runs" / "beta" / "treated" / "00003" / "run.json";
+    const std::string whole = core::read_file(record);
+    std::filesystem::resize_file(record, 0);
+    const MergeResult lacking = merge_into("out", sources);
+    EXPECT_EQ(lacking.counts.complete, 19U);
+    EXPECT_THAT(lacking.missing, ElementsAre(RunKey{"beta", "treated", 3}));
+    EXPECT_THAT(lacking.damaged,
+                ElementsAre(testing::AllOf(HasSubstr(record.string()), HasSubstr("left out"))));
+    core::write_atomically(record, whole);
+    const MergeResult result = merge_into("out", sources);
+    EXPECT_EQ(result.counts.complete, 20U);
+    EXPECT_THAT(result.damaged, testing::IsEmpty());
+}
+
+TEST_F(Merge, ReplacesADamagedRecordThatItAlreadyHas) {
+    const std::vector<std::filesystem::path> sources = divided(1, "a");
+    merge_into("out", sources);
+    const std::string tables = tables_of("out");
+    const std::filesystem::path run = place("out") / "runs" / "beta" / "treated" / "00003";
+    for (const char* const name : {"run.json", "vehicles.csv"}) {
+        std::filesystem::remove(run / name);  // A link: the shard's own file must stay whole.
+        core::write_atomically(run / name, "");
+        const MergeResult result = merge_into("out", sources);
+        EXPECT_EQ(result.counts.complete, 20U);
+        EXPECT_EQ(result.adopted, 1U);
+        EXPECT_THAT(result.damaged,
+                    ElementsAre(testing::AllOf(HasSubstr(run.string()), HasSubstr("is kept in"))));
+        EXPECT_EQ(tables_of("out"), tables);
+    }
+    std::filesystem::remove(run / "run.json");
+    EXPECT_EQ(merge_into("out", sources).counts.complete, 20U) << "a folder without a record blocks nothing";
+}
+
+TEST_F(Merge, ReplacesCopiesThatAPowerFailureEmptiedAndTakesNone) {
+    const std::vector<std::filesystem::path> sources = divided(2, "a");
+    for (const std::filesystem::path& source : sources) {
+        for (const char* const name : {"network/network.net.xml", "network.svg"}) {
+            const std::filesystem::path file = source / "scenarios" / "alpha" / name;
+            core::make_folder(file.parent_path());
+            core::write_atomically(file, name);
+        }
+        core::make_folder(source / "scenarios" / "alpha" / "demand" / source.filename());
+    }
+    const std::filesystem::path copy = place("out") / "scenarios" / "alpha" / "network" / "network.net.xml";
+    std::filesystem::resize_file(sources[0] / "scenarios" / "alpha" / "network" / "network.net.xml", 0);
+    merge_into("out", sources);
+    EXPECT_EQ(core::read_file(copy), "network/network.net.xml") << "from the shard that has it whole";
+    for (const char* const damage : {"", "network/network.net.XML"}) {
+        core::write_atomically(copy, damage);
+        merge_into("out", sources);
+        EXPECT_EQ(core::read_file(copy), "network/network.net.xml");
+    }
+    std::filesystem::remove(copy);
+    merge_into("out", sources);
+    EXPECT_EQ(core::read_file(copy), "network/network.net.xml");
+    const auto before = std::filesystem::last_write_time(copy);
+    merge_into("out", sources);
+    EXPECT_EQ(std::filesystem::last_write_time(copy), before) << "an equal copy stays";
+    EXPECT_FALSE(std::filesystem::exists(place("out") / "scenarios" / "alpha" / "demand"));
+}
+
 }  // namespace
 }  // namespace clearway::study
