@@ -343,6 +343,7 @@ core::ExitCode publish(const results::Store& store, const PublishOptions& option
     fmt::print("{}", options.printing == Printing::json ? report::json_tables(facts)
                                                         : report::console_tables(facts, options.tables));
     name_errors(store, results);
+    renew_edited_tables(store);
     if (!results::tables_are_current(store)) results::write_tables(store);
     write_report(facts, replays_of(store, results, options.replays), store.folder() / "report.html");
     fmt::print(stderr, "clearway: written: {}\n", (store.folder() / "report.html").string());

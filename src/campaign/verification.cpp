@@ -293,6 +293,15 @@ std::pair<results::Store, core::ExitCode> repeat(const results::Store& stored,
     return {std::move(again), result.exit_code};
 }
 
+std::vector<experiment::ConditionSpec> conditions_of(const results::Store& store,
+                                                     const std::vector<experiment::RunKey>& keys) {
+    std::vector<experiment::ConditionSpec> conditions = store.manifest().conditions;
+    std::erase_if(conditions, [&](const experiment::ConditionSpec& condition) {
+        return std::ranges::find(keys, condition.name, &experiment::RunKey::condition) == keys.end();
+    });
+    return conditions;
+}
+
 core::ExitCode audit(const VerifyRequest& request) {
     const auto [store, keys] = chosen_runs(request);
     const AuditReport report = audit_runs(store, keys);
@@ -308,6 +317,8 @@ core::ExitCode verify_runs(const VerifyRequest& request) {
     if (request.signals) return audit(request);
     const auto [stored, keys] = chosen_runs(request);
     require_elsewhere(stored, request.out);
+    require_trust(conditions_of(stored, keys), stored.folder().string(), request.trust);
+    renew_edited_tables(stored);
     std::optional<core::TemporaryFolder> temporary;
     if (request.out.empty()) temporary.emplace();
     const auto [again, code] = repeat(

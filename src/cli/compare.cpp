@@ -11,6 +11,7 @@
 
 #include "analysis/summary.hpp"
 #include "campaign/names.hpp"
+#include "campaign/stored_folder.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
 #include "core/error.hpp"
@@ -99,6 +100,8 @@ void check_against(const Arguments& arguments, const results::Manifest& manifest
 }
 
 analysis::Summary summary_of(const Arguments& arguments) {
+    for (const std::string& folder : {arguments.first, arguments.second})
+        if (!folder.empty()) campaign::renew_edited_tables(results::Store::open(folder));
     const results::Results first =
         results::read_results(results::Store::open(arguments.first), results::VehicleRows::emergency);
     if (!arguments.against.empty()) check_against(arguments, first.manifest);

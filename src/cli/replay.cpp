@@ -16,6 +16,7 @@
 #include "campaign/replay_page.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
+#include "cli/detail/trust_option.hpp"
 #include "cli/verb.hpp"
 #include "core/json.hpp"
 #include "core/number_range.hpp"
@@ -57,6 +58,7 @@ struct Arguments {
     std::optional<std::vector<std::string>> policies;
     std::vector<std::string> settings;
     std::string model;
+    campaign::CodeTrust trust = campaign::CodeTrust::none;
     std::string table;
     std::optional<double> from_s;
     std::optional<double> to_s;
@@ -294,6 +296,11 @@ core::ExitCode replay_file(Arguments arguments) {
         throw core::InputError({"--from, --to", "work only with --csv and --view", "",
                                 "A replay needs the recording from its beginning"});
     const trace::RecordingInfo& info = recording.info();
+    // What the command line names, the user has chosen.
+    experiment::ConditionSpec kept = info.condition;
+    if (arguments.predictor) kept.predictor.clear();
+    if (arguments.policies) kept.policies.clear();
+    campaign::require_trust({kept}, arguments.file, arguments.trust);
     const experiment::ConditionSpec condition = condition_of(info, arguments);
     const roads::Network network = campaign::recorded_network(info, arguments.file, arguments.network);
     const trace::ReplayResult result = trace::replay(recording, condition, network);
@@ -360,6 +367,7 @@ Action configure_replay(CLI::App& app) {
     thinking.push_back(app.add_option("--policy", arguments->policies, "Policies, in this order")
                            ->option_text("NAME ... [as recorded]"));
     add_setting_options(app, arguments->settings, arguments->model, "as recorded");
+    add_trust_option(app, arguments->trust);
     app.add_option("--network", arguments->network, "Network file on which the recording was made")
         ->option_text("FILE [that of its run folder]");
     thinking.push_back(app.add_flag_callback(

@@ -6,6 +6,7 @@
 
 #include "campaign/study_run.hpp"
 #include "cli/detail/common_options.hpp"
+#include "cli/detail/trust_option.hpp"
 #include "cli/verb.hpp"
 #include "core/number_range.hpp"
 
@@ -15,6 +16,7 @@ Action configure_report(CLI::App& app) {
     struct Arguments {
         std::string folder;
         campaign::PublishOptions how;
+        campaign::CodeTrust trust = campaign::CodeTrust::none;
     };
     const auto arguments = std::make_shared<Arguments>();
     app.add_option("folder", arguments->folder, "Run folder of run or study, complete or not")
@@ -29,10 +31,14 @@ Action configure_report(CLI::App& app) {
         "--replays", [arguments] { arguments->how.replays = campaign::MakeReplays::yes; },
         "Show the median, best and worst trip of each scenario in the report: makes up to six runs of each "
         "again to record them. Later reports keep them [off]");
+    add_trust_option(app, arguments->trust);
     add_json_option(app, arguments->how.printing, "the tables");
     add_tables_option(app, arguments->how.tables);
     return [arguments](const Invocation&) {
-        return campaign::publish(results::Store::open(arguments->folder), arguments->how);
+        const results::Store store = results::Store::open(arguments->folder);
+        if (arguments->how.replays == campaign::MakeReplays::yes)
+            campaign::require_trust(store.manifest().conditions, arguments->folder, arguments->trust);
+        return campaign::publish(store, arguments->how);
     };
 }
 

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "campaign/stored_folder.hpp"
 #include "cli/verb.hpp"
 #include "core/error.hpp"
 #include "results/table_reader.hpp"
@@ -38,6 +39,7 @@ void update_tables(const results::Store& store) {
 
 core::ExitCode print_results(const Arguments& arguments) {
     const results::Store store = results::Store::open(arguments.folder);
+    campaign::renew_edited_tables(store);
     update_tables(store);
     if (arguments.asked == Asked::names) {
         for (const std::string& name : results::table_names(store))

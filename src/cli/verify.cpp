@@ -5,6 +5,7 @@
 
 #include "campaign/verification.hpp"
 #include "cli/detail/common_options.hpp"
+#include "cli/detail/trust_option.hpp"
 #include "cli/verb.hpp"
 #include "results/run_name.hpp"
 
@@ -30,6 +31,7 @@ Action configure_verify(CLI::App& app) {
                  "Audit signals instead: no yellow, red clearance or green below the "
                  "signal's own program in any event log [off]")
         ->excludes(out);
+    add_trust_option(app, arguments->trust);
     add_jobs_option(app, arguments->workers);
     add_json_option(app, arguments->printing, "the verdicts");
     app.footer(

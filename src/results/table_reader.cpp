@@ -1,12 +1,14 @@
 #include "results/table_reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/csv.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/json.hpp"
 #include "results/detail/log_tables.hpp"
 #include "results/detail/record_files.hpp"
@@ -18,6 +20,9 @@ namespace {
 using detail::Database;
 using detail::log_tables;
 using detail::LogTable;
+
+constexpr const char* database_name = "results.sqlite";
+constexpr std::array csv_tables = {"runs.csv", "vehicles.csv", "leases.csv"};
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
     throw core::InputError({file.string(), what, "a database that this version wrote",
@@ -43,7 +48,7 @@ std::string study_value(const Database& database, const char* key) {
 
 /// Opens `results.sqlite` of a run folder read-only and checks that it is of this version.
 Database open_database(const Store& store) {
-    Database database(store.folder() / "results.sqlite", SQLITE_OPEN_READONLY, fail);
+    Database database(store.folder() / database_name, SQLITE_OPEN_READONLY, fail);
     const std::string format = study_value(database, "format");
     if (format != fmt::format("{}", store.manifest().format))
         refuse(database.file(),
@@ -124,8 +129,23 @@ void print_json(const Database& database, const std::string& table, std::ostream
 
 }  // namespace
 
+std::vector<std::string> edited_tables(const Store& store) {
+    std::vector<std::string> edited;
+    if (!std::filesystem::exists(store.folder() / database_name)) return edited;
+    const Database database = open_database(store);
+    for (const char* const table : csv_tables) {
+        const std::filesystem::path file = store.folder() / table;
+        const std::string hash = study_value(database, table);
+        if (!hash.empty() && std::filesystem::exists(file) &&
+            core::content_hash(core::read_file(file)) != hash)
+            edited.emplace_back(table);
+    }
+    return edited;
+}
+
 bool tables_are_current(const Store& store) {
-    for (const char* const table : {"results.sqlite", "runs.csv", "vehicles.csv", "leases.csv"})
+    if (!std::filesystem::exists(store.folder() / database_name)) return false;
+    for (const char* const table : csv_tables)
         if (!std::filesystem::exists(store.folder() / table)) return false;
     const Database database = open_database(store);
     return study_value(database, "manifest_hash") == manifest_hash(store.manifest()) &&

@@ -2,6 +2,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/csv.hpp"
+#include "core/running_hash.hpp"
 #include "results/detail/database.hpp"
 #include "results/detail/record_files.hpp"
 #include "results/factor_columns.hpp"
@@ -88,6 +89,27 @@ void append_leases(const RunRecord& run, std::string& text) {
     }
 }
 
+/// A table that is being written, and its hash.
+class TableFile {
+  public:
+    explicit TableFile(const std::filesystem::path& file) : name_(file.filename().string()), file_(file) {}
+
+    void write(const std::string& lines) {
+        file_.write(lines);
+        hash_.add(lines);
+    }
+    /// Puts it in place and notes its hash in the database.
+    void commit(detail::DatabaseWriter& database) {
+        file_.commit();
+        database.note(name_, hash_.digest());
+    }
+
+  private:
+    std::string name_;
+    core::AtomicFile file_;
+    core::RunningHash hash_;
+};
+
 }  // namespace
 
 Results read_results(const Store& store, VehicleRows rows) {
@@ -117,9 +139,9 @@ struct TableWriter::Files {
         leases.write(leases_header() + "\n");
     }
     RunLines lines;
-    core::AtomicFile runs;
-    core::AtomicFile vehicles;
-    core::AtomicFile leases;
+    TableFile runs;
+    TableFile vehicles;
+    TableFile leases;
     detail::DatabaseWriter database;
 };
 
@@ -148,9 +170,9 @@ void TableWriter::add_missing(const experiment::RunKey& key) {
 }
 
 void TableWriter::finish() {
-    files_->runs.commit();
-    files_->vehicles.commit();
-    files_->leases.commit();
+    files_->runs.commit(files_->database);
+    files_->vehicles.commit(files_->database);
+    files_->leases.commit(files_->database);
     files_->database.finish();
 }
 

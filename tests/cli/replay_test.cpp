@@ -318,6 +318,29 @@ TEST_F(ReplayTest, a_run_has_one_name_for_every_verb) {
     }
 }
 
+TEST_F(ReplayTest, an_edited_table_is_noticed_and_made_anew) {
+    ASSERT_EQ(run().code, 0);
+    const std::vector<std::vector<std::string>> verbs = {{"report", "out"},
+                                                         {"verify", "out/line/mine/0"},
+                                                         {"compare", "out"},
+                                                         {"export", "results", "out", "runs"}};
+    for (const std::vector<std::string>& words : verbs) {
+        for (const char* const table : {"runs.csv", "vehicles.csv"}) {
+            const std::string file = std::string("out/") + table;
+            const std::string whole = read(file);
+            damage(file, "mine,0,", "mine,7,");
+            const Ended ended = clearway(words);
+            EXPECT_EQ(ended.code, 0) << ended.err;
+            EXPECT_THAT(ended.err, AllOf(HasSubstr("out: " + std::string(table) +
+                                                   " differs from the records of the runs"),
+                                         HasSubstr("the tables are made anew")))
+                << words.front();
+            EXPECT_EQ(read(file), whole) << words.front();
+        }
+        EXPECT_THAT(clearway(words).err, Not(HasSubstr("made anew")));
+    }
+}
+
 TEST_F(ReplayTest, verify_finds_runs_the_same) {
     ASSERT_EQ(run().code, 0);
     const Ended one = clearway({"verify", "out/line/mine/0"});

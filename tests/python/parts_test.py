@@ -91,7 +91,25 @@ class EqualPartsTest(FolderCase):
         self.assertEqual(run_both(), before, "no run is made again, nor another folder")
         for manifest in Path("runs").glob("*/manifest.json"):
             self.assertIn("/second/mine.py:Preempt@", manifest.read_text(), "where it is now, for what repeats the runs")
-        program("verify", str(next(manifest.parent for manifest in Path("runs").glob("intersection-*/manifest.json"))), "--sample", "1")
+        folder = next(manifest.parent for manifest in Path("runs").glob("intersection-*/manifest.json"))
+        program("verify", str(folder), "--sample", "1", "--trust-code")
+
+    def test_code_that_a_folder_names_runs_only_where_it_is_trusted(self) -> None:
+        self.write("mine.py", PREEMPT + "\nopen(__file__ + '.ran', 'a').close()\n")
+        program("run", "intersection", "--policy", "mine.py:Preempt", "--seeds", "1", "--no-solo", "--record", "--out", "out")
+        own = Path("mine.py.ran")
+        for words in (["verify", "out/intersection/Preempt/0"], ["verify", "out", "--all"], ["replay", "out/intersection/Preempt/0"],
+                      ["report", "out", "--replays"]):
+            own.unlink(missing_ok=True)
+            ended = subprocess.run([str(PROGRAMS / "clearway"), *words], capture_output=True, text=True, check=False)
+            self.assertEqual(ended.returncode, 3, ended.stderr)
+            for said in ("condition Preempt", str(self.folder / "mine.py"), "your rights", "--trust-code"):
+                self.assertIn(said, ended.stderr)
+            self.assertFalse(own.exists(), words)
+            program(*words, "--trust-code")
+        program("verify", "out/intersection/baseline/0")
+        program("replay", "out/intersection/Preempt/0", "--policy", "mine.py:Preempt")
+        program("report", "out")
 
 
 SLOW = """

@@ -258,6 +258,13 @@ void DatabaseWriter::add_missing(const experiment::RunKey& key) {
     tables_->add_error(key, "missing", "", "");
 }
 
+void DatabaseWriter::note(std::string_view key, std::string_view value) {
+    Inserter row(tables_->database, "INSERT INTO study VALUES (?, ?)");
+    row.add(key);
+    row.add(value);
+    row.insert();
+}
+
 void DatabaseWriter::finish() {
     tables_->database.execute("COMMIT");
     tables_.reset();

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "results/store.hpp"
 
@@ -22,6 +23,8 @@ class DatabaseWriter {
     void add(const RunRecord& run);
     void add(const RunError& error);
     void add_missing(const experiment::RunKey& key);
+    /// A row of table `study`.
+    void note(std::string_view key, std::string_view value);
     void finish();
 
   private:

@@ -1,0 +1,45 @@
+#include "campaign/stored_folder.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "python/part_name.hpp"
+#include "results/table_reader.hpp"
+#include "results/table_writer.hpp"
+
+namespace clearway::campaign {
+
+void require_trust(const std::vector<experiment::ConditionSpec>& conditions, const std::string& where,
+                   CodeTrust trust) {
+    if (trust == CodeTrust::trusted) return;
+    std::vector<core::Problem> problems;
+    const auto check = [&](const experiment::ConditionSpec& condition, const std::string& word) {
+        const auto part = python::part_name_from(word);
+        if (!part) return;
+        problems.push_back(
+            {fmt::format("{}: condition {}", where, condition.name),
+             fmt::format("names code in Python, {}, which would run with your rights", part->file.string()),
+             "code that you trust", "Read it, then add --trust-code"});
+    };
+    for (const experiment::ConditionSpec& condition : conditions) {
+        check(condition, condition.predictor);
+        for (const std::string& policy : condition.policies)
+            check(condition, policy);
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+}
+
+void renew_edited_tables(const results::Store& store) {
+    const std::vector<std::string> edited = results::edited_tables(store);
+    if (edited.empty()) return;
+    fmt::print(stderr, "clearway: {}: {} {} from the records of the runs\n", store.folder().string(),
+               core::listed(edited), edited.size() == 1 ? "differs" : "differ");
+    try {
+        results::write_tables(store);
+        fmt::print(stderr, "clearway: the tables are made anew\n");
+    } catch (const core::EnvironmentError& error) {
+        fmt::print(stderr, "clearway: warning: they stay as they are: {}\n", error.what());
+    }
+}
+
+}  // namespace clearway::campaign

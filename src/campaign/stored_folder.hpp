@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "experiment/condition.hpp"
+#include "results/store.hpp"
+
+namespace clearway::campaign {
+
+/// Whether Python code that a stored folder names may run. Neither a path nor an owner nor a file of the
+/// folder proves who wrote the code, so only the user can say so.
+enum class CodeTrust : std::uint8_t { none, trusted };
+
+/// Throws core::InputError, naming each part in Python that a condition of `where` has, unless it is trusted.
+void require_trust(const std::vector<experiment::ConditionSpec>& conditions, const std::string& where,
+                   CodeTrust trust);
+
+/// Writes the tables of a run folder anew where somebody edited one of them, and says so on standard error. A
+/// folder that cannot be written is left alone with a warning. Throws core::InputError for a damaged record.
+void renew_edited_tables(const results::Store& store);
+
+}  // namespace clearway::campaign
