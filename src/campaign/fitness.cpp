@@ -322,7 +322,7 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double a
         remove_runs(options.folder);
         if (lock_trials > 0) {
             fmt::print(stderr, "clearway: {} more to look for locks\n",
-                       report::counted(2 * std::size_t{lock_trials}, "run"));
+                       core::counted(2 * std::size_t{lock_trials}, "run"));
             findings.push_back(lock_finding(try_locks(scenario, seed, lock_trials, options)));
         }
     } else {
