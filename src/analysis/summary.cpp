@@ -323,24 +323,30 @@ void add_unfinished(const std::string& scenario, const ConditionSummary& conditi
 
 namespace {
 
+/// As `summarise` takes them.
+struct Choices {
+    std::optional<double> response_threshold_s;
+    std::string against;
+};
+
 ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEntry& entry,
-                                   const results::Manifest& manifest, ResampleCache& resamples,
-                                   std::optional<double> response_threshold_s, const std::string& against) {
-    const std::vector<ConditionSpec>& conditions = manifest.conditions;
-    const double threshold_s = detail::threshold_of(index, entry.name, conditions, response_threshold_s);
+                                   const std::vector<ConditionSpec>& conditions, ResampleCache& resamples,
+                                   const Choices& choices) {
+    const double threshold_s =
+        detail::threshold_of(index, entry.name, conditions, choices.response_threshold_s);
     ScenarioSummary scenario{entry.name, entry.title, {}};
     for (const ConditionSpec& condition : conditions)
         scenario.conditions.push_back(detail::describe_condition(index, entry.name, condition, resamples));
     const auto solo = std::ranges::find(conditions, TrafficModel::free_flow, &ConditionSpec::traffic_model);
     for (ConditionSummary& summary : scenario.conditions) {
-        const ConditionSpec* const baseline = compared_with(summary.condition, conditions, against);
+        const ConditionSpec* const baseline = compared_with(summary.condition, conditions, choices.against);
         const Runs runs = index.runs(entry.name, summary.condition.name);
         const Runs baseline_runs = baseline == nullptr ? Runs{} : index.runs(entry.name, baseline->name);
         summary.response = response_of(runs, baseline_runs, threshold_s, resamples.level());
         if (baseline == nullptr) continue;
         summary.baseline = baseline->name;
         detail::compare_conditions(runs, baseline_runs, *scenario.find(baseline->name), resamples, summary);
-        if (solo == conditions.end() || !against.empty()) continue;
+        if (solo == conditions.end() || !choices.against.empty()) continue;
         close_gap(runs, baseline_runs, index.runs(entry.name, solo->name), resamples, summary);
     }
     detail::adjust(scenario);
@@ -403,8 +409,8 @@ Summary summarise(const results::Results& results, double level, std::optional<d
     const Index index(results);
     ResampleCache resamples(level);
     for (const results::ScenarioEntry& entry : results.manifest.scenarios) {
-        summary.scenarios.push_back(
-            summarise_scenario(index, entry, results.manifest, resamples, response_threshold_s, against));
+        summary.scenarios.push_back(summarise_scenario(index, entry, results.manifest.conditions, resamples,
+                                                       {response_threshold_s, against}));
         for (const ConditionSummary& condition : summary.scenarios.back().conditions)
             detail::add_unfinished(entry.name, condition, "", summary.unpaired);
     }

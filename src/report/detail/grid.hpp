@@ -26,6 +26,6 @@ struct Grid {
 
 /// A drawing of grids below each other, under a line that says what their columns and rows are. A grid with
 /// more columns than there is room for becomes several.
-Canvas draw_grids(const std::string& title, const std::vector<Grid>& grids, const std::string& axes = {});
+Canvas draw_grids(const std::string& title, const std::vector<Grid>& wide, const std::string& axes = {});
 
 }  // namespace clearway::report::detail
