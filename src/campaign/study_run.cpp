@@ -15,6 +15,7 @@
 #include "campaign/detail/abort_cure.hpp"
 #include "campaign/names.hpp"
 #include "campaign/programs.hpp"
+#include "campaign/stored_folder.hpp"
 #include "core/counted.hpp"
 #include "core/leftovers.hpp"
 #include "core/progress.hpp"
