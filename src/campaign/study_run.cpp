@@ -144,6 +144,11 @@ void name_errors(const results::Store& store, const results::Results& results) {
     if (count > named_errors) {
         fmt::print(stderr, "  and {} more, in {}\n", count - named_errors, store.runs_csv().string());
     }
+    const auto passing = std::ranges::count_if(results.errors, results::may_pass, &results::RunError::cause);
+    fmt::print(stderr,
+               "  The command of the study tries again those that a signal or a limit ended ({}); with "
+               "--retry-failed all of them\n",
+               passing);
 }
 
 enum class Outcome : std::uint8_t { reached, capped, unknown, more };
@@ -259,6 +264,7 @@ StudyResult run_part(const study::Plan& plan, const results::Store& store, const
     WorkersOptions workers;
     workers.workers = options.workers;
     workers.limits = options.limits;
+    workers.retried = options.retried;
     workers.on_set_aside = [&store](const results::SetAside& damaged) {
         fmt::print(stderr,
                    "clearway: {}: the record is damaged: {}. It is kept in {}, and the run is made again\n",

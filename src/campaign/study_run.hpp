@@ -33,6 +33,7 @@ struct RunOptions {
     std::filesystem::path folder = {};  ///< Run folder; empty: a new one below `runs/`.
     unsigned workers = 0;               ///< 0: one per core.
     experiment::RunLimits limits = {};  ///< Of each run.
+    RetriedRuns retried = RetriedRuns::ended_by_machine;
     experiment::StepRecording recording = experiment::StepRecording::off;
     std::string command = {};  ///< What the user typed, for the report and for resuming.
     PublishOptions publish = {};

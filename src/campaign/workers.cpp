@@ -89,14 +89,16 @@ class Workers : private core::TaskList {
     }
 
   private:
-    /// Conditions of a unit that have no record and no error that another attempt cannot change.
-    std::vector<experiment::ConditionSpec> open_conditions(const experiment::RunJob& unit) const {
+    /// Conditions of a unit that have no record, and no error or one that is to be tried again.
+    template <class IsRetried>
+    std::vector<experiment::ConditionSpec> open_conditions(const experiment::RunJob& unit,
+                                                           const IsRetried& is_retried) const {
         std::vector<experiment::ConditionSpec> open;
         for (const experiment::ConditionSpec& condition : unit.conditions) {
             const RunKey key = key_of(unit, condition);
             if (store_.done(unit, condition)) continue;
             const auto error = store_.read_error(key);
-            if (!error || results::worth_retrying(error->cause)) open.push_back(condition);
+            if (!error || is_retried(error->cause)) open.push_back(condition);
         }
         return open;
     }
@@ -112,9 +114,12 @@ class Workers : private core::TaskList {
     }
 
     void queue_units() {
+        const auto is_retried = [this](ErrorCause cause) {
+            return options_.retried == RetriedRuns::all_failed || results::may_pass(cause);
+        };
         for (std::size_t job = 0; job < plan_.units.size(); ++job) {
             const experiment::RunJob& unit = plan_.units[job].unit;
-            const auto open = open_conditions(unit);
+            const auto open = open_conditions(unit, is_retried);
             if (!open.empty()) queue_.push_back(job);
             for (const experiment::ConditionSpec& condition : open) {
                 open_cells_[job].emplace(condition.name, cell_of(unit.scenario, condition.name));
@@ -172,7 +177,7 @@ class Workers : private core::TaskList {
         const study::PlannedUnit& planned = plan_.units[row];
         experiment::RunJob job = planned.unit;
         uncount(job, settled_);
-        job.conditions = open_conditions(job);
+        job.conditions = open_conditions(job, results::worth_retrying);
         job.limits = options_.limits;
         forget_errors(job, job.conditions);
         ++attempts_[row];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 
@@ -10,13 +11,20 @@
 
 namespace clearway::campaign {
 
+/// Which failed runs of an earlier call are tried again.
+enum class RetriedRuns : std::uint8_t {
+    ended_by_machine,  ///< By a signal or a limit of time or memory (results::may_pass).
+    all_failed,
+};
+
 /// How the units of a plan reach their workers.
 struct WorkersOptions {
     unsigned workers = 0;                  ///< Processes at one time; 0: one per core.
     std::filesystem::path worker_program;  ///< Empty: `clearway-run` beside this program.
     experiment::RunLimits limits;          ///< Of each run.
-    int attempts = 3;                  ///< For errors by signal or time limit: the first try and two more.
-    double termination_grace_s = 5.0;  ///< From SIGTERM to SIGKILL.
+    int attempts = 3;  ///< For errors by signal or time limit: the first try and two more.
+    RetriedRuns retried = RetriedRuns::ended_by_machine;
+    double termination_grace_s = 5.0;                ///< From SIGTERM to SIGKILL.
     /// Called for each damaged record that was found before anything runs; may be empty.
     std::function<void(const results::SetAside&)> on_set_aside = {};
 };
@@ -54,11 +62,11 @@ struct StudyResult {
 /// runs are repeated.
 ///
 /// Runs that end by signal or time limit are tried again. Runs with other errors (bad input, memory, refusals
-/// of SUMO) are not, neither now nor when the study is resumed in the same folder. When the worker's program
-/// or the environment is at fault (exit codes 4 and 127), core::EnvironmentError is thrown once all children
-/// have ended. SIGINT and SIGTERM end the children; finished runs are kept. `on_progress` is called a few
-/// times per second and at the end. Throws core::EnvironmentError when another study runs in the folder. Not
-/// thread-safe: sets signal handlers for the duration of the call.
+/// of SUMO) are not in this call; when the study is resumed in the same folder, `retried` decides. When the
+/// worker's program or the environment is at fault (exit codes 4 and 127), core::EnvironmentError is thrown
+/// once all children have ended. SIGINT and SIGTERM end the children; finished runs are kept. `on_progress`
+/// is called a few times per second and at the end. Throws core::EnvironmentError when another study runs in
+/// the folder. Not thread-safe: sets signal handlers for the duration of the call.
 StudyResult run_units(const study::Plan& plan, const results::Store& store, const WorkersOptions& options,
                       const std::function<void(const StudyProgress&)>& on_progress);
 

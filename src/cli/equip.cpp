@@ -53,6 +53,7 @@ void add_study_options(CLI::App& app, const std::shared_ptr<Arguments>& argument
         ->option_text("DIR [runs/equip-SCENARIO-xxxxxx, a hash of what is run]");
     add_jobs_option(app, request.run.workers);
     add_limit_options(app, request.run.limits);
+    add_retry_option(app, request.run.retried);
     add_json_option(app, request.run.publish.printing, "the result");
 }
 

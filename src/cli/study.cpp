@@ -76,6 +76,7 @@ Action configure_study(CLI::App& app) {
     add_jobs_option(app, arguments->run.workers);
     add_record_option(app, arguments->run.recording);
     add_limit_options(app, arguments->run.limits);
+    add_retry_option(app, arguments->run.retried);
     add_json_option(app, arguments->run.publish.printing, "tables or plan");
     add_tables_option(app, arguments->run.publish.tables);
     add_response_option(app, arguments->run.publish.response_threshold_s);

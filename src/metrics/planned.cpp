@@ -74,6 +74,8 @@ std::vector<PlannedVehicle> read_planned(std::span<const std::filesystem::path> 
     for (const std::filesystem::path& file : type_and_route_files) {
         try {
             detail::for_each_element(file, [&](const detail::Element& element) { reader.take(element); });
+        } catch (const core::Error&) {
+            throw;  // names the file, and may be the machine's fault
         } catch (const std::runtime_error& error) {
             throw core::InputError({file.string(), error.what(), "a SUMO route file", ""});
         }

@@ -64,7 +64,7 @@ enum class ErrorCause : std::uint8_t {
     signal,      ///< The process was killed, usually by an assertion or a bad access inside SUMO.
     time_limit,  ///< It exceeded the wall time limit.
     memory,      ///< It exceeded the memory limit.
-    bad_input,   ///< The scenario is invalid; never tried again.
+    bad_input,   ///< The scenario is invalid.
     python,      ///< A part that is the user's Python code failed.
     other,
 };
@@ -78,9 +78,13 @@ constexpr core::Spellings<ErrorCause, 7> spellings(ErrorCause) {
              {ErrorCause::other, "other"}}};
 }
 using core::name;
-/// Whether another attempt could end differently: signals and time limits.
+/// Whether another attempt could end differently at once: signals and time limits.
 constexpr bool worth_retrying(ErrorCause cause) {
     return cause == ErrorCause::signal || cause == ErrorCause::time_limit;
+}
+/// Whether the machine ended the run, not its input, so that it may succeed when its study is continued.
+constexpr bool may_pass(ErrorCause cause) {
+    return worth_retrying(cause) || cause == ErrorCause::memory;
 }
 
 /// A run that ended without a record.

@@ -42,9 +42,9 @@ void tell(const results::Store& store, const experiment::RunKey& key, results::E
 }
 
 /// Holds 200 MiB of memory that is really used.
-void hog() {
+void hog(int duration_ms) {
     const std::vector<char> memory(std::size_t{200} << 20, 'x');
-    pause_ms(600000);
+    pause_ms(duration_ms);
     std::printf("%c", memory.back());
 }
 
@@ -68,7 +68,8 @@ void work(const results::Store& store, const experiment::RunKey& key) {
     if (name == "refused") return tell(store, key, results::ErrorCause::simulator, "SUMO said no");
     if (name == "told_crash") return tell(store, key, results::ErrorCause::signal, "child was killed");
     if (name == "told_memory") return tell(store, key, results::ErrorCause::memory, "too much");
-    if (name == "hog") hog();
+    if (name == "hog") hog(600000);
+    if (name == "large") hog(500);
     if (name.starts_with("slow")) pause_ms(40);
     store.write(results::synthetic::record(key, 40.0 + key.replication), {});
 }

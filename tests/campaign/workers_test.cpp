@@ -40,6 +40,14 @@ class Study : public testing::Test {
     results::Store store_in(const std::string& folder) const {
         return results::Store::create(folder_.path() / folder, plan_in(folder).manifest);
     }
+    /// Whether a worker starts when the study is continued.
+    bool continues_in(const std::string& folder, RetriedRuns retried) {
+        const auto logs = store_in(folder).folder() / "logs";
+        std::filesystem::remove_all(logs);
+        options_.retried = retried;
+        run_in(folder);
+        return !std::filesystem::is_empty(logs);
+    }
     StudyResult run_in(const std::string& folder, unsigned workers = 2) {
         options_.workers = workers;
         return run_units(plan_in(folder), store_in(folder), options_,
@@ -182,6 +190,32 @@ TEST_F(Study, NeverTriesBadInputAndRefusedRunsAgain) {
     const StudyResult again = run_in("out");
     EXPECT_EQ(again.progress.failed, 6U);
     EXPECT_TRUE(std::filesystem::is_empty(store.folder() / "logs")) << "no worker was started";
+}
+
+TEST_F(Study, ThatIsContinuedTriesAgainWhatTheMachineEnded) {
+    for (const char* const condition : {"hog", "told_memory", "crash", "hang"}) {
+        plan({"baseline", condition}, 1);
+        options_.limits = {.wall_s = 0.2, .memory_mib = 64};
+        EXPECT_EQ(run_in(condition).exit_code, ExitCode::runs_failed);
+        EXPECT_TRUE(continues_in(condition, RetriedRuns::ended_by_machine)) << condition;
+    }
+}
+
+TEST_F(Study, ThatIsContinuedTriesAgainWhatTheInputMadeFailOnlyIfAsked) {
+    plan({"baseline", "refused"}, 1);
+    run_in("refused");
+    EXPECT_FALSE(continues_in("refused", RetriedRuns::ended_by_machine));
+    EXPECT_TRUE(continues_in("refused", RetriedRuns::all_failed));
+}
+
+TEST_F(Study, ThatNeededMoreMemoryIsTheSameOnceItHasIt) {
+    plan({"baseline", "large"}, 2);
+    run_in("undisturbed");
+    options_.limits.memory_mib = 64;
+    EXPECT_EQ(run_in("out").exit_code, ExitCode::runs_failed);
+    options_.limits.memory_mib = 0;
+    EXPECT_EQ(run_in("out").exit_code, ExitCode::ok);
+    EXPECT_EQ(tables_of("out"), tables_of("undisturbed"));
 }
 
 TEST_F(Study, RecordsARunThatAWorkerForgot) {

@@ -50,6 +50,7 @@ inline metrics::VehicleRow vehicle(const std::string& id, traffic::VehicleClass 
 inline RunRecord record(const experiment::RunKey& key, double travel_time_s = 50.1) {
     RunRecord result;
     result.key = key;
+    result.condition.name = key.condition;
     for (const experiment::ConditionSpec& condition : manifest().conditions) {
         if (condition.name == key.condition) result.condition = condition;
     }

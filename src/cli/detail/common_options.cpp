@@ -67,6 +67,12 @@ void add_limit_options(CLI::App& app, experiment::RunLimits& limits) {
         ->option_text(fmt::format("MIB, 0 to 1e8 [{}]", limits.memory_mib));
 }
 
+void add_retry_option(CLI::App& app, campaign::RetriedRuns& retried) {
+    app.add_flag_callback(
+        "--retry-failed", [&retried] { retried = campaign::RetriedRuns::all_failed; },
+        "Try all failed runs in the run folder again [those that a signal or a limit ended]");
+}
+
 void add_publish_options(CLI::App& app, campaign::Publication& publication) {
     const auto digits = [](std::size_t least, std::size_t most) {
         return [least, most](const std::string& text) {

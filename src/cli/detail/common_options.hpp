@@ -9,6 +9,7 @@
 
 #include "campaign/printout.hpp"
 #include "campaign/publication.hpp"
+#include "campaign/workers.hpp"
 #include "experiment/loop_config.hpp"
 #include "experiment/run_job.hpp"
 #include "report/console.hpp"
@@ -53,6 +54,9 @@ CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds);
 
 /// Declares `--run-time-limit` and `--memory-limit`: what a run may use before it is ended as failed.
 void add_limit_options(CLI::App& app, experiment::RunLimits& limits);
+
+/// Declares `--retry-failed`: runs that their input made fail are tried again, too.
+void add_retry_option(CLI::App& app, campaign::RetriedRuns& retried);
 
 /// Declares `--publish`, `--tree` and `--behaviour`: rows of `results/`.
 void add_publish_options(CLI::App& app, campaign::Publication& publication);
