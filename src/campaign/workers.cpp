@@ -81,7 +81,8 @@ class Workers : private core::TaskList {
     }
 
     StudyResult run() {
-        core::Supervisor({options_.workers, options_.termination_grace_s}).run(*this, interruption_);
+        core::Supervisor({options_.workers, options_.termination_grace_s}, *options_.machine)
+            .run(*this, interruption_);
         store_.remove_leftovers();
         report({});
         return {interruption_.exit_code(progress_.failed > 0 ? ExitCode::runs_failed : ExitCode::ok),

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/error.hpp"
+#include "core/supervisor.hpp"
 #include "results/store.hpp"
 #include "study/plan.hpp"
 
@@ -25,6 +26,7 @@ struct WorkersOptions {
     int attempts = 3;  ///< For errors by signal or time limit: the first try and two more.
     RetriedRuns retried = RetriedRuns::ended_by_machine;
     double termination_grace_s = 5.0;                ///< From SIGTERM to SIGKILL.
+    core::Machine* machine = &core::this_machine();  ///< On which the workers run; not null.
     /// Called for each damaged record that was found before anything runs; may be empty.
     std::function<void(const results::SetAside&)> on_set_aside = {};
 };

@@ -9,11 +9,20 @@ namespace clearway::core {
 namespace {
 
 constexpr double look_period_s = 0.05;
-constexpr auto pause = std::chrono::milliseconds(10);
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+double seconds_between(Machine::Clock::time_point start, Machine::Clock::time_point end) {
+    return std::chrono::duration<double>(end - start).count();
 }
+
+class ThisMachine : public Machine {
+  public:
+    Clock::time_point now() override { return Clock::now(); }
+    void pause() override { std::this_thread::sleep_for(std::chrono::milliseconds(10)); }
+    Child start(const Command& command) override { return core::start(command); }
+    std::optional<Exit> poll(const Child& child) override { return core::poll(child); }
+    std::optional<long> resident_kib(const Child& child) override { return core::resident_kib(child.pid); }
+    void kill(const Child& child, int signal) override { ::kill(child.pid, signal); }
+};
 
 }  // namespace
 
@@ -21,14 +30,23 @@ std::size_t process_count(std::size_t processes) {
     return processes > 0 ? processes : std::max(1U, std::thread::hardware_concurrency());
 }
 
-EndedBy limit_passed_by(const Child& child, const ProcessLimits& limits) {
-    if (seconds_since(child.started) > limits.wall_s) return EndedBy::time_limit;
+Machine& this_machine() {
+    static ThisMachine machine;
+    return machine;
+}
+
+EndedBy limit_passed_by(const Child& child, const ProcessLimits& limits, Machine& machine) {
+    if (seconds_between(child.started, machine.now()) > limits.wall_s) return EndedBy::time_limit;
     const long most_kib = limits.memory_mib * 1024;
-    if (most_kib > 0 && resident_kib(child.pid).value_or(0) > most_kib) return EndedBy::memory_limit;
+    if (most_kib > 0 && machine.resident_kib(child).value_or(0) > most_kib) return EndedBy::memory_limit;
     return EndedBy::itself;
 }
 
-Supervisor::Supervisor(SupervisorConfig config) : config_(config) {
+double Supervisor::seconds_since(Clock::time_point start) const {
+    return seconds_between(start, machine_.now());
+}
+
+Supervisor::Supervisor(SupervisorConfig config, Machine& machine) : config_(config), machine_(machine) {
     config_.processes = process_count(config.processes);
 }
 
@@ -53,7 +71,7 @@ void Supervisor::run(TaskList& tasks, const InterruptionWatch& interruption) {
         for (const Running& running : running_)
             ids.push_back(running.id);
         tasks.tick(ids);
-        std::this_thread::sleep_for(pause);
+        machine_.pause();
     }
     for (const TaskEnd& end : end_all())
         tasks.ended(end);
@@ -63,26 +81,27 @@ void Supervisor::start_what_fits(TaskList& tasks) {
     while (running_.size() < config_.processes) {
         const std::optional<Task> task = tasks.next();
         if (!task) return;
-        running_.push_back({task->id, start(task->command), task->limits, EndedBy::itself, std::nullopt});
+        running_.push_back(
+            {task->id, machine_.start(task->command), task->limits, EndedBy::itself, std::nullopt});
     }
 }
 
 bool Supervisor::look_is_due() {
     if (seconds_since(looked_) < look_period_s) return false;
-    looked_ = Clock::now();
+    looked_ = machine_.now();
     return true;
 }
 
 void Supervisor::enforce_limits(Running& running, bool look_now) const {
     if (running.terminated) {
-        if (seconds_since(*running.terminated) > config_.grace_s) ::kill(running.child.pid, SIGKILL);
+        if (seconds_since(*running.terminated) > config_.grace_s) machine_.kill(running.child, SIGKILL);
         return;
     }
     if (!look_now) return;
-    running.ended_by = limit_passed_by(running.child, running.limits);
+    running.ended_by = limit_passed_by(running.child, running.limits, machine_);
     if (running.ended_by == EndedBy::itself) return;
-    running.terminated = Clock::now();
-    ::kill(running.child.pid, SIGTERM);
+    running.terminated = machine_.now();
+    machine_.kill(running.child, SIGTERM);
 }
 
 std::vector<TaskEnd> Supervisor::collect() {
@@ -90,7 +109,7 @@ std::vector<TaskEnd> Supervisor::collect() {
     const bool look_now = look_is_due();
     std::erase_if(running_, [&](Running& running) {
         enforce_limits(running, look_now);
-        const std::optional<Exit> exit = poll(running.child);
+        const std::optional<Exit> exit = machine_.poll(running.child);
         if (exit) ended.push_back({running.id, *exit, running.ended_by});
         return exit.has_value();
     });
@@ -100,9 +119,9 @@ std::vector<TaskEnd> Supervisor::collect() {
 std::vector<TaskEnd> Supervisor::end_all() {
     for (Running& running : running_) {
         if (running.terminated) continue;
-        running.terminated = Clock::now();
+        running.terminated = machine_.now();
         running.ended_by = EndedBy::interruption;
-        ::kill(running.child.pid, SIGTERM);
+        machine_.kill(running.child, SIGTERM);
     }
     std::vector<TaskEnd> ended;
     while (!running_.empty()) {
@@ -110,7 +129,7 @@ std::vector<TaskEnd> Supervisor::end_all() {
             if (end.exit.ok()) end.ended_by = EndedBy::itself;  // It had finished its work.
             ended.push_back(end);
         }
-        if (!running_.empty()) std::this_thread::sleep_for(pause);
+        if (!running_.empty()) machine_.pause();
     }
     return ended;
 }

@@ -59,15 +59,35 @@ struct SupervisorConfig {
     double grace_s = 5.0;       ///< From SIGTERM to SIGKILL. Assumed: a worker closes its files sooner.
 };
 
+/// Clock and processes, in whose place tests put their own.
+class Machine {
+  public:
+    using Clock = std::chrono::steady_clock;
+    Machine() = default;
+    virtual ~Machine() = default;
+    Machine(const Machine&) = delete;
+    Machine& operator=(const Machine&) = delete;
+
+    virtual Clock::time_point now() = 0;
+    /// Some hundredths of a second.
+    virtual void pause() = 0;
+    /// As the functions of process.hpp.
+    virtual Child start(const Command& command) = 0;
+    virtual std::optional<Exit> poll(const Child& child) = 0;
+    virtual std::optional<long> resident_kib(const Child& child) = 0;
+    virtual void kill(const Child& child, int signal) = 0;
+};
+Machine& this_machine();
+
 /// Which limit a running child exceeds; `itself` when it exceeds none.
-EndedBy limit_passed_by(const Child& child, const ProcessLimits& limits);
+EndedBy limit_passed_by(const Child& child, const ProcessLimits& limits, Machine& machine = this_machine());
 
 /// Runs child processes in parallel. Limits are checked 20 times a second: a process over a limit gets
 /// SIGTERM, and SIGKILL if it is still running after the grace period. No process outlives the supervisor.
 /// For use by one thread.
 class Supervisor {
   public:
-    explicit Supervisor(SupervisorConfig config);
+    explicit Supervisor(SupervisorConfig config, Machine& machine = this_machine());
     ~Supervisor();
     Supervisor(const Supervisor&) = delete;
     Supervisor& operator=(const Supervisor&) = delete;
@@ -77,7 +97,7 @@ class Supervisor {
     void run(TaskList& tasks, const InterruptionWatch& interruption);
 
   private:
-    using Clock = std::chrono::steady_clock;
+    using Clock = Machine::Clock;
     struct Running {
         std::size_t id = 0;
         Child child;
@@ -90,10 +110,12 @@ class Supervisor {
     std::vector<TaskEnd> collect();
     void enforce_limits(Running& running, bool look_now) const;
     bool look_is_due();
+    double seconds_since(Clock::time_point start) const;
     /// Ends all processes and waits for them.
     std::vector<TaskEnd> end_all();
 
     SupervisorConfig config_;
+    Machine& machine_;
     std::vector<Running> running_;
     Clock::time_point looked_{};
 };
