@@ -146,6 +146,10 @@ Action configure_import(CLI::App& app) {
     app.add_option("--begin", request.begin_s,
                    "For a SUMO scenario: the time in it at which the new scenario begins, s")
         ->option_text("SECONDS [its begin; after two hours of demand the busiest time]");
+    app.add_option("--program-limit", request.program_limit_s,
+                   "Wall time after which a program is ended that the import starts, such as a trial run, s")
+        ->check(core::NumberRange{1.0, 1e7})
+        ->option_text(fmt::format("SECONDS, 1 to 1e7 [{:g}]", request.program_limit_s));
     app.add_flag_callback(
         "--leave-out-bad-vehicles",
         [&request] { request.bad_vehicles = scenario_import::BadVehicles::leave_out; },

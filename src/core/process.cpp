@@ -172,7 +172,14 @@ std::string tail(const std::filesystem::path& file, int lines) {
 }
 
 std::filesystem::path program_folder() {
-    return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    if (error)
+        throw EnvironmentError(
+            fmt::format("/proc/self/exe cannot be read: {}. Mount /proc: programs and limits "
+                        "of memory are found there",
+                        error.message()));
+    return program.parent_path();
 }
 
 }  // namespace clearway::core

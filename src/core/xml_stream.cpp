@@ -25,7 +25,9 @@ using GzipHandle = std::unique_ptr<gzFile_s, decltype(&gzclose_r)>;
 struct Job {
     XML_Parser parser;
     XmlHandler& handler;
-    std::exception_ptr failure;
+    const std::filesystem::path& file;
+    std::exception_ptr failure = {};
+    int level = 0;
 
     template <class Action>
     void guarded(const Action& action) {
@@ -41,12 +43,17 @@ struct Job {
 
 void on_start(void* user, const XML_Char* element, const XML_Char** attributes) {
     auto& job = *static_cast<Job*>(user);
-    job.guarded(
-        [&] { job.handler.start(element, XmlAttributes(attributes), XML_GetCurrentLineNumber(job.parser)); });
+    job.guarded([&] {
+        const unsigned long line = XML_GetCurrentLineNumber(job.parser);
+        if (++job.level > most_xml_levels)
+            throw InputError(too_many_levels(fmt::format("{}:{}", job.file.string(), line)));
+        job.handler.start(element, XmlAttributes(attributes), line);
+    });
 }
 
 void on_end(void* user, const XML_Char* element) {
     auto& job = *static_cast<Job*>(user);
+    --job.level;
     job.guarded([&] { job.handler.end(element); });
 }
 
@@ -87,6 +94,11 @@ std::optional<std::string_view> XmlAttributes::find(std::string_view name) const
     return std::nullopt;
 }
 
+Problem too_many_levels(const std::string& where) {
+    return {where, fmt::format("has more than {} levels of elements", most_xml_levels),
+            fmt::format("at most {} levels", most_xml_levels), "Check that it is the right file"};
+}
+
 void stream_xml(const std::filesystem::path& file, XmlHandler& handler) {
     std::error_code error;
     if (std::filesystem::is_directory(file, error)) fail_unreadable(file, "it is a folder");
@@ -96,7 +108,7 @@ void stream_xml(const std::filesystem::path& file, XmlHandler& handler) {
     const ParserHandle parser(XML_ParserCreate(nullptr), &XML_ParserFree);
     if (!parser) throw std::bad_alloc();
 
-    Job job{parser.get(), handler, nullptr};
+    Job job{parser.get(), handler, file};
     XML_SetUserData(parser.get(), &job);
     XML_SetElementHandler(parser.get(), on_start, on_end);
     XML_SetCharacterDataHandler(parser.get(), on_text);

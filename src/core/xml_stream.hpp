@@ -2,9 +2,16 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 
+#include "core/error.hpp"
+
 namespace clearway::core {
+
+/// Deepest element that is read; SUMO's files and maps have less than ten levels. More would exhaust the
+/// stack of readers that follow the levels.
+inline constexpr int most_xml_levels = 200;
 
 /// The attributes of one element, valid while it is handled.
 class XmlAttributes {
@@ -39,7 +46,10 @@ class XmlHandler {
 };
 
 /// Streams an XML file, plain or gzipped, to `handler` in a fixed amount of memory. Throws core::InputError
-/// naming file and line when it is missing, damaged or not XML.
+/// naming file and line when it is missing, damaged, not XML or nested deeper than `most_xml_levels`.
 void stream_xml(const std::filesystem::path& file, XmlHandler& handler);
+
+/// The problem of a file with more levels; `where` is the file, with the line where it is known.
+Problem too_many_levels(const std::string& where);
 
 }  // namespace clearway::core

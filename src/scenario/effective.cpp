@@ -10,6 +10,7 @@
 #include "core/folder_name.hpp"
 #include "core/leftovers.hpp"
 #include "core/part_folder.hpp"
+#include "core/strict_table.hpp"
 #include "scenario/config.hpp"
 #include "scenario/detail/library.hpp"
 #include "scenario/detail/tables.hpp"
@@ -144,7 +145,7 @@ void copy_files(const ScenarioConfig& config, const std::filesystem::path& folde
 
 /// The text with the line of its key `name` replaced; everything else stays, comments included.
 std::string renamed(const std::string& text, const std::string& name) {
-    const toml::table table = toml::parse(text);
+    const toml::table table = core::parse_toml(text, "scenario.toml");
     const auto line = table.get("name")->source().begin.line;
     std::size_t start = 0;
     for (toml::source_index number = 1; number < line; ++number)
@@ -156,12 +157,12 @@ std::string renamed(const std::string& text, const std::string& name) {
 
 /// Whether the file stands for itself; one with a `base` is a list of changes.
 bool is_whole(const std::string& text) {
-    return !toml::parse(text).contains("base");
+    return !core::parse_toml(text, "scenario.toml").contains("base");
 }
 
 /// The text with the usual remedy against locks in its table [time], unless it has a value of its own.
 std::string unlocked(const std::string& text) {
-    const toml::table table = toml::parse(text);
+    const toml::table table = core::parse_toml(text, "scenario.toml");
     if (table["time"]["ignore_junction_blocker_s"]) return text;
     const std::string line =
         fmt::format("ignore_junction_blocker_s = {:.1f}\n", usual_ignore_junction_blocker_s);

@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <span>
 #include <sstream>
 #include <string_view>
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include "core/error.hpp"
-#include "core/read_failure.hpp"
 #include "scenario/detail/xml_text.hpp"
 
 namespace clearway::scenario {
@@ -22,28 +19,7 @@ namespace {
 constexpr std::array<std::string_view, 7> newer_classes = {"cable_car", "subway", "aircraft", "wheelchair",
                                                            "scooter",   "drone",  "container"};
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
-    throw core::InputError(
-        core::Problem{file.string(), what, "a SUMO network, .net.xml or .net.xml.gz", "choose another file"});
-}
-
-/// The bytes of a file, decompressed if it is compressed.
-std::string inflated(const std::filesystem::path& file) {
-    gzFile stream = gzopen(file.c_str(), "rb");
-    if (stream == nullptr) core::fail_to_read(file, errno);
-    std::string bytes;
-    std::array<char, 1 << 16> buffer{};
-    int count = 0;
-    while ((count = gzread(stream, buffer.data(), buffer.size())) > 0)
-        bytes.append(buffer.data(), count);
-    int code = Z_OK;
-    gzerror(stream, &code);
-    const int reason = errno;
-    gzclose(stream);
-    if (code == Z_ERRNO) core::fail_to_read(file, reason);
-    if (count < 0) refuse(file, "is damaged or cut short");
-    return bytes;
-}
+constexpr const char* network_kind = "a SUMO network, .net.xml or .net.xml.gz";
 
 /// The words of a list of classes that are not in `left_out`.
 std::string without(std::string_view classes, std::span<const std::string_view> left_out) {
@@ -81,13 +57,12 @@ void walk(const pugi::xml_node& node, const Visit& visit) {
 
 }  // namespace
 
-NetworkDocument::NetworkDocument(const std::filesystem::path& file) {
-    const std::string bytes = inflated(file);
-    const pugi::xml_parse_result result =
-        document_.load_buffer(bytes.data(), bytes.size(), pugi::parse_default | pugi::parse_declaration);
-    if (!result) refuse(file, fmt::format("is not XML: {} at byte {}", result.description(), result.offset));
-    if (std::string_view(document_.document_element().name()) != "net")
-        refuse(file, fmt::format("has the root element <{}>", document_.document_element().name()));
+NetworkDocument::NetworkDocument(const std::filesystem::path& file)
+    : document_(detail::load_xml(file, network_kind, pugi::parse_default | pugi::parse_declaration)) {
+    const char* const root = document_.document_element().name();
+    if (std::string_view(root) != "net")
+        throw core::InputError(core::Problem{file.string(), fmt::format("has the root element <{}>", root),
+                                             network_kind, "choose another file"});
 }
 
 NetworkDocument& NetworkDocument::without_newer_classes() {

@@ -319,6 +319,19 @@ scenario::ScenarioConfig start_config(const Import& import) {
 
 }  // namespace
 
+namespace {
+
+/// A program can also run for ever: SUMO draws speed factors until one is possible.
+[[noreturn]] void refuse_slow(const ImportRequest& request, const std::string& stage) {
+    throw core::InputError(core::Problem{
+        request.files.front().string(),
+        fmt::format("{} does not end within {:g} s", stage, request.program_limit_s),
+        "files that its program works through in that time",
+        "Look for values that are not possible, such as a speedDev of 1000, or raise --program-limit"});
+}
+
+}  // namespace
+
 Findings import(const ImportRequest& request, const OnProgress& on_progress) {
     if (request.files.empty())
         throw core::InputError(
@@ -333,7 +346,11 @@ Findings import(const ImportRequest& request, const OnProgress& on_progress) {
     const core::TemporaryFolder aside(beside);
     ImportRequest settled = request;
     settled.folder = folder;
-    Import import{settled, on_progress, aside.path() / "scenario", aside.path() / "work"};
+    const OnProgress limited = [&](const std::string& stage, double elapsed_s) {
+        if (elapsed_s > request.program_limit_s) refuse_slow(request, stage);
+        on_progress(stage, elapsed_s);
+    };
+    Import import{settled, limited, aside.path() / "scenario", aside.path() / "work"};
     core::make_folder(import.scenario);
     core::make_folder(import.work);
 

@@ -36,6 +36,8 @@ struct ImportRequest {
     /// those that they have.
     double pedestrians_per_hour = 0.0;
     std::optional<double> begin_s;  ///< Time in the route files at which the scenario begins.
+    /// For each program that an import starts, s of wall time. A demand of 30,000 vehicles runs within it.
+    double program_limit_s = 1800.0;
 };
 
 /// What a map, network or scenario holds, what was changed, and what could not be used. Texts may hold names

@@ -38,7 +38,7 @@ class MeasuredReader {
     }
 
     void read(const std::filesystem::path& file) {
-        const pugi::xml_document document = load_route_file(file);
+        const pugi::xml_document document = load_xml(file, "a SUMO route file");
         for (const pugi::xml_node vehicle : document.document_element().children("vehicle"))
             take(vehicle, file);
     }

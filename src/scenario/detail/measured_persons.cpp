@@ -36,7 +36,7 @@ class PersonsReader {
     }
 
     void read(const std::filesystem::path& file) {
-        const pugi::xml_document document = load_route_file(file);
+        const pugi::xml_document document = load_xml(file, "a SUMO route file");
         for (const pugi::xml_node element : document.document_element().children()) {
             const std::string_view name = element.name();
             if (name == "vType")

@@ -81,12 +81,10 @@ void add_parameter(pugi::xml_node type, const char* key, std::string_view value)
 class TypeWriter {
   public:
     explicit TypeWriter(const ScenarioConfig& config)
-        : config_(config), own_(*config.measured->own_types), place_(resolve(config, own_.file).string()) {
-        const pugi::xml_parse_result result = document_.load_file(place_.c_str());
-        if (!result)
-            throw core::InputError(core::Problem{fmt::format("{}: byte {}", place_, result.offset),
-                                                 result.description(), "an additional file of SUMO",
-                                                 "correct the file"});
+        : config_(config),
+          own_(*config.measured->own_types),
+          place_(resolve(config, own_.file).string()),
+          document_(load_xml(place_, "an additional file of SUMO")) {
         for (const pugi::xml_node type : document_.document_element().children("vType"))
             types_[type.attribute("id").value()] = type;
     }

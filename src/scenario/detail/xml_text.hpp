@@ -7,8 +7,11 @@
 
 namespace clearway::scenario::detail {
 
-/// Loads a SUMO route file. Throws core::InputError when it is not XML.
-pugi::xml_document load_route_file(const std::filesystem::path& file);
+/// Loads an XML file, plain or gzipped, as a whole. `kind` says what is allowed: `a SUMO route file`. Throws
+/// core::InputError when it is missing, damaged, not XML, larger than 512 MiB unpacked, or nested deeper than
+/// core::most_xml_levels.
+pugi::xml_document load_xml(const std::filesystem::path& file, const std::string& kind,
+                            unsigned options = pugi::parse_default);
 
 /// An element as text, indented by one level, with a line end.
 std::string element_text(pugi::xml_node element);

@@ -47,6 +47,9 @@ std::string departing_xml(Element user, double begin_s, const Departing& departi
 /// A complete SUMO file with `content` in its root element.
 std::string file_text(const char* root, const std::string& content);
 
+/// Latest begin and departure, s: 31 years. Later ones are mistakes, and counts by time would fill the
+/// memory.
+inline constexpr double latest_departure_s = 1e9;
 /// A time in SUMO's notation (`12.5`, `1:00:00`, `1:01:00:00`) in seconds. Nothing for other texts.
 std::optional<double> time_s(std::string_view text);
 /// Whether `text` is one of SUMO's words for true, in any case: `1`, `yes`, `true`, `on`, `x`, `t`.

@@ -147,9 +147,18 @@ class ConfigurationReader {
         configuration_.network = files.front();
     }
 
+    void take_begin(const std::string& value) {
+        configuration_.begin_s = time_s(value);
+        const double begin_s = configuration_.begin_s.value_or(-1.0);
+        if (begin_s >= 0.0 && begin_s <= latest_departure_s) return;
+        problems_.push_back({fmt::format("{}: begin", file_.string()),
+                             fmt::format("\"{}\" is not possible", value),
+                             fmt::format("a time from 0 to {:g} s", latest_departure_s), "correct it"});
+    }
+
     void take_option(const std::string& name, const std::string& value) {
         if (name == "begin" || name == "b")
-            configuration_.begin_s = time_s(value);
+            take_begin(value);
         else if (name == "end" || name == "e")
             configuration_.end_s = time_s(value);
         else if (name == "scale" && number(value).value_or(-1.0) >= 0.0)

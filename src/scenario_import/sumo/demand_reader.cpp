@@ -241,9 +241,10 @@ void DemandReader::resolve(const Pending& pending, const Take& take) {
     auto depart_s = time_s(word);
     if (is_waiting(word)) return left_out_.add("vehicles that wait for passengers or goods", id);
     if (word == "now") depart_s = times_.begin_s;
-    if (!depart_s || *depart_s < 0.0)
+    if (!depart_s || *depart_s < 0.0 || *depart_s > latest_departure_s)
         return problem(fmt::format("{}:{}", pending.file.string(), element.line), id,
-                       fmt::format("depart is \"{}\"", word), "a time in s from 0, or h:mm:ss");
+                       fmt::format("depart is \"{}\"", word),
+                       fmt::format("a time in s from 0 to {:g}, or h:mm:ss", latest_departure_s));
     const std::size_t count = copies(id, scale_ * scale_of_type(element, id));
     for (std::size_t row = 0; row < count; ++row)
         take(row == 0 ? id : fmt::format("{}.{}", id, row), {row, *depart_s});

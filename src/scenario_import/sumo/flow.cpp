@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "scenario_import/sumo/draw.hpp"
 
 namespace clearway::scenario_import::detail {
@@ -13,6 +14,9 @@ namespace clearway::scenario_import::detail {
 namespace {
 
 constexpr double day_s = 86400.0;
+
+/// Most departures of one flow: a vehicle every 20 ms of a day.
+constexpr std::size_t most_departures = 4'320'000;
 
 bool has_rate(const Element& flow) {
     constexpr std::array rates = {"period",         "perHour",           "vehsPerHour",
@@ -61,6 +65,10 @@ class Flow {
 
   private:
     void add(std::size_t row, double at_s, double later_s = 0.0) {
+        if (++tried_ > most_departures)
+            throw core::InputError(
+                {fmt::format("flow \"{}\"", id_), fmt::format("has more than {} departures", most_departures),
+                 fmt::format("at most {}", most_departures), "correct its rate or number"});
         if (at_s >= from_s_) found_.push_back({row, at_s, later_s});
     }
     double most() const { return count_.value_or(std::numeric_limits<double>::infinity()); }
@@ -106,6 +114,7 @@ class Flow {
     double begin_s_ = 0.0;
     double end_s_ = 0.0;
     double until_s_ = 0.0;
+    std::size_t tried_ = 0;
     std::vector<Departure> found_;
 };
 
@@ -117,7 +126,7 @@ std::optional<std::string> fault_of_flow(const Element& flow, const FlowTimes& t
     for (const std::string* const time : {&begin, &end})
         if (!time->empty() && !time_s(*time)) return fmt::format("has the time \"{}\"", *time);
     const double begin_s = time_s(begin).value_or(times.begin_s);
-    if (begin_s < 0.0) return fmt::format("begins at {} s", begin_s);
+    if (begin_s < 0.0 || begin_s > latest_departure_s) return fmt::format("begins at {} s", begin_s);
     const auto end_s = end.empty() ? times.end_s : time_s(end);
     if (end_s && *end_s < begin_s && (!end.empty() || flow.has("number")))
         return fmt::format("ends at {} s, before its begin at {} s", *end_s, begin_s);
