@@ -136,6 +136,9 @@ core::ExitCode submit(const study::StudyConfig& in_file, const study::StudyConfi
     study::Submission submission = submission_of(request, plan);
     std::ranges::move(model_options(in_file.conditions, config.conditions),
                       std::back_inserter(submission.study_options));
+    if (config.most_runs != results::usual_most_runs)
+        submission.study_options.insert(submission.study_options.end(),
+                                        {"--most-runs", fmt::format("{}", config.most_runs)});
     core::make_folder(submission.folder);
     claim(submission.folder, submission.shards);
     write_scripts(submission);

@@ -29,6 +29,7 @@ struct Arguments {
     Floor floor = Floor::solo;
     std::uint32_t seeds = usual_seeds;
     std::uint64_t seed = 1;
+    std::uint64_t most_runs = results::usual_most_runs;
     campaign::RunOptions run;
     scenario::Options options;
     bool is_shown = false;
@@ -71,9 +72,11 @@ core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
     campaign::RunOptions options = arguments.run;
     options.command = invocation.command;
     const auto study_of = [&](std::vector<experiment::ConditionSpec> conditions) {
-        return campaign::study_of(scenario::load(arguments.scenario, arguments.options),
-                                  conditions_of(arguments, std::move(conditions)), arguments.seed,
-                                  arguments.seeds);
+        study::StudyConfig study = campaign::study_of(scenario::load(arguments.scenario, arguments.options),
+                                                      conditions_of(arguments, std::move(conditions)),
+                                                      arguments.seed, arguments.seeds);
+        study.most_runs = arguments.most_runs;
+        return study;
     };
     const std::vector<experiment::ConditionSpec> chosen = chosen_conditions(arguments.conditions);
     if (!arguments.is_shown) return campaign::run_study(study_of(chosen), options);
@@ -111,6 +114,7 @@ Action configure_run(CLI::App& app) {
         "Leave out the runs of emergency vehicles alone and the gap closed [with them]");
     const CLI::Option* const seeds = add_seeds_option(app, arguments->seeds);
     add_seed_option(app, arguments->seed);
+    add_most_runs_option(app, arguments->most_runs);
     app.add_option("--out", arguments->run.folder,
                    "Run folder; a study that was interrupted there is continued")
         ->option_text("DIR [runs/SCENARIO-xxxxxx, a hash of what is run]");

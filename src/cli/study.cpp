@@ -22,6 +22,7 @@ struct Arguments {
     std::vector<std::string> models;
     Mode mode = Mode::run;
     study::Extent extent = study::Extent::whole;
+    std::uint64_t most_runs = results::usual_most_runs;
     campaign::RunOptions run;
 };
 
@@ -37,7 +38,7 @@ core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, 
 core::ExitCode run_study(const Arguments& arguments, const Invocation& invocation) {
     study::Shard shard;
     if (!arguments.shard.empty()) shard = study::shard_from(arguments.shard, "--shard");
-    study::StudyConfig config = study::read_study(arguments.file, arguments.extent);
+    study::StudyConfig config = study::read_study(arguments.file, arguments.extent, arguments.most_runs);
     apply_models(arguments.models, config.conditions);
     campaign::RunOptions run = arguments.run;
     run.command = invocation.command;
@@ -73,6 +74,7 @@ Action configure_study(CLI::App& app) {
     app.add_flag_callback(
         "--quick", [arguments] { arguments->extent = study::Extent::quick; },
         "Run what the file's [quick] leaves, into runs/NAME-quick [the whole study]");
+    add_most_runs_option(app, arguments->most_runs);
     add_jobs_option(app, arguments->run.workers);
     add_record_option(app, arguments->run.recording);
     add_limit_options(app, arguments->run.limits);

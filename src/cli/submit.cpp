@@ -17,6 +17,7 @@ Action configure_submit(CLI::App& app) {
     struct Arguments {
         campaign::SubmitRequest request;
         std::vector<std::string> models;
+        std::uint64_t most_runs = results::usual_most_runs;
     };
     static const std::map<std::string, study::SubmitEngine> engines = {
         {"slurm", study::SubmitEngine::slurm},
@@ -43,11 +44,13 @@ Action configure_submit(CLI::App& app) {
     app.add_flag_callback(
         "--go", [&request] { request.start = campaign::SubmitRequest::Start::go; },
         "Also run submit.sh [only write it]");
+    add_most_runs_option(app, arguments->most_runs);
     add_limit_options(app, request.limits);
     add_json_option(app, request.printing, "what was written");
     return [arguments](const Invocation& invocation) {
         arguments->request.command = invocation.command;
-        const study::StudyConfig in_file = study::read_study(arguments->request.file);
+        const study::StudyConfig in_file =
+            study::read_study(arguments->request.file, study::Extent::whole, arguments->most_runs);
         study::StudyConfig config = in_file;
         apply_models(arguments->models, config.conditions);
         return campaign::submit(in_file, config, arguments->request);

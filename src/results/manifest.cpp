@@ -10,6 +10,7 @@
 #include "core/folder_name.hpp"
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
+#include "results/run_limit.hpp"
 
 namespace clearway::results {
 namespace {
@@ -217,6 +218,13 @@ Manifest manifest_from_json(const std::string& text, const std::string& where) {
         precision.read("half_width", target.half_width);
         precision.read("at_most", target.at_most);
     }
+    const std::uint64_t runs =
+        runs_of(manifest.scenarios.size(), manifest.conditions.size(), manifest.replications);
+    if (manifest.replications > most_replications || runs > greatest_most_runs)
+        problems.push_back(
+            {where + ": replications", fmt::format("{} make {} runs", manifest.replications, runs),
+             fmt::format("at most {} replications and {} runs", most_replications, greatest_most_runs),
+             "This is no manifest that Clearway wrote; take the folder from a backup"});
     reader.read("hash", hash);
     if (problems.empty() && hash != manifest_hash(manifest)) reader.problem("hash", "does not fit the rest");
     if (!problems.empty()) throw core::InputError(problems);

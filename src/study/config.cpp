@@ -25,9 +25,9 @@ namespace {
 
 using core::StrictTable;
 using core::TomlReading;
+using results::most_replications;
 using Problems = std::vector<core::Problem>;
 
-constexpr std::uint32_t most_replications = 100000;
 constexpr std::int64_t most_seed = std::numeric_limits<std::int64_t>::max();
 
 /// Every combination of factors loads the same scenarios with the same overrides: a problem is told once.
@@ -212,6 +212,21 @@ void read_scenarios(StrictTable& root, const detail::Factors& factors, TomlReadi
     }
 }
 
+/// Combinations are counted before they are made. Throws core::InputError with all problems so far: too many
+/// would fill the memory.
+void check_combinations(const detail::Factors& factors, TomlReading& reading, const StudyConfig& config) {
+    for (const auto& [subject, word] : {std::pair(detail::Subject::scenarios, "scenario"),
+                                        std::pair(detail::Subject::conditions, "condition")}) {
+        const std::uint64_t count = detail::count_combinations(factors, subject);
+        if (count <= config.most_runs) continue;
+        reading.problems.push_back(
+            {fmt::format("{}: factors", reading.file), fmt::format("make {} of each {}", count, word),
+             fmt::format("at most {} runs", config.most_runs),
+             "List fewer values, use design = \"one_at_a_time\", or allow more with --most-runs"});
+        throw core::InputError(reading.problems);
+    }
+}
+
 /// One condition per combination of the factors that concern it.
 std::vector<experiment::ConditionSpec> variants(const experiment::ConditionSpec& condition,
                                                 const detail::Factors& factors,
@@ -374,14 +389,15 @@ void read_quick(StrictTable& root, Extent extent, StudyConfig& config) {
 
 }  // namespace
 
-StudyConfig read_study(const std::filesystem::path& file, Extent extent) {
+StudyConfig read_study(const std::filesystem::path& file, Extent extent, std::uint64_t most_runs) {
     if (!std::filesystem::exists(file))
         if (const auto own = core::shipped(file); own && std::filesystem::is_regular_file(*own))
-            return read_study(*own, extent);
+            return read_study(*own, extent, most_runs);
     TomlReading reading{file.string(), {}, {}};
     const toml::table table = core::parse_toml(core::read_file(file), reading.file);
     StrictTable root(table, "", reading);
     StudyConfig config;
+    config.most_runs = most_runs;
     config.name = file.stem().string();
     root.text("name", config.name);
     root.integer<std::uint64_t>("seed", 0, most_seed, config.seed);
@@ -391,6 +407,7 @@ StudyConfig read_study(const std::filesystem::path& file, Extent extent) {
     detail::Factors factors;
     if (factor_table != nullptr)
         factors = detail::read_factors(*factor_table, {reading.file, parts_in(table)}, reading.problems);
+    check_combinations(factors, reading, config);
     read_scenarios(root, factors, reading, config);
     read_conditions(root, reading, config);
     read_quick(root, extent, config);

@@ -9,6 +9,7 @@
 
 #include "experiment/condition.hpp"
 #include "results/manifest.hpp"
+#include "results/run_limit.hpp"
 #include "scenario/config.hpp"
 
 namespace clearway::study {
@@ -25,6 +26,7 @@ struct StudyConfig {
     std::optional<results::PrecisionTarget> precision;
     /// What it sets out to show; its seed must not have been used before (fresh_seeds.hpp).
     std::optional<results::AnalysisPlan> plan = std::nullopt;
+    std::uint64_t most_runs = results::usual_most_runs;  ///< A plan with more runs is refused.
 };
 
 /// FHWA's minimum number of replications (Traffic Analysis Toolbox III, 2019 update); also the first round of
@@ -96,6 +98,7 @@ enum class Extent : std::uint8_t {
 ///     conditions = ["baseline", "b20"]            # of the conditions above
 ///
 /// Extent::quick without [quick] in the file is a problem, too. Where there is no `file`: core::shipped's.
-StudyConfig read_study(const std::filesystem::path& file, Extent extent = Extent::whole);
+StudyConfig read_study(const std::filesystem::path& file, Extent extent = Extent::whole,
+                       std::uint64_t most_runs = results::usual_most_runs);
 
 }  // namespace clearway::study

@@ -62,6 +62,15 @@ void check(const StudyConfig& config) {
     std::vector<core::Problem> problems;
     if (config.scenarios.empty()) problems.push_back({"study", "has no scenario", "", "Name at least one"});
     if (config.conditions.empty()) problems.push_back({"study", "has no condition", "", "Name at least one"});
+    const std::uint64_t runs =
+        results::runs_of(config.scenarios.size(), config.conditions.size(), config.replications);
+    if (runs > config.most_runs)
+        problems.push_back(
+            {"study",
+             fmt::format("has {} scenarios x {} conditions x {} replications, {} runs",
+                         config.scenarios.size(), config.conditions.size(), config.replications, runs),
+             fmt::format("at most {} runs", config.most_runs),
+             "Take fewer; run, study and study submit allow more with --most-runs"});
     if (config.replications == 0) problems.push_back({"replications", "0 is out of range", "1 or more", ""});
     std::set<std::string> studies;
     const bool is_of_scenario = config.scenarios.size() == 1 && config.scenarios.front().name == config.name;

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "results/synthetic.hpp"
+#include "support/message_of.hpp"
 
 namespace clearway::results {
 namespace {
@@ -52,6 +53,21 @@ TEST(Manifest, NamesTheConditionsThatDifferAndWhatDiffersInThem) {
     changed = manifest;
     std::swap(changed.conditions[0], changed.conditions[1]);
     EXPECT_EQ(differences(manifest, changed), "order of conditions");
+}
+
+TEST(Manifest, OfMoreRunsThanAnyStudyHasIsRefused) {
+    const auto problem_of = [](std::uint32_t replications, std::size_t scenarios) {
+        Manifest manifest = synthetic::manifest(replications);
+        manifest.scenarios.resize(scenarios, manifest.scenarios.front());
+        return support::message_of([&] { manifest_from_json(to_json(manifest), "manifest.json"); });
+    };
+    EXPECT_EQ(problem_of(100000, 2), "");
+    EXPECT_THAT(problem_of(100001, 2),
+                testing::HasSubstr("manifest.json: replications: 100001 make 400004 runs"));
+    EXPECT_THAT(problem_of(4294967295, 2),
+                testing::AllOf(testing::HasSubstr("17179869180 runs"), testing::HasSubstr("at most 100000"),
+                               testing::HasSubstr("from a backup")));
+    EXPECT_THAT(problem_of(100000, 11), testing::HasSubstr("2200000 runs"));
 }
 
 TEST(Manifest, IsRefusedWhenEditedOrOfAnotherFormat) {

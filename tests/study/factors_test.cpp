@@ -1,5 +1,9 @@
-#include <cstdlib>
+#include "study/detail/factors.hpp"
 
+#include <cstdlib>
+#include <limits>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
@@ -303,6 +307,28 @@ TEST_F(Factors, WithoutValuesOrWithWrongOnesAreRefused) {
                 testing::AllOf(HasSubstr("-4 is negative"), HasSubstr("set by a factor")));
     EXPECT_THAT(problems("[factors]\nscenario.variant = [\"denser\"]\n"),
                 HasSubstr("overrides.variant, set by a factor: \"denser\" is not known"));
+}
+
+TEST_F(Factors, AreCountedBeforeTheirCombinationsAreMade) {
+    std::string seven = "[factors]\n";
+    std::string ten = "[factors]\n";
+    for (int factor = 0; factor < 10; ++factor) {
+        const std::string line =
+            fmt::format("failure.x{} = [1, 2, 3, 4, 5, 6, 7, 8]\n", factor);  // unknown, but that comes later
+        if (factor < 7) seven += line;
+        ten += line;
+    }
+    EXPECT_THAT(problems(seven), testing::AllOf(HasSubstr("make 2097152 of each condition"),
+                                                HasSubstr("at most 100000 runs"), HasSubstr("--most-runs")));
+    EXPECT_THAT(problems(ten), HasSubstr("make 1073741824 of each condition"));
+    EXPECT_THAT(problems(ten + "design = \"one_at_a_time\"\n"), testing::Not(HasSubstr("of each")))
+        << "81 of them";
+    const detail::Factors endless{
+        std::vector<detail::Factor>(30, {"loop", "a", "", std::vector<detail::FactorValue>(8)}),
+        detail::Design::all_combinations};
+    EXPECT_EQ(detail::count_combinations(endless, detail::Subject::conditions),
+              std::numeric_limits<std::uint64_t>::max())
+        << "8^30";
 }
 
 TEST_F(Factors, NeedAConditionToVary) {

@@ -1,6 +1,7 @@
 #include "study/plan.hpp"
 
 #include <functional>
+#include <limits>
 
 #include <gmock/gmock.h>
 
@@ -50,6 +51,18 @@ TEST(Plan, HasOneUnitPerReplicationScenarioAndTrafficModel) {
     EXPECT_EQ(plan.units[1].unit.conditions.size(), 1U);
     EXPECT_EQ(plan.units[1].unit.traffic_model, TrafficModel::free_flow);
     EXPECT_EQ(plan.units[0].unit.network_folder, "/out/scenarios/alpha/network");
+}
+
+TEST(Plan, WithMoreRunsThanAllowedIsRefusedWithTheNumbers) {
+    StudyConfig config = example();
+    config.most_runs = 2 * 2 * 9 - 1;
+    EXPECT_THAT(problems_of(config),
+                testing::AllOf(testing::HasSubstr("2 scenarios x 9 conditions x 2 replications, 36 runs"),
+                               testing::HasSubstr("at most 35 runs"), testing::HasSubstr("--most-runs")));
+    ++config.most_runs;
+    EXPECT_EQ(plan_of(config).run_count(), config.most_runs);
+    config.replications = std::numeric_limits<std::uint32_t>::max();
+    EXPECT_THAT(problems_of(config), testing::HasSubstr("77309411310 runs"));
 }
 
 TEST(Plan, CoversTheRunsOfTheManifestExactly) {

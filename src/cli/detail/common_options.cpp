@@ -67,6 +67,12 @@ void add_limit_options(CLI::App& app, experiment::RunLimits& limits) {
         ->option_text(fmt::format("MIB, 0 to 1e8 [{}]", limits.memory_mib));
 }
 
+void add_most_runs_option(CLI::App& app, std::uint64_t& most_runs) {
+    app.add_option("--most-runs", most_runs, "A study with more runs is refused")
+        ->check(CLI::Range(std::uint64_t{1}, results::greatest_most_runs))
+        ->option_text(fmt::format("N, 1 to {} [{}]", results::greatest_most_runs, most_runs));
+}
+
 void add_retry_option(CLI::App& app, campaign::RetriedRuns& retried) {
     app.add_flag_callback(
         "--retry-failed", [&retried] { retried = campaign::RetriedRuns::all_failed; },

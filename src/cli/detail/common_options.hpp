@@ -13,6 +13,7 @@
 #include "experiment/loop_config.hpp"
 #include "experiment/run_job.hpp"
 #include "report/console.hpp"
+#include "results/run_limit.hpp"
 
 namespace clearway::cli {
 
@@ -34,8 +35,7 @@ class OptionGroup {
     std::string before_;
 };
 
-/// Largest number of replications that an option takes.
-inline constexpr std::uint32_t most_replications = 100000;
+using results::most_replications;
 
 /// Declares `--json`; `what` completes "Print ... as JSON".
 void add_json_option(CLI::App& app, Printing& printing, const std::string& what);
@@ -55,6 +55,8 @@ CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds);
 /// Declares `--run-time-limit` and `--memory-limit`: what a run may use before it is ended as failed.
 void add_limit_options(CLI::App& app, experiment::RunLimits& limits);
 
+/// Declares `--most-runs`: a study with more is refused.
+void add_most_runs_option(CLI::App& app, std::uint64_t& most_runs);
 /// Declares `--retry-failed`: runs that their input made fail are tried again, too.
 void add_retry_option(CLI::App& app, campaign::RetriedRuns& retried);
 

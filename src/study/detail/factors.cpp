@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/folder_name.hpp"
 #include "experiment/settings.hpp"
+#include "results/run_limit.hpp"
 #include "scenario/keys.hpp"
 #include "scenario/overrides.hpp"
 #include "study/detail/read_settings.hpp"
@@ -311,6 +312,16 @@ Factors read_factors(const toml::table& table, const SettingsPlace& settings, Pr
     check_replaced(factors.list, problems);
     check_design(factors, problems);
     return factors;
+}
+
+std::uint64_t count_combinations(const Factors& factors, Subject subject) {
+    std::uint64_t count = 1;
+    for (const Factor& factor : factors.list) {
+        if ((factor.group == "scenario") != (subject == Subject::scenarios)) continue;
+        count = factors.design == Design::one_at_a_time ? count + factor.values.size()
+                                                        : results::product(count, factor.values.size());
+    }
+    return count;
 }
 
 std::vector<Assignment> combinations(const Factors& factors, Subject subject) {

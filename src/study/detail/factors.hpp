@@ -56,6 +56,8 @@ enum class Subject : std::uint8_t { scenarios, conditions };
 
 /// All combinations of the design, the last factor varying fastest; one empty combination without factors.
 std::vector<Assignment> combinations(const Factors& factors, Subject subject);
+/// Their number, or the greatest number where it is greater; makes none of them.
+std::uint64_t count_combinations(const Factors& factors, Subject subject);
 
 /// The factors of an assignment that concern the condition under it: settings of a policy or predictor that
 /// it does not have change nothing.
