@@ -86,8 +86,9 @@ study::Versions installed_versions() {
     const std::string program = sister_program("clearway-run");
     const auto worker = versions_from(output_of(program, {"--version"}).value_or(""));
     if (!worker)
-        throw core::EnvironmentError(
-            fmt::format("{}: cannot be started. `clearway doctor` shows what is missing", program));
+        throw core::EnvironmentError(fmt::format(
+            "{}: cannot be started. Give the same command again; `clearway doctor` shows what is missing",
+            program));
     if (!is_of_this_build(*worker))
         throw core::EnvironmentError(
             fmt::format("{}: is of another build than this clearway: build {}, not {}. Defaults, models and "

@@ -16,6 +16,7 @@
 #include "core/build_stamp.hpp"
 #include "core/error.hpp"
 #include "core/process.hpp"
+#include "core/read_failure.hpp"
 #include "core/usage.hpp"
 
 namespace clearway::cli {
@@ -243,17 +244,21 @@ core::ExitCode complain(const std::exception& error, core::ExitCode code) {
     return code;
 }
 
+core::EnvironmentError no_output() {
+    return core::EnvironmentError(
+        "standard output cannot be written. Check where it goes and give the same command again");
+}
+
 core::ExitCode act(const Action& action, const Invocation& invocation) {
     try {
         const core::ExitCode code = action(invocation);
-        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-            throw core::EnvironmentError("standard output cannot be written");
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw no_output();
         return code;
     } catch (const std::system_error& error) {
-        if (std::ferror(stdout) != 0)
-            return complain(core::EnvironmentError("standard output cannot be written"),
-                            core::ExitCode::environment);
-        return complain(error, core::ExitCode::environment);
+        if (std::ferror(stdout) != 0) return complain(no_output(), core::ExitCode::environment);
+        return complain(
+            core::EnvironmentError(fmt::format("{}. {}", error.what(), core::cure_of(error.code().value()))),
+            core::ExitCode::environment);
     } catch (const core::Error& error) {
         return complain(error, error.exit_code());
     } catch (const std::exception& error) {

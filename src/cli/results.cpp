@@ -47,7 +47,9 @@ core::ExitCode print_results(const Arguments& arguments) {
         return core::ExitCode::ok;
     }
     results::print_table(store, arguments.table, arguments.format, std::cout);
-    if (!std::cout.flush()) throw core::EnvironmentError("standard output cannot be written");
+    if (!std::cout.flush())
+        throw core::EnvironmentError(
+            "standard output cannot be written. Check where it goes and give the same command again");
     return core::ExitCode::ok;
 }
 

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "core/files.hpp"
+#include "core/read_failure.hpp"
 
 namespace clearway::core {
 namespace {
@@ -28,10 +29,8 @@ void require_file(const std::filesystem::path& path) {
 }  // namespace
 
 EnvironmentError write_error(const std::filesystem::path& path, int reason) {
-    const bool full = reason == ENOSPC || reason == EDQUOT || reason == EFBIG;
-    return EnvironmentError(fmt::format("{}: cannot write: {}. {}", path.string(), std::strerror(reason),
-                                        full ? "Free some space there and give the same command again"
-                                             : "Choose another place, or change its permissions"));
+    return EnvironmentError(
+        fmt::format("{}: cannot write: {}. {}", path.string(), std::strerror(reason), cure_of(reason)));
 }
 
 AtomicFile::AtomicFile(std::filesystem::path file)

@@ -17,8 +17,9 @@ namespace clearway::core {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, const char* action) {
-    throw EnvironmentError(fmt::format("{}: cannot {}: {}. Choose another place, or change its permissions",
-                                       file.string(), action, std::strerror(errno)));
+    const int reason = errno;
+    throw EnvironmentError(
+        fmt::format("{}: cannot {}: {}. {}", file.string(), action, std::strerror(reason), cure_of(reason)));
 }
 
 struct Descriptor {

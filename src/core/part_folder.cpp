@@ -129,7 +129,8 @@ void copy_folder(const fs::path& source, const fs::path& target, const std::stri
     }
     part.replace();
 } catch (const fs::filesystem_error& error) {
-    throw EnvironmentError(fmt::format("{}: {}", target.string(), error.what()));
+    throw EnvironmentError(
+        fmt::format("{}: {}. {}", target.string(), error.what(), cure_of(error.code().value())));
 }
 
 }  // namespace clearway::core

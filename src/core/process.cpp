@@ -17,6 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 
 extern char** environ;
@@ -110,7 +111,7 @@ Child start(const Command& command) {
     if (!command.output.empty()) {
         output = open(command.output.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0644);
         if (output < 0) {
-            throw EnvironmentError(fmt::format("{}: {}", command.output.string(), std::strerror(errno)));
+            throw write_error(command.output, errno);
         }
     }
     std::vector<std::string> words = {command.program.string()};
@@ -126,7 +127,11 @@ Child start(const Command& command) {
                const_cast<char**>(environment.data()));
     }
     if (output >= 0) close(output);
-    if (child < 0) throw EnvironmentError(fmt::format("cannot start {}: {}", words[0], std::strerror(errno)));
+    if (child < 0) {
+        throw EnvironmentError(
+            fmt::format("cannot start {}: {}. The machine failed: give the same command again", words[0],
+                        std::strerror(errno)));
+    }
     return {child, std::chrono::steady_clock::now()};
 }
 

@@ -1,5 +1,7 @@
 #include "core/read_failure.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 
@@ -27,6 +29,30 @@ void fail_to_read(const std::filesystem::path& file, int reason) {
                             "give the same command again",
                             file.string(), std::strerror(reason)));
     }
+}
+
+const char* cure_of(int reason) {
+    switch (reason) {
+        case ENOSPC:
+        case EDQUOT:
+            return "Free some space there and give the same command again";
+        case EFBIG:
+            return "Raise the limit of `ulimit -f` and give the same command again";
+        case EIO:
+        case EMFILE:
+        case ENFILE:
+        case ENOMEM:
+        case EAGAIN:
+            return "The machine failed: give the same command again";
+        default:
+            return "Choose another place, or change its permissions";
+    }
+}
+
+bool tells_of_machine(std::string_view words) {
+    constexpr std::array<int, 5> reasons = {EIO, ENOSPC, EMFILE, ENFILE, ENOMEM};
+    return std::ranges::any_of(
+        reasons, [&](int reason) { return words.find(std::strerror(reason)) != std::string_view::npos; });
 }
 
 }  // namespace clearway::core

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <string_view>
 
 namespace clearway::core {
 
@@ -9,5 +9,11 @@ namespace clearway::core {
 /// path or other permissions help, and EnvironmentError where the machine failed: a device, too many open
 /// files, no memory. What failed by the machine may succeed later, so a run is tried again.
 [[noreturn]] void fail_to_read(const std::filesystem::path& file, int reason);
+
+/// What to do after a call on a path failed with `reason`, an `errno`: one sentence without its full stop.
+const char* cure_of(int reason);
+
+/// Whether another program says in `words` that the machine failed, not that its input is wrong.
+bool tells_of_machine(std::string_view words);
 
 }  // namespace clearway::core

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/leftovers.hpp"
@@ -42,9 +43,11 @@ void remove_left_behind(const std::filesystem::path& place, const std::string& p
         std::filesystem::remove_all(folder, ignored);
 }
 
-EnvironmentError no_folder(const std::string& where) {
+EnvironmentError no_folder(const std::string& where, int reason) {
     return EnvironmentError(
-        fmt::format("{}: cannot make a folder there. Set TMPDIR to a writable folder", where));
+        fmt::format("{}: cannot make a folder there: {}. Set TMPDIR to a writable folder, "
+                    "or give the same command again if the machine failed",
+                    where, std::strerror(reason)));
 }
 
 }  // namespace
@@ -53,23 +56,21 @@ std::filesystem::path process_folder(const std::filesystem::path& place, const s
     make_folder(place);
     remove_left_behind(place, prefix);
     std::string pattern = (place / fmt::format("{}{}-XXXXXX", prefix, ::getpid())).string();
-    if (::mkdtemp(pattern.data()) == nullptr)
-        throw EnvironmentError(
-            fmt::format("{}: cannot make a folder there: {}", place.string(), std::strerror(errno)));
+    if (::mkdtemp(pattern.data()) == nullptr) throw write_error(place, errno);
     return pattern;
 }
 
 std::filesystem::path temporary_place() {
     std::error_code error;
     std::filesystem::path place = std::filesystem::temp_directory_path(error);
-    if (error) throw no_folder("TMPDIR");
+    if (error) throw no_folder("TMPDIR", error.value());
     return place;
 }
 
 TemporaryFolder::TemporaryFolder() {
     const std::filesystem::path place = temporary_place();
     std::string pattern = (place / "clearway-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) throw no_folder(place.string());
+    if (::mkdtemp(pattern.data()) == nullptr) throw no_folder(place.string(), errno);
     path_ = pattern;
 }
 

@@ -1,8 +1,10 @@
 #include "loop/episodes.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 
 #include <fmt/format.h>
@@ -12,6 +14,7 @@
 
 #include "core/files.hpp"
 #include "core/json.hpp"
+#include "core/read_failure.hpp"
 #include "experiment/job.hpp"
 #include "loop/unit_run.hpp"
 #include "loop/watch.hpp"
@@ -115,7 +118,9 @@ bool fork_episode(UnitRun& run, const experiment::RunJob& job, const python::Cha
                   const std::filesystem::path& folder) {
     std::fflush(nullptr);
     const pid_t child = fork();
-    if (child < 0) throw core::EnvironmentError("cannot fork for an episode");
+    if (child < 0)
+        throw core::EnvironmentError(
+            fmt::format("cannot fork for an episode: {}. {}", std::strerror(errno), core::cure_of(errno)));
     if (child == 0) {
         prctl(PR_SET_PDEATHSIG, SIGKILL);
         be_episode(run, job.conditions.front(), channel, folder);

@@ -1,9 +1,11 @@
 #include "loop/worker.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <optional>
 #include <vector>
@@ -15,6 +17,7 @@
 
 #include "core/files.hpp"
 #include "core/process.hpp"
+#include "core/read_failure.hpp"
 #include "experiment/job.hpp"
 #include "loop/jobs.hpp"
 #include "loop/unit_run.hpp"
@@ -140,7 +143,9 @@ core::ExitCode fork_condition(UnitRun& run, const Unit& unit, const experiment::
     const experiment::RunKey key = key_of(unit.spec, condition);
     std::fflush(nullptr);
     const pid_t child = fork();
-    if (child < 0) throw core::EnvironmentError(fmt::format("cannot fork for {}", experiment::to_text(key)));
+    if (child < 0)
+        throw core::EnvironmentError(fmt::format("{}: cannot fork: {}. {}", experiment::to_text(key),
+                                                 std::strerror(errno), core::cure_of(errno)));
     if (child == 0) {
         ChildSignals::release();
         prctl(PR_SET_PDEATHSIG, SIGTERM);

@@ -17,6 +17,7 @@
 #include "core/leftovers.hpp"
 #include "core/number.hpp"
 #include "core/part_folder.hpp"
+#include "core/read_failure.hpp"
 #include "results/detail/record_files.hpp"
 #include "results/detail/signal_event_files.hpp"
 #include "results/detail/traffic_files.hpp"
@@ -254,6 +255,8 @@ void Store::for_each_file(const fs::path& root,
                 if (number && *number < manifest_.replications)
                     visit({scenario.name, condition.name, *number});
             }
+            if (none && none != std::errc::no_such_file_or_directory)
+                core::fail_to_read(folder, none.value());
         }
     }
 }

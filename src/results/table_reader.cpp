@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
+#include "core/read_failure.hpp"
 #include "results/detail/log_tables.hpp"
 #include "results/detail/record_files.hpp"
 #include "results/detail/sqlite.hpp"
@@ -25,11 +27,14 @@ constexpr const char* database_name = "results.sqlite";
 constexpr std::array csv_tables = {"runs.csv", "vehicles.csv", "leases.csv"};
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
-    throw core::InputError({file.string(), what, "a database that this version wrote",
-                            "Remove it; `clearway report` on the folder writes it again from its runs"});
+    throw core::InputError(
+        {file.string(), what, "a database that this version wrote",
+         "Give the same command again, in case the machine failed to read it; otherwise remove "
+         "it: `clearway report` on the folder writes it again from its runs"});
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file, int code, const std::string& reason) {
+    if (code == SQLITE_IOERR || code == SQLITE_NOMEM) core::fail_to_read(file, EIO);
     refuse(file, code == SQLITE_CANTOPEN ? "cannot be read" : reason);
 }
 

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/process.hpp"
+#include "core/read_failure.hpp"
 #include "core/units.hpp"
 #include "scenario/detail/network_sources.hpp"
 #include "scenario/network_document.hpp"
@@ -35,11 +36,17 @@ void run_netconvert(const ScenarioConfig& config, std::vector<std::string> argum
     const core::Exit exit = core::run(command);
     constexpr int not_found = 127;
     if (exit.code == not_found)
-        throw core::EnvironmentError("netconvert does not start. Install the package sumo");
-    if (!exit.ok())
-        throw core::InputError(detail::refusal(
-            config, exit.describe(),
-            detail::complaint_in(command.output, folder, resolve(config, config.network.file).string())));
+        throw core::EnvironmentError(
+            "netconvert does not start. Install the package sumo, or give the same command again if the "
+            "machine failed");
+    if (exit.ok()) return require_whole(*(std::ranges::find(command.arguments, "--output-file") + 1));
+    const std::string complaint =
+        detail::complaint_in(command.output, folder, resolve(config, config.network.file).string());
+    if (core::tells_of_machine(complaint))
+        throw core::EnvironmentError(
+            fmt::format("netconvert fails ({}):\n{}\nThe machine failed: give the same command again",
+                        exit.describe(), complaint));
+    throw core::InputError(detail::refusal(config, exit.describe(), complaint));
 }
 
 std::vector<std::string> plain_arguments(const ScenarioConfig& config) {

@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/process.hpp"
+#include "core/read_failure.hpp"
 #include "scenario/detail/xml_text.hpp"
 
 namespace clearway::scenario {
@@ -181,6 +183,14 @@ bool NetworkDocument::replace_programs(const std::string& id, const std::string&
 
 std::string NetworkDocument::text() const {
     return detail::document_text(document_);
+}
+
+void require_whole(const std::filesystem::path& file) {
+    if (core::tail(file, 1).find("</net>") == std::string::npos)
+        throw core::EnvironmentError(fmt::format(
+            "{}: netconvert wrote only a part of it; the disk may be full. Free some space there and "
+            "give the same command again",
+            file.string()));
 }
 
 }  // namespace clearway::scenario

@@ -55,4 +55,8 @@ class NetworkDocument {
     int repaired_lists_ = 0;
 };
 
+/// Throws core::EnvironmentError unless `file` ends as a network does. Netconvert says nothing when it could
+/// not write all of it.
+void require_whole(const std::filesystem::path& file);
+
 }  // namespace clearway::scenario

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/folder_name.hpp"
 #include "core/part_folder.hpp"
+#include "core/read_failure.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/settings.hpp"
 #include "scenario/network.hpp"
@@ -97,7 +98,8 @@ void prepare_scenario(const scenario::ScenarioConfig& config, const fs::path& ta
     scenario::build_network(config, part.path() / network_name);
     part.replace();
 } catch (const fs::filesystem_error& error) {
-    throw core::EnvironmentError(fmt::format("{}: {}", target.string(), error.what()));
+    throw core::EnvironmentError(
+        fmt::format("{}: {}. {}", target.string(), error.what(), core::cure_of(error.code().value())));
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ TEST(TemporaryFolderTest, SaysWhatToDoWhereNoneCanBeMade) {
         message = error.what();
     }
     before == nullptr ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", kept.c_str(), 1);
-    EXPECT_THAT(message, HasSubstr("/proc: cannot make a folder there. Set TMPDIR"));
+    EXPECT_THAT(message, AllOf(HasSubstr("/proc: cannot make a folder there: "), HasSubstr(". Set TMPDIR")));
 }
 
 /// A process that has ended, and that nobody has begun anew.

@@ -18,9 +18,10 @@ namespace clearway::results::detail {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, int code, const std::string& reason) {
-    throw core::EnvironmentError(
-        fmt::format("{}: {}{}", file.string(), reason,
-                    code == SQLITE_FULL ? ". Free some space there and give the same command again" : ""));
+    throw core::EnvironmentError(fmt::format("{}: {}{}", file.string(), reason,
+                                             code == SQLITE_FULL
+                                                 ? ". Free some space there and give the same command again"
+                                                 : ". The machine failed: give the same command again"));
 }
 
 /// Inserts row after row; values fill the columns from left to right.

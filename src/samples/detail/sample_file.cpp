@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/read_failure.hpp"
 
 namespace clearway::samples::detail {
 namespace {
@@ -138,9 +139,9 @@ std::vector<std::filesystem::path> find_files(const std::filesystem::path& folde
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
         if (entry.path().filename().string().ends_with(ending)) files.push_back(entry.path());
     }
-    if (error || files.empty()) {
-        throw core::InputError({folder.string(),
-                                error ? error.message() : fmt::format("holds no file of {}", what),
+    if (error) core::fail_to_read(folder, error.value());
+    if (files.empty()) {
+        throw core::InputError({folder.string(), fmt::format("holds no file of {}", what),
                                 fmt::format("a folder with *{} files", ending), std::string(cure)});
     }
     std::ranges::sort(files);

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/process.hpp"
+#include "core/read_failure.hpp"
 
 namespace clearway::scenario_import::detail {
 
@@ -52,8 +53,9 @@ bool succeeds(const Tool& tool, const OnProgress& on_progress) {
     guard.running = false;
     constexpr int not_found = 127;
     if (exit->code == not_found)
-        throw core::EnvironmentError(
-            fmt::format("{} does not start. Install the package {}", tool.program, tool.package));
+        throw core::EnvironmentError(fmt::format(
+            "{} does not start. Install the package {}, or give the same command again if the machine failed",
+            tool.program, tool.package));
     return exit->ok();
 }
 
@@ -67,7 +69,11 @@ std::string complaint(const std::filesystem::path& log) {
         errors += (errors.empty() ? "" : "\n") + line;
         ++count;
     }
-    return errors.empty() ? core::tail(log, shown) : errors;
+    if (errors.empty()) errors = core::tail(log, shown);
+    if (core::tells_of_machine(errors))
+        throw core::EnvironmentError(fmt::format("{}:\n{}\nThe machine failed: give the same command again",
+                                                 log.filename().string(), errors));
+    return errors;
 }
 
 }  // namespace clearway::scenario_import::detail

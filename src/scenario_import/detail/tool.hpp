@@ -25,7 +25,8 @@ struct Tool {
 /// be started.
 bool succeeds(const Tool& tool, const OnProgress& on_progress);
 
-/// The lines of a log that name errors, or its last lines.
+/// The lines of a failed tool's log that name errors, or its last lines. Throws core::EnvironmentError when
+/// they say that the machine failed.
 std::string complaint(const std::filesystem::path& log);
 
 }  // namespace clearway::scenario_import::detail

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "scenario/network_document.hpp"
 #include "scenario_import/detail/packed_file.hpp"
 #include "scenario_import/detail/source.hpp"
 #include "scenario_import/detail/tool.hpp"
@@ -230,7 +231,10 @@ std::filesystem::path build_roads(const std::filesystem::path& map, const std::f
     if (plan.footways == Footways::build)
         arguments.insert(arguments.end(), {"--osm.sidewalks", "--sidewalks.guess", "--crossings.guess"});
     const Tool tool{"netconvert", std::move(arguments), log, "building the network", "sumo"};
-    if (succeeds(tool, on_progress)) return network;
+    if (succeeds(tool, on_progress)) {
+        scenario::require_whole(network);
+        return network;
+    }
     const std::string reason = complaint(log);
     if (reason.find("No edges loaded") != std::string::npos)
         refuse_map(map, "has no road for cars", "choose an extract with roads for cars");
