@@ -1,4 +1,5 @@
 // Writes a page of made-up results with names that try to break out of it: report_sample_page FILE FOLDER.
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
@@ -22,6 +23,7 @@ int main(int argument_count, char** arguments) {
     std::ofstream page(arguments[1]);
     write_html(study, page);
     page.close();
+    std::filesystem::remove_all(arguments[2]);
     write_figures(study, arguments[2]);
     return page ? 0 : 1;
 }
