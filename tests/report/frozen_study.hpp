@@ -46,7 +46,7 @@ class FrozenStudy {
   private:
     static results::Manifest manifest() {
         results::Manifest manifest;
-        manifest.study = "frozen <script>";
+        manifest.study = "frozen";
         manifest.clearway_version = "0.1.0";
         manifest.clearway_build = "0123456789abcdef";
         manifest.sumo_version = "1.15.0";

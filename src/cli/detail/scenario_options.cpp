@@ -9,6 +9,7 @@
 
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
+#include "core/number.hpp"
 #include "scenario/overrides.hpp"
 
 namespace clearway::cli {
@@ -36,6 +37,11 @@ void add_override(CLI::App& app, const scenario::Override& override, scenario::O
     CLI::Option* const option = app.add_option_function<std::string>(override.option, set, value.doc)
                                     ->option_text(value_text(override));
     if (!value.words.empty()) option->check(CLI::IsMember(value.words));
+    if (!override.is_number()) return;
+    option->check([&value](const std::string& text) {
+        if (core::number_from(text)) return std::string();
+        return fmt::format("\"{}\" is not a number (allowed: {})", text, core::range_text(value));
+    });
 }
 
 }  // namespace
