@@ -51,13 +51,6 @@ TEST(TableFiles, AreEscapedForLatex) {
     EXPECT_THAT(to_latex(table), HasSubstr("{l l}"));
 }
 
-TEST(TableFiles, ScaleWideTablesToThePage) {
-    Table table{"t", "c", {std::vector<std::string>(8, "a"), {std::vector<std::string>(8, "1")}}};
-    EXPECT_THAT(to_latex(table), AllOf(HasSubstr("% needs \\usepackage{booktabs,siunitx,graphicx}\n"),
-                                       HasSubstr("\\resizebox{\\linewidth}{!}{%\n\\begin{tabular}"),
-                                       HasSubstr("\\end{tabular}}\n\\end{table}\n")));
-}
-
 TEST(TableFiles, SetNumbersAndIntervalsInColumnsOfSiunitx) {
     const Table table{"t",
                       "c",

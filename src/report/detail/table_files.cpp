@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::string_view minus = "\u2212";
 constexpr std::string_view dash = "\u2013";
-constexpr std::size_t columns_of_a_page = 7;  ///< More are scaled to the width of the text.
 
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
     for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
@@ -220,18 +219,16 @@ std::string to_latex(const Table& table) {
         const bool words = column == 0 || data.cells == DataTable::Cells::words;
         types += (column == 0 ? "" : " ") + columns[column].type(words ? "l" : "r");
     }
-    const bool wide = columns.size() > columns_of_a_page;
     std::string text = fmt::format(
-        "% needs \\usepackage{{booktabs,siunitx{}}}\n\\begin{{table}}\n\\centering\n\\caption{{{}}}\n"
-        "\\label{{tab:{}}}\n{}\\begin{{tabular}}{{{}}}\n\\toprule\n{}\\midrule\n",
-        wide ? ",graphicx" : "", latex_escaped(table.caption), table.name,
-        wide ? "\\resizebox{\\linewidth}{!}{%\n" : "", types,
+        "% needs \\usepackage{{booktabs,siunitx}}\n\\begin{{table}}\n\\centering\n\\caption{{{}}}\n"
+        "\\label{{tab:{}}}\n\\begin{{tabular}}{{{}}}\n\\toprule\n{}\\midrule\n",
+        latex_escaped(table.caption), table.name, types,
         latex_line(data.head,
                    [&](std::size_t at, const std::string& cell) { return columns[at].head(cell); }));
     for (const auto& row : data.rows)
         text +=
             latex_line(row, [&](std::size_t at, const std::string& cell) { return columns[at].body(cell); });
-    return text + "\\bottomrule\n\\end{tabular}" + (wide ? "}" : "") + "\n\\end{table}\n";
+    return text + "\\bottomrule\n\\end{tabular}\n\\end{table}\n";
 }
 
 }  // namespace clearway::report::detail
