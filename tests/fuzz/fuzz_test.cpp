@@ -75,7 +75,7 @@ TEST_P(EveryReader, ReturnsOrRefuses) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Readers, EveryReader, testing::ValuesIn(readers()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& reader) { return reader.param.name; });
 
 }  // namespace
 }  // namespace clearway::fuzz
