@@ -1,5 +1,6 @@
 // What is wrong in the user's files, and what the machine refuses.
 
+#include "core/files.hpp"
 #include "user.hpp"
 
 namespace clearway::cli {
