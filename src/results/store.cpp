@@ -120,8 +120,8 @@ void move_into(const fs::path& folder, const fs::path& source) {
 
 }  // namespace
 
-Store::Store(fs::path folder, Manifest manifest)
-    : folder_(std::move(folder)), manifest_(std::move(manifest)) {}
+Store::Store(const fs::path& folder, Manifest manifest)
+    : folder_(folder.has_filename() ? folder : folder.parent_path()), manifest_(std::move(manifest)) {}
 
 Store Store::create(const fs::path& folder, const Manifest& manifest) {
     core::make_folder(folder);
@@ -137,8 +137,9 @@ Store Store::create(const fs::path& folder, const Manifest& manifest) {
         throw core::InputError({folder.string(), "is not empty and not a run folder", "a new or empty folder",
                                 "Choose another folder with --out"});
     core::write_output(file, to_json(manifest));
-    core::flush_folder(fs::absolute(folder).lexically_normal().parent_path());
-    return {folder, manifest};
+    Store store(folder, manifest);
+    core::flush_folder(fs::absolute(store.folder()).lexically_normal().parent_path());
+    return store;
 }
 
 Store Store::open(const fs::path& folder) {
@@ -196,12 +197,12 @@ Store::Written Store::adopt(const Store& other, const experiment::RunKey& key) c
     other.check(key);
     const fs::path source = other.run_folder(key);
     const fs::path target = run_folder(key);
-    const bool first = !complete(key);
-    if (first) {
+    bool first = false;
+    if (!complete(key)) {
         core::PartFolder part(target);
         for (const auto& entry : fs::directory_iterator(source))
             core::copy_file(entry.path(), part.path() / entry.path().filename(), core::Copying::links);
-        part.put_in_place();
+        first = part.put_in_place();
     }
     for (const char* const name : {"run.json", "vehicles.csv"}) {
         if (first || core::read_file(source / name) == core::read_file(target / name)) continue;
@@ -266,9 +267,11 @@ void Store::flush(const std::vector<experiment::RunKey>& keys) const {
     for (const experiment::RunKey& key : keys) {
         if (!complete(key)) continue;
         core::flush_folder(run_folder(key));
-        for (const fs::path& entry : {run_folder(key), trace::recording_file(folder_, key)})
-            for (fs::path folder = entry.parent_path(); folder != folder_; folder = folder.parent_path())
-                folders.insert(folder);
+        for (const fs::path& entry : {run_folder(key), trace::recording_file(folder_, key)}) {
+            fs::path folder = folder_;
+            for (const fs::path& part : entry.lexically_relative(folder_).parent_path())
+                folders.insert(folder /= part);
+        }
     }
     for (const fs::path& folder : folders)
         if (fs::exists(folder)) core::flush_folder(folder);

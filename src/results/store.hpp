@@ -103,7 +103,8 @@ class Store {
     void remove_leftovers() const;
 
   private:
-    Store(std::filesystem::path folder, Manifest manifest);
+    /// A slash at the end of `folder` does not count.
+    Store(const std::filesystem::path& folder, Manifest manifest);
     std::filesystem::path error_file(const experiment::RunKey& key) const;
     /// Visits the runs that have an entry in `root` (runs or errors).
     void for_each_file(const std::filesystem::path& root,

@@ -53,6 +53,18 @@ TEST_F(RunTest, what_is_set_stands_in_manifest_record_and_report) {
     EXPECT_THAT(read("out/report.html"), HasSubstr("actuation.hold_cap_s=30 clear_lane.horizon_m=300"));
 }
 
+TEST_F(RunTest, folders_may_be_named_with_a_slash_at_their_end) {
+    const Ended ended =
+        clearway({"run", "line", "--seeds", "1", "--no-solo", "--policy", "corridor", "--out", "out/"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_EQ(complete_runs("out"), 2U);
+    const Ended merged = clearway({"study", "merge", "out/", "--out", "all/"});
+    ASSERT_EQ(merged.code, 0) << merged.err;
+    EXPECT_EQ(complete_runs("all"), 2U);
+    EXPECT_EQ(clearway({"report", "all/"}).code, 0);
+    EXPECT_EQ(clearway({"export", "figures", "all/", "--out", "figures/", "--svg-only"}).code, 0);
+}
+
 TEST_F(RunTest, settings_change_the_usual_condition_or_the_one_that_is_named) {
     const auto conditions = [&](const std::vector<std::string>& words, const std::string& folder) {
         std::vector<std::string> all = {"run", "line", "--seeds", "1", "--no-solo", "--out", folder};

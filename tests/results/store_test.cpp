@@ -68,6 +68,14 @@ TEST_F(StoreOfAStudy, KeepsWhereTimeWasLostAndReadsJourneysEdgeTimesAndHoldsOnly
     EXPECT_EQ(store_.read(treated), run);
 }
 
+TEST_F(StoreOfAStudy, MayBeNamedWithASlashAtItsEnd) {
+    const Store named = Store::open(store_.folder() / "");
+    EXPECT_EQ(named.folder(), store_.folder());
+    named.write(record(treated), {});
+    named.flush({treated});
+    EXPECT_TRUE(store_.complete(treated));
+}
+
 TEST_F(StoreOfAStudy, ReadsEmergencyVehiclesAloneWhereThatIsEnough) {
     store_.write(record(treated), {});
     const RunRecord run = store_.read(treated, VehicleRows::emergency).value();
