@@ -6,21 +6,16 @@
 #include "core/strict_table.hpp"
 #include "core/xml_stream.hpp"
 #include "support/message_of.hpp"
+#include "support/repeated.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::core {
 namespace {
 
 using support::message_of;
+using support::repeated;
 using testing::AllOf;
 using testing::HasSubstr;
-
-std::string repeated(const std::string& text, std::size_t count) {
-    std::string all;
-    for (std::size_t row = 0; row < count; ++row)
-        all += text;
-    return all;
-}
 
 /// Counts elements.
 struct Counter : XmlHandler {

@@ -1,8 +1,7 @@
-// The parts that make vehicles give way: vacate_lane, pull_aside, hold_cross, rescue_lane, pull_over,
-// geocast. give_way has a file of its own.
+// The parts that ask vehicles on a straight road or across it to give way: vacate_lane, pull_aside,
+// hold_cross, rescue_lane. geocast, give_way and pull_over have files of their own.
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 #include <string>
 
@@ -10,14 +9,11 @@
 
 #include "policy/conformance.hpp"
 #include "policy/detail/lane_plan.hpp"
-#include "policy/geocast.hpp"
 #include "policy/hold_cross.hpp"
 #include "policy/pull_aside.hpp"
-#include "policy/pull_over.hpp"
 #include "policy/rescue_lane.hpp"
 #include "policy/straight_road.hpp"
 #include "policy/vacate_lane.hpp"
-#include "support/temporary_folder.hpp"
 
 namespace clearway::testing {
 namespace {
@@ -331,223 +327,6 @@ TEST(HoldCross, stops_cross_traffic_that_has_green_and_only_shortly_before_the_a
     EXPECT_EQ(asked('G', 450.0F), std::vector{near}) << far.value << " is too far from its line";
     EXPECT_TRUE(asked('r', 450.0F).empty()) << "they stand anyway";
     EXPECT_TRUE(asked('G', 300.0F).empty()) << "16 s before the arrival";
-}
-
-/// What a geocast asks of vehicles of this class on the road that the drawing shows, by id.
-class Broadcast {
-  public:
-    explicit Broadcast(std::string_view drawing) : scene(drawing) {}
-
-    void send(policy::GeocastConfig config = {}, double at_s = 100.0) {
-        traffic::BelievedGraph belief;  // Of others, nothing is known.
-        belief.roster = &scene.roster();
-        belief.time = core::Seconds(at_s);
-        const core::VehicleIndex row = scene.row("e1");
-        belief.own_states = {
-            {scene.key("e1"), traffic::VehicleClass::emergency, scene.snapshot().motion(row), 0.0F, 0.0F}};
-        belief.first_link = {0};
-        policy::Geocast policy({scene.network()}, config);
-        leases.clear();
-        policy.act(belief, leases);
-    }
-    /// Vehicles that an action of this kind is asked of.
-    template <class Action>
-    std::set<std::string> asked() const {
-        std::set<std::string> ids;
-        for (const traffic::Lease& lease : leases) {
-            if (!std::holds_alternative<Action>(lease.action)) continue;
-            if (const auto* const key = std::get_if<core::VehicleKey>(&lease.target))
-                ids.insert(scene.id(*key));
-            const auto* const stretch = std::get_if<traffic::Stretch>(&lease.target);
-            if (stretch == nullptr) continue;
-            for (core::VehicleIndex row = 0; row < scene.snapshot().size(); ++row) {
-                if (stretch->has(scene.snapshot().vehicle_class[row], scene.snapshot().motion(row)))
-                    ids.insert(scene.id(scene.snapshot().key[row]));
-            }
-        }
-        return ids;
-    }
-
-    support::Scene scene;
-    std::vector<traffic::Lease> leases;
-};
-
-using Ids = std::set<std::string>;
-
-constexpr const char* three_lanes = R"(
-    10 m per cell, limit 20 m/s, speed 15 m/s
-    ..a.....a....h.......................a..
-    a....e......a...........................
-    .........a..............................
-)";
-
-TEST(Geocast, clears_the_left_lane_without_knowing_of_anybody) {
-    Broadcast road(three_lanes);
-    road.send();
-    EXPECT_EQ(road.asked<traffic::ChangeLane>(), (Ids{"a2", "e1"}))
-        << "a1 is behind, a3 is 320 m ahead, h1 is not asked";
-    EXPECT_EQ(road.asked<traffic::HoldLane>(), Ids{"a5"}) << "beside the lane; a6 is farther off";
-    EXPECT_EQ(road.asked<traffic::PullAside>(), Ids{}) << "they drive";
-    for (const traffic::Lease& lease : road.leases) {
-        if (std::holds_alternative<traffic::Stretch>(lease.target)) {
-            EXPECT_DOUBLE_EQ(lease.expiry.value, 110.0);
-        }
-    }
-}
-
-TEST(Geocast, asks_slow_vehicles_near_by_to_pull_aside) {
-    Broadcast road(three_lanes);
-    for (const char* id : {"a2", "a3", "a5"})
-        road.scene.set_speed(id, core::MetresPerSecond(2.0));
-    policy::GeocastConfig config;
-    config.reach_m = 1000.0;
-    road.send(config);
-    EXPECT_EQ(road.asked<traffic::PullAside>(), Ids{"a2"}) << "a3 is too far, a5 not on the lane";
-    EXPECT_TRUE(road.asked<traffic::ChangeLane>().contains("a3"));
-    config.aside_m = 0.0;
-    road.send(config);
-    EXPECT_EQ(road.asked<traffic::PullAside>(), Ids{});
-}
-
-TEST(Geocast, clears_the_lane_that_it_is_told_to) {
-    Broadcast road(three_lanes);
-    policy::GeocastConfig config;
-    config.lane = policy::ClearedLane::own;
-    road.send(config);
-    EXPECT_EQ(road.asked<traffic::ChangeLane>(), Ids{"a5"});
-    EXPECT_EQ(road.asked<traffic::HoldLane>(), (Ids{"a2", "a6"})) << "both lanes beside";
-    config.lane = policy::ClearedLane::right;
-    road.send(config);
-    EXPECT_EQ(road.asked<traffic::ChangeLane>(), (Ids{"a6", "e1"}));
-}
-
-TEST(Geocast, asks_human_drivers_where_it_is_told_to) {
-    Broadcast road(three_lanes);
-    policy::GeocastConfig config;
-    config.ask_humans = 1;
-    road.send(config);
-    EXPECT_EQ(road.asked<traffic::ChangeLane>(), (Ids{"a2", "e1", "h1"}));
-}
-
-TEST(Geocast, sends_at_its_interval) {
-    Broadcast road(three_lanes);
-    policy::GeocastConfig config;
-    config.interval_s = 2.0;
-    int messages = 0;
-    for (int decision = 0; decision < 40; ++decision) {
-        road.send(config, 100.0 + 0.5 * decision);
-        messages += road.asked<traffic::HoldLane>().empty() ? 0 : 1;
-        EXPECT_TRUE(road.asked<traffic::ChangeLane>().contains("e1")) << "its own way needs no message";
-    }
-    EXPECT_EQ(messages, 10);
-}
-
-/// One lane and a shoulder each way, 1 km; eastward is the first edge.
-roads::Network rural_road(const support::TemporaryFolder& folder) {
-    const auto edge = [](const char* id, const char* from, const char* to, int y, int right_y) {
-        const bool east = id[0] == 'e';
-        const std::string x0 = east ? "0" : "1000";
-        const std::string x1 = east ? "1000" : "0";
-        const auto lane = [&](int number, int at, const char* more) {
-            return "<lane id=\"" + std::string(id) + "_" + std::to_string(number) + "\" index=\"" +
-                   std::to_string(number) + "\" speed=\"27.78\" length=\"1000\" width=\"3\" shape=\"" + x0 +
-                   "," + std::to_string(at) + " " + x1 + "," + std::to_string(at) + "\"" + more + "/>";
-        };
-        return "<edge id=\"" + std::string(id) + "\" from=\"" + from + "\" to=\"" + to +
-               "\" priority=\"1\">" + lane(0, right_y, " disallow=\"all\"") + lane(1, y, "") + "</edge>";
-    };
-    const std::filesystem::path file = folder.path() / "rural.net.xml";
-    std::ofstream(file)
-        << "<net version=\"1.9\"><location netOffset=\"0,0\" convBoundary=\"0,0,1000,10\" "
-           "origBoundary=\"0,0,1000,10\" projParameter=\"!\"/>"
-        << edge("east", "w", "e", -2, -5) << edge("west", "e", "w", 2, 5)
-        << "<junction id=\"w\" type=\"dead_end\" x=\"0\" y=\"0\" incLanes=\"\" intLanes=\"\" "
-           "shape=\"0,0\"/><junction id=\"e\" type=\"dead_end\" x=\"1000\" y=\"0\" incLanes=\"\" "
-           "intLanes=\"\" shape=\"0,0\"/></net>";
-    return roads::Network::read(file);
-}
-
-class RuralRoad {
-  public:
-    RuralRoad() : network_(rural_road(folder_)) { belief_.roster = &roster_; }
-
-    core::VehicleKey add(const char* id, traffic::VehicleClass vehicle_class, const char* edge,
-                         float position_m, float speed_mps) {
-        const core::EdgeIndex on = network_.find_edge(edge).value();
-        traffic::VehicleInfo info;
-        info.key = core::vehicle_key(id);
-        info.id = id;
-        info.vehicle_class = vehicle_class;
-        info.route = roster_.add_route({on});
-        roster_.add(info);
-        traffic::BelievedVehicle vehicle;
-        vehicle.key = info.key;
-        vehicle.vehicle_class = vehicle_class;
-        vehicle.state.lane = network_.lane_of(on, 1);
-        vehicle.state.lane_position_m = position_m;
-        vehicle.state.speed_mps = speed_mps;
-        const roads::Point place = network_.point_at(vehicle.state.lane, core::Metres(position_m));
-        vehicle.state.x_m = place.x_m;
-        vehicle.state.y_m = place.y_m;
-        vehicle.state.heading_rad =
-            static_cast<float>(network_.heading_at(vehicle.state.lane, core::Metres(position_m)));
-        belief_.vehicles.push_back(vehicle);
-        std::ranges::sort(belief_.vehicles, {}, &traffic::BelievedVehicle::key);
-        belief_.first_link.assign(belief_.vehicles.size() + 1, 0);
-        return info.key;
-    }
-    std::set<core::VehicleKey> pulled_over(policy::PullOverConfig config = {}) {
-        policy::PullOver policy({network_}, config);
-        std::vector<traffic::Lease> leases;
-        policy.act(belief_, leases);
-        std::set<core::VehicleKey> keys;
-        for (const traffic::Lease& lease : leases) {
-            EXPECT_TRUE(std::holds_alternative<traffic::PullAside>(lease.action));
-            keys.insert(std::get<core::VehicleKey>(lease.target));
-        }
-        return keys;
-    }
-
-  private:
-    support::TemporaryFolder folder_;
-    roads::Network network_;
-    traffic::Roster roster_;
-    traffic::BelievedGraph belief_;
-};
-
-TEST(PullOver, asks_slower_vehicles_ahead_and_leaves_the_others) {
-    RuralRoad road;
-    road.add("e", traffic::VehicleClass::emergency, "east", 100.0F, 27.0F);
-    const auto slow = road.add("slow", traffic::VehicleClass::automated, "east", 250.0F, 19.0F);
-    road.add("fast", traffic::VehicleClass::automated, "east", 300.0F, 27.7F);
-    road.add("behind", traffic::VehicleClass::automated, "east", 50.0F, 19.0F);
-    road.add("far", traffic::VehicleClass::automated, "east", 600.0F, 19.0F);
-    road.add("oncoming", traffic::VehicleClass::automated, "west", 700.0F, 19.0F);
-    EXPECT_EQ(road.pulled_over(), std::set{slow}) << "everybody in the way is asked: no need to overtake";
-}
-
-TEST(PullOver, frees_the_oncoming_lane_where_somebody_will_not_make_room) {
-    RuralRoad road;
-    road.add("e", traffic::VehicleClass::emergency, "east", 100.0F, 27.0F);
-    road.add("human", traffic::VehicleClass::human, "east", 250.0F, 19.0F);
-    const auto oncoming = road.add("oncoming", traffic::VehicleClass::automated, "west", 500.0F, 25.0F);
-    road.add("passed", traffic::VehicleClass::automated, "west", 950.0F, 25.0F);
-    EXPECT_EQ(road.pulled_over(), std::set{oncoming});
-    policy::PullOverConfig config;
-    config.oncoming_m = 0.0;
-    EXPECT_TRUE(road.pulled_over(config).empty());
-    config.ask_humans = 1;
-    EXPECT_EQ(road.pulled_over(config).size(), 1U) << "now the human driver is asked instead";
-}
-
-TEST(PullOver, asks_nobody_where_there_is_no_shoulder) {
-    StraightRoad road(R"(
-        10 m per cell, limit 20 m/s, speed 15 m/s
-        ......e.....a...................................................
-    )");
-    road.stop({"a1"});
-    policy::PullOver policy({road.scene.network()});
-    EXPECT_TRUE(road.act(policy).empty());
 }
 
 }  // namespace

@@ -3,19 +3,14 @@
 #include <zlib.h>
 
 #include "sumo_line.hpp"
+#include "support/repeated.hpp"
 
 namespace clearway::scenario_import {
 namespace {
 
+using support::repeated;
 using testing::AllOf;
 using testing::HasSubstr;
-
-std::string repeated(const std::string& text, std::size_t count) {
-    std::string all;
-    for (std::size_t row = 0; row < count; ++row)
-        all += text;
-    return all;
-}
 
 class BadSumoFiles : public SumoScenario {
   protected:

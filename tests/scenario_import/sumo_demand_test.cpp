@@ -1,7 +1,7 @@
 // Demand of SUMO's route and additional files: what plain SUMO would insert is what an import takes over.
-#include <gmock/gmock.h>
+#include "sumo_demand.hpp"
 
-#include "sumo_line.hpp"
+#include <gmock/gmock.h>
 
 namespace clearway::scenario_import {
 namespace {
@@ -10,35 +10,6 @@ using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
-
-class SumoDemand : public SumoScenario {
-  protected:
-    std::string traffic_file() const { return core::read_file(out() / "town" / "traffic.rou.xml"); }
-    std::string types_file() const { return core::read_file(out() / "town" / "types.add.xml"); }
-    std::string additional_file() const { return core::read_file(out() / "town" / "additional.add.xml"); }
-    std::size_t vehicles() const { return count(traffic_file(), "<vehicle "); }
-
-    static std::size_t count(const std::string& text, const std::string& part) {
-        std::size_t number = 0;
-        for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-            ++number;
-        return number;
-    }
-    /// A configuration over the straight road with `routes`, and its further elements.
-    ImportRequest configured(const std::string& routes, const std::string& options,
-                             const std::string& additional = "") const {
-        line_network();
-        write("line.rou.xml", "<routes>" + routes + "</routes>");
-        write("line.add.xml", "<additional>\n" + additional + "</additional>");
-        return request({write("run.sumocfg",
-                              "<configuration><net-file value='line.net.xml'/><route-files "
-                              "value='line.rou.xml'/><additional-files value='line.add.xml'/>" +
-                                  options + "</configuration>")});
-    }
-    static std::string flow(const std::string& attributes, const std::string& content = "") {
-        return "<flow id='f' " + attributes + "><route edges='first second'/>" + content + "</flow>";
-    }
-};
 
 TEST_F(SumoDemand, included_files_stand_where_they_are_included_from_their_own_folder) {
     write("parts/inner.rou.xml", "<routes>" + car("inner", 3) + "<include href='more/deep.xml'/></routes>");
@@ -279,15 +250,6 @@ TEST_F(SumoDemand, vehicles_of_a_newer_class_on_lanes_of_that_class_are_left_out
     EXPECT_EQ(vehicles(), 9U);
 }
 
-TEST_F(SumoDemand, a_configuration_may_hold_its_values_as_text) {
-    line_network();
-    write("line.rou.xml", "<routes>" + cars(9) + "</routes>");
-    run(request({write("run.sumocfg",
-                       "<configuration>\n<net-file> line.net.xml </net-file><route-files>line.rou.xml"
-                       "</route-files>\n<end>10</end></configuration>")}));
-    EXPECT_EQ(vehicles(), 5U);
-}
-
 TEST_F(SumoDemand, fast_departures_stay_as_fast_as_their_drivers_may_be) {
     const auto nodes = write("fast.nod.xml", line_nodes());
     const auto edges = write("fast.edg.xml",
@@ -303,48 +265,6 @@ TEST_F(SumoDemand, fast_departures_stay_as_fast_as_their_drivers_may_be) {
     EXPECT_GT(prepared().automated, 5);
     EXPECT_THAT(types(), HasSubstr("maxSpeed=\"60.00\""));
     EXPECT_THAT(traffic(), AllOf(HasSubstr("departSpeed=\"58\""), HasSubstr("departSpeed=\"max\"")));
-}
-
-TEST_F(SumoDemand, options_of_actuated_signals_and_rerouting_reach_every_run) {
-    run(configured(cars(9),
-                   "<tls.actuated.jam-threshold value='30'/><device.rerouting.adaptation-steps "
-                   "value='18'/><weights.random-factor value='1.5'/>"));
-    EXPECT_THAT(scenario::load((out() / "town").string()).measured->options,
-                testing::ElementsAre("tls.actuated.jam-threshold=30", "device.rerouting.adaptation-steps=18",
-                                     "weights.random-factor=1.5"));
-    EXPECT_THAT(prepared().options, testing::SizeIs(3));
-}
-
-TEST_F(SumoDemand, all_options_that_shape_traffic_are_named) {
-    const Findings findings =
-        run(configured(cars(9),
-                       "<max-depart-delay value='5'/><time-to-teleport value='60'/><lateral-resolution "
-                       "value='1'/><step-length value='0.5'/><time-to-teleport.highways value='0'/><mesosim "
-                       "value='off'/><delay value='9'/>"
-                       "<tripinfo-output value='x'/>"));
-    EXPECT_THAT(findings.left_out,
-                Contains("2 options of the configuration that are not taken over (max-depart-delay = 5, "
-                         "time-to-teleport.highways = 0)"));
-    EXPECT_THAT(findings.changes, Contains(AllOf(HasSubstr("share lanes (lateral-resolution 1 m)"),
-                                                 HasSubstr("--traffic-model sublane"))));
-    const scenario::ScenarioConfig config = scenario::load((out() / "town").string());
-    EXPECT_EQ(config.time.time_to_teleport_s, 60.0);
-    EXPECT_EQ(config.time.step_length_s, 0.25);
-    EXPECT_EQ(config.time.ignore_junction_blocker_s, scenario::usual_ignore_junction_blocker_s);
-    EXPECT_THAT(findings.changes,
-                Contains(AllOf(HasSubstr("steps of 0.25 s instead of 0.5 s; mean time loss"),
-                               HasSubstr(" s at 0.5 s, "), HasSubstr(" s at 0.25 s; --step-length 0.5"))));
-}
-
-TEST_F(SumoDemand, fine_steps_and_no_teleports_are_taken_over) {
-    const Findings findings = run(configured(cars(9),
-                                             "<step-length value='0.1'/><time-to-teleport value='-1'/>"
-                                             "<ignore-junction-blocker value='3'/>"));
-    const scenario::ScenarioConfig config = scenario::load((out() / "town").string());
-    EXPECT_EQ(config.time.step_length_s, 0.1);
-    EXPECT_EQ(config.time.time_to_teleport_s, -1.0);
-    EXPECT_EQ(config.time.ignore_junction_blocker_s, 3.0);
-    EXPECT_THAT(findings.changes, Not(Contains(HasSubstr("steps of"))));
 }
 
 TEST_F(SumoDemand, trips_that_sumo_cannot_route_at_departure_are_named) {
@@ -415,15 +335,6 @@ TEST_F(SumoDemand, edges_closed_to_a_class_and_unknown_stops_are_faults_of_a_veh
     ImportRequest lenient = with(trucks);
     lenient.bad_vehicles = BadVehicles::leave_out;
     EXPECT_EQ(run(lenient).vehicles.count("truck"), 0U);
-}
-
-TEST_F(SumoDemand, booleans_of_a_configuration_are_read_as_sumo_reads_them) {
-    const std::string bad = cars(3) + car("jumper", 5, "first side");
-    for (const char* const no : {"off", "no", "False", "0", "f"})
-        EXPECT_THAT(refusal(configured(bad, fmt::format("<ignore-route-errors value='{}'/>", no))),
-                    HasSubstr("jumper"));
-    run(configured(bad, "<ignore-route-errors value='On'/>"));
-    EXPECT_EQ(vehicles(), 3U);
 }
 
 TEST_F(SumoDemand, members_of_a_distribution_count_as_their_types_say) {
@@ -502,13 +413,6 @@ TEST_F(SumoDemand, files_whose_root_sumo_does_not_look_at_are_taken_for_what_the
         {line_network(), write("a.xml", "<flows>" + flow("begin='0' end='9' number='3'") + "</flows>"),
          write("b.xml", "<pois><poi id='p' x='0' y='0'/></pois>"), write("c.xml", "<tlLogics></tlLogics>")}));
     EXPECT_EQ(vehicles(), 3U);
-}
-
-TEST_F(SumoDemand, a_second_network_and_an_end_before_the_begin_are_refused) {
-    EXPECT_THAT(refusal(configured(cars(2), "<net-file value='line.net.xml'/>")),
-                HasSubstr("is a second network"));
-    EXPECT_THAT(refusal(configured(cars(2), "<begin value='600'/><end value='300'/>")),
-                HasSubstr("ends at 300 s"));
 }
 
 }  // namespace
