@@ -185,7 +185,8 @@ std::filesystem::path usual_folder(study::StudyConfig config, const experiment::
 
 /// It may hold nothing, or the rounds of an earlier call.
 void check_folder(const std::filesystem::path& folder) {
-    if (is_absent_or_empty(folder) || std::filesystem::exists(folder / EquipRounds::first_round)) return;
+    if (core::is_absent_or_empty(folder) || std::filesystem::exists(folder / EquipRounds::first_round))
+        return;
     throw core::InputError({"--out", fmt::format("{} holds something else", folder.string()),
                             "a new or empty folder, or one of clearway equip", "Choose another folder"});
 }

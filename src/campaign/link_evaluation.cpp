@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include "campaign/names.hpp"
 #include "campaign/programs.hpp"
@@ -323,9 +324,11 @@ std::string worker_hash() {
 
 /// Makes the runs that are missing in the plan's folder.
 core::ExitCode complete_runs(const links::LinkPlan& plan, const links::LinkRunFiles& files, unsigned jobs) {
+    core::remove_abandoned_parts(plan.folder / "work");
     std::vector<WorkerJob> work;
     for (const experiment::LinkJob& job : links::missing_runs(plan, files)) {
-        const fs::path file = plan.folder / "jobs" / job.work_folder.filename();
+        const fs::path file =
+            plan.folder / "jobs" / fmt::format("{}-{}-{}", job.scenario, job.replication, ::getpid());
         work.push_back({.label = fmt::format("{} replication {}", job.scenario, job.replication),
                         .job = job,
                         .file = file.string() + ".json",

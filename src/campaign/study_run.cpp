@@ -84,25 +84,6 @@ class PresentEstimate {
     std::chrono::steady_clock::time_point read_{};
 };
 
-/// Whether a folder is missing or holds only leftovers of killed calls and names that `is_ours`.
-template <class IsOurs>
-bool holds_only(const std::filesystem::path& folder, const IsOurs& is_ours) {
-    std::error_code none;
-    for (auto entry = std::filesystem::directory_iterator(folder, none);
-         !none && entry != std::filesystem::directory_iterator(); entry.increment(none)) {
-        if (!is_ours(entry->path().filename().string()) && !core::is_leftover(entry->path())) return false;
-    }
-    return true;
-}
-
-}  // namespace
-
-bool is_absent_or_empty(const std::filesystem::path& folder) {
-    return holds_only(folder, [](const std::string& name) { return name.starts_with('.'); });
-}
-
-namespace {
-
 void say_how_to_continue(const std::filesystem::path& folder, const StudyProgress& progress,
                          const std::string& command) {
     fmt::print(stderr,
@@ -239,7 +220,7 @@ study::Plan plan_for(const study::StudyConfig& config, RunOptions& options) {
 
 results::Store prepare_run_folder(const study::Plan& plan, const RunOptions& options) {
     // Removed below: nothing of the user's may be in it, hidden or not.
-    const bool is_new = holds_only(
+    const bool is_new = core::holds_only(
         options.folder, [](const std::string& name) { return name == ".shard" || name == ".lock"; });
     const std::uint32_t before = replications_in(options.folder);
     try {

@@ -54,10 +54,6 @@ study::StudyConfig study_of(scenario::ScenarioConfig scenario,
 /// study gets another folder. Throws core::InputError, core::EnvironmentError.
 study::Plan plan_for(const study::StudyConfig& config, RunOptions& options);
 
-/// Whether a folder can be written to as if it were new. Hidden files do not count: a shard's number and the
-/// lock.
-bool is_absent_or_empty(const std::filesystem::path& folder);
-
 /// Makes the run folder of a plan, with the command, a picture of each network and, where a condition repairs
 /// by a net, the losses of the shipped models. If the study turns out to be invalid, a new folder is removed,
 /// so that it does not block the corrected study.

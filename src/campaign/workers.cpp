@@ -114,6 +114,18 @@ class Workers : private core::TaskList {
         }
     }
 
+    bool is_complete(const experiment::RunJob& unit) const {
+        return std::ranges::all_of(unit.conditions, [&](const experiment::ConditionSpec& condition) {
+            return store_.complete(key_of(unit, condition));
+        });
+    }
+
+    /// What a worker left that was killed when its runs were complete.
+    void remove_work(const std::string& unit) const {
+        std::error_code ignored;
+        std::filesystem::remove_all(store_.work_folder(unit), ignored);
+    }
+
     void queue_units() {
         const auto is_retried = [this](ErrorCause cause) {
             return options_.retried == RetriedRuns::all_failed || results::may_pass(cause);
@@ -121,7 +133,10 @@ class Workers : private core::TaskList {
         for (std::size_t job = 0; job < plan_.units.size(); ++job) {
             const experiment::RunJob& unit = plan_.units[job].unit;
             const auto open = open_conditions(unit, is_retried);
-            if (!open.empty()) queue_.push_back(job);
+            if (!open.empty())
+                queue_.push_back(job);
+            else if (is_complete(unit))
+                remove_work(plan_.units[job].name);
             for (const experiment::ConditionSpec& condition : open) {
                 open_cells_[job].emplace(condition.name, cell_of(unit.scenario, condition.name));
                 work_.add(open_cells_[job].at(condition.name));

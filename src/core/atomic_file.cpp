@@ -10,12 +10,11 @@
 #include <unistd.h>
 
 #include "core/files.hpp"
+#include "core/leftovers.hpp"
 #include "core/read_failure.hpp"
 
 namespace clearway::core {
 namespace {
-
-constexpr const char* part_ending = ".part";
 
 /// A device or a pipe would be replaced by the new file. A folder cannot be.
 void require_file(const std::filesystem::path& path) {

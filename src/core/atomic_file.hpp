@@ -34,7 +34,4 @@ class AtomicFile {
     int descriptor_ = -1;
 };
 
-/// Removes the temporary files that killed processes left in `folder`. Those of running processes stay.
-void remove_abandoned_parts(const std::filesystem::path& folder);
-
 }  // namespace clearway::core

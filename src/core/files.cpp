@@ -1,6 +1,5 @@
 #include "core/files.hpp"
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 
@@ -10,6 +9,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/open_file.hpp"
 #include "core/read_failure.hpp"
 #include "core/running_hash.hpp"
 
@@ -21,13 +21,6 @@ namespace {
     throw EnvironmentError(
         fmt::format("{}: cannot {}: {}. {}", file.string(), action, std::strerror(reason), cure_of(reason)));
 }
-
-struct Descriptor {
-    int number = -1;
-    ~Descriptor() {
-        if (number >= 0) ::close(number);
-    }
-};
 
 }  // namespace
 
@@ -48,17 +41,9 @@ void flush_folder(const std::filesystem::path& folder) {
 }
 
 std::string read_file(const std::filesystem::path& file) {
-    const Descriptor source{::open(file.c_str(), O_RDONLY | O_CLOEXEC)};
-    if (source.number < 0) fail_to_read(file, errno);
     std::string text;
-    std::array<char, 1 << 16> buffer{};
-    for (;;) {
-        const ssize_t count = ::read(source.number, buffer.data(), buffer.size());
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) fail_to_read(file, errno);
-        if (count == 0) return text;
-        text.append(buffer.data(), static_cast<std::size_t>(count));
-    }
+    OpenFile(file).read([&](std::string_view piece) { text += piece; });
+    return text;
 }
 
 void make_folder(const std::filesystem::path& folder) {

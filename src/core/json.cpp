@@ -41,39 +41,19 @@ void ObjectReader::problem(const char* key, std::string what) {
     problems_.push_back({fmt::format("{}: {}", where_, key), std::move(what), "", ""});
 }
 
-namespace {
-
-/// Deepest object or list that is read; Clearway writes at most ten levels. Whatever copies or prints JSON
-/// calls itself for each level.
-constexpr std::size_t most_json_levels = 100;
-
-/// Whether JSON text has no more levels than that; for other text it does not matter.
-bool is_shallow(std::string_view text) {
-    std::size_t open = 0;
-    bool in_text = false;
-    for (std::size_t at = 0; at < text.size(); ++at) {
-        const char letter = text[at];
-        if (in_text && letter == '\\') {
-            ++at;
-        } else if (letter == '"') {
-            in_text = !in_text;
-        } else if (!in_text && (letter == '{' || letter == '[')) {
-            if (++open > most_json_levels) return false;
-        } else if (!in_text && (letter == '}' || letter == ']') && open > 0) {
-            --open;
-        }
-    }
-    return true;
-}
-
-}  // namespace
-
 Json parse_object(const std::string& text, const std::string& where) {
-    if (!is_shallow(text))
-        throw core::InputError({where, fmt::format("has more than {} levels", most_json_levels),
-                                fmt::format("at most {} levels", most_json_levels),
-                                "Check that it is the right file"});
-    Json json = Json::parse(text, nullptr, false);
+    // Clearway writes at most ten levels. Whatever copies or prints JSON calls itself for each.
+    constexpr int most_levels = 100;
+    const auto check_level = [&](int level, Json::parse_event_t event, const Json&) {
+        const bool opens =
+            event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+        if (opens && level >= most_levels)
+            throw core::InputError({where, fmt::format("has more than {} levels", most_levels),
+                                    fmt::format("at most {} levels", most_levels),
+                                    "Check that it is the right file"});
+        return true;
+    };
+    Json json = Json::parse(text, check_level, false);
     if (!json.is_object())
         throw core::InputError(
             {where, "is not a JSON object", "", "Check that the file is complete and was not edited"});

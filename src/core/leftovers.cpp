@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/atomic_file.hpp"
 #include "core/files.hpp"
 #include "core/number.hpp"
 
@@ -14,7 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view part_ending = ".part";
 constexpr std::string_view import_mark = ".importing-";
 
 struct Leftover {
@@ -29,7 +27,7 @@ std::optional<Leftover> leftover_from(std::string name) {
     if (name_end != std::string::npos) {
         begin = name_end + import_mark.size();
     } else if (name.ends_with(part_ending)) {
-        end -= part_ending.size();
+        end -= std::string_view(part_ending).size();
         name_end = name.substr(0, end).rfind('.');
         if (name_end != std::string::npos) begin = name_end + 1;
     }
@@ -57,6 +55,19 @@ void remove_leftovers(const fs::path& folder, const IsMeant& is_meant) {
 
 bool is_leftover(const fs::path& path) {
     return leftover_from(path.filename().string()).has_value();
+}
+
+bool holds_only(const fs::path& folder, const std::function<bool(const std::string&)>& allowed) {
+    std::error_code none;
+    for (auto entry = fs::directory_iterator(folder, none); !none && entry != fs::directory_iterator();
+         entry.increment(none)) {
+        if (!allowed(entry->path().filename().string()) && !is_leftover(entry->path())) return false;
+    }
+    return true;
+}
+
+bool is_absent_or_empty(const fs::path& folder) {
+    return holds_only(folder, [](const std::string& name) { return name.starts_with('.'); });
 }
 
 bool is_gone(pid_t process) {

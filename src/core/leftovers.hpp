@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <string_view>
 
 #include <sys/types.h>
@@ -11,11 +13,21 @@ namespace clearway::core {
 /// `NAME.PID.part` (a file), `.NAME.PID.part` (a folder) and `.NAME.importing-PID`.
 bool is_leftover(const std::filesystem::path& path);
 
+/// The ending of the names of files and folders that are not whole.
+inline constexpr const char* part_ending = ".part";
+
+/// Whether a folder is missing or holds nothing but leftovers and names that are `allowed`.
+bool holds_only(const std::filesystem::path& folder, const std::function<bool(const std::string&)>& allowed);
+/// Likewise, where hidden names are allowed, such as those of locks.
+bool is_absent_or_empty(const std::filesystem::path& folder);
+
 /// Whether no process of this machine has that number.
 bool is_gone(pid_t process);
 
-/// Removes the leftovers of `target`, which lie beside it, whose process is gone. Those of running processes
-/// stay. Lists the folder of `target`.
+/// Removes the leftovers in `folder` whose process is gone. Those of running processes stay.
+void remove_abandoned_parts(const std::filesystem::path& folder);
+
+/// Likewise those of `target`, which lie beside it.
 void remove_leftovers_of(const std::filesystem::path& target);
 
 /// Writes a file that a user asked for as write_atomically does, after removing the leftovers of it.

@@ -1,7 +1,6 @@
 #include "core/part_folder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <utility>
@@ -13,6 +12,8 @@
 
 #include "core/atomic_file.hpp"
 #include "core/files.hpp"
+#include "core/leftovers.hpp"
+#include "core/open_file.hpp"
 #include "core/plain_files.hpp"
 #include "core/read_failure.hpp"
 
@@ -20,23 +21,6 @@ namespace clearway::core {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Descriptor {
-    int number = -1;
-    ~Descriptor() {
-        if (number >= 0) ::close(number);
-    }
-};
-
-void write_whole(int descriptor, const char* bytes, std::size_t count, const fs::path& file) {
-    while (count > 0) {
-        const ssize_t written = ::write(descriptor, bytes, count);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) throw write_error(file, errno);
-        bytes += written;
-        count -= static_cast<std::size_t>(written);
-    }
-}
 
 /// The files and folders below `folder`, parents first, relative to it.
 std::vector<fs::path> below(const fs::path& folder, const std::string& left_out) {
@@ -73,7 +57,8 @@ void flush_folders(const fs::path& folder) {
 
 PartFolder::PartFolder(fs::path target)
     : target_(std::move(target)),
-      part_(target_.parent_path() / fmt::format(".{}.{}.part", target_.filename().string(), ::getpid())) {
+      part_(target_.parent_path() /
+            fmt::format(".{}.{}{}", target_.filename().string(), ::getpid(), part_ending)) {
     std::error_code ignored;
     fs::remove_all(part_, ignored);  // of a killed process that had this number
     make_folder(part_);
@@ -101,19 +86,10 @@ void PartFolder::replace() {
 
 void copy_file(const fs::path& file, const fs::path& copy, Copying copying) {
     if (copying == Copying::links && ::link(file.c_str(), copy.c_str()) == 0) return;
-    const Descriptor source{::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW)};
-    if (source.number < 0) fail_to_read(file, errno);
-    const Descriptor target{::open(copy.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0644)};
-    if (target.number < 0) throw write_error(copy, errno);
-    std::array<char, 1 << 16> piece{};
-    for (;;) {
-        const ssize_t count = ::read(source.number, piece.data(), piece.size());
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) fail_to_read(file, errno);
-        if (count == 0) break;
-        write_whole(target.number, piece.data(), static_cast<std::size_t>(count), copy);
-    }
-    if (::fsync(target.number) != 0) throw write_error(copy, errno);
+    OpenFile source(file, O_NOFOLLOW);
+    AtomicFile target(copy);
+    source.read([&](std::string_view piece) { target.write(piece); });
+    target.commit();
 }
 
 void copy_folder(const fs::path& source, const fs::path& target, const std::string& left_out) try {

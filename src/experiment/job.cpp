@@ -50,9 +50,12 @@ template <class Table, class Value>
 void read_table(const Source& source, ObjectReader& reader, Value& value) {
     const std::size_t before = source.problems.size();
     reader.read_fields<Table>(value);
-    if constexpr (std::is_same_v<Table, Simulation>)
-        core::check_folder_name(source.where + ": scenario", value.scenario, source.problems);
     if (source.problems.size() == before) check_ranges<Table>(source, value);
+}
+
+void read_simulation(const Source& source, ObjectReader& reader, Simulation& simulation) {
+    read_table<Simulation>(source, reader, simulation);
+    core::check_folder_name(source.where + ": scenario", simulation.scenario, source.problems);
 }
 
 /// Reads an object that holds the members of a field table and nothing else.
@@ -78,7 +81,7 @@ void write(Json& object, const RunJob& job) {
 }
 
 void read(const Source& source, ObjectReader& reader, RunJob& job) {
-    read_table<Simulation>(source, reader, job);
+    read_simulation(source, reader, job);
     reader.read_name("traffic_model", job.traffic_model, core::value_from<TrafficModel>);
     reader.read("recording", job.recording);
     for (const Json& condition : reader.child("conditions", Json::value_t::array))
@@ -103,7 +106,7 @@ void write(Json& object, const DatasetJob& job) {
 }
 
 void read(const Source& source, ObjectReader& reader, DatasetJob& job) {
-    read_table<Simulation>(source, reader, job);
+    read_simulation(source, reader, job);
     read_table<DatasetJob>(source, reader, job);
     if (source.object.contains("policies")) reader.read("policies", job.policies);
     if (source.object.contains("settings")) reader.read("settings", job.settings);
@@ -118,7 +121,7 @@ void write(Json& object, const LinkJob& job) {
 }
 
 void read(const Source& source, ObjectReader& reader, LinkJob& job) {
-    read_table<Simulation>(source, reader, job);
+    read_simulation(source, reader, job);
     read_table<LinkJob>(source, reader, job);
     for (const Json& predictor : reader.child("predictors", Json::value_t::array))
         read_object(source.member("predictors", predictor), job.predictors.emplace_back());

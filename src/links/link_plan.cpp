@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "core/files.hpp"
+#include "core/leftovers.hpp"
 #include "core/progress.hpp"
 #include "links/link_run.hpp"
 #include "scenario/network.hpp"
@@ -67,8 +68,8 @@ std::vector<experiment::LinkJob> missing_of(const LinkPlan& plan, const LinkRunF
         job.network_folder = folder / "network";
         job.study_seed = plan.benchmark.study_seed;
         job.replication = replication;
-        job.work_folder =
-            plan.folder / "work" / fmt::format("{}-{}-{}", entry.label, replication, ::getpid());
+        job.work_folder = plan.folder / "work" /
+                          fmt::format("{}-{}.{}{}", entry.label, replication, ::getpid(), core::part_ending);
         job.failures = plan.benchmark.failures;
         job.exits = plan.benchmark.exits;
         static_cast<experiment::LinkSettings&>(job) = plan.benchmark.links;
@@ -169,6 +170,7 @@ std::vector<experiment::LinkJob> missing_runs(const LinkPlan& plan, const LinkRu
         if (jobs.empty()) continue;
         const fs::path folder = files.scenario_folder(entry.config);
         core::make_folder(folder);
+        core::remove_abandoned_parts(folder);
         scenario::store(entry.config, folder);
         scenario::build_network(entry.config, folder / "network");
         std::ranges::move(jobs, std::back_inserter(missing));

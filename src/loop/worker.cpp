@@ -164,7 +164,7 @@ Places places_of(const experiment::RunJob& unit, const results::Store& store,
                  const std::filesystem::path& unit_file) {
     const std::string replication = std::to_string(unit.replication);
     Places places{.demand = store.scenario_folder(unit.scenario) / "demand" / replication,
-                  .work = store.folder() / "work" / unit_file.stem()};
+                  .work = store.work_folder(unit_file.stem().string())};
     core::make_folder(places.demand);
     core::make_folder(places.work);
     return places;
@@ -196,9 +196,9 @@ core::ExitCode run_unit(const experiment::RunJob& unit, const std::filesystem::p
         if (code != core::ExitCode::ok) return code;
     }
     run.reset();
-    store.flush(keys);
     const auto is_complete = [&](const experiment::RunKey& key) { return store.complete(key); };
     if (std::ranges::all_of(keys, is_complete)) std::filesystem::remove_all(places.work);
+    store.flush(keys);
     return core::ExitCode::ok;
 }
 

@@ -95,33 +95,6 @@ void check_format(const core::Json& object, const std::string& where) {
          fmt::format("{}", known.format), "Read this folder with the version of Clearway that wrote it"});
 }
 
-}  // namespace
-
-void Manifest::for_each_run(const std::function<void(const experiment::RunKey&)>& visit) const {
-    const auto sorted_names = [](const auto& entries) {
-        std::vector<std::string> names =
-            core::texts_of(entries, [](const auto& entry) { return entry.name; });
-        std::ranges::sort(names);
-        return names;
-    };
-    const std::vector<std::string> condition_names = sorted_names(conditions);
-    for (const std::string& scenario : sorted_names(scenarios)) {
-        for (const std::string& condition : condition_names) {
-            for (std::uint32_t replication = 0; replication < replications; ++replication)
-                visit({scenario, condition, replication});
-        }
-    }
-}
-
-std::vector<experiment::RunKey> Manifest::runs() const {
-    std::vector<experiment::RunKey> keys;
-    keys.reserve(run_count());
-    for_each_run([&](const experiment::RunKey& key) { keys.push_back(key); });
-    return keys;
-}
-
-namespace {
-
 /// `conditions (Soft: soft.py has changed; extra is new)`, at most three of them.
 std::string differing_conditions(const Manifest& left, const Manifest& right) {
     constexpr std::size_t most = 3;
@@ -146,6 +119,29 @@ std::string differing_conditions(const Manifest& left, const Manifest& right) {
 }
 
 }  // namespace
+
+void Manifest::for_each_run(const std::function<void(const experiment::RunKey&)>& visit) const {
+    const auto sorted_names = [](const auto& entries) {
+        std::vector<std::string> names =
+            core::texts_of(entries, [](const auto& entry) { return entry.name; });
+        std::ranges::sort(names);
+        return names;
+    };
+    const std::vector<std::string> condition_names = sorted_names(conditions);
+    for (const std::string& scenario : sorted_names(scenarios)) {
+        for (const std::string& condition : condition_names) {
+            for (std::uint32_t replication = 0; replication < replications; ++replication)
+                visit({scenario, condition, replication});
+        }
+    }
+}
+
+std::vector<experiment::RunKey> Manifest::runs() const {
+    std::vector<experiment::RunKey> keys;
+    keys.reserve(run_count());
+    for_each_run([&](const experiment::RunKey& key) { keys.push_back(key); });
+    return keys;
+}
 
 std::string differences(const Manifest& left, const Manifest& right) {
     std::string list;

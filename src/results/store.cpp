@@ -29,7 +29,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* manifest_name = "manifest.json";
-constexpr const char* part_suffix = ".part";
 constexpr const char* signal_events_name = "signal_events.csv";
 
 /// Writes without flushing: for data that may be lost in a power failure.
@@ -37,15 +36,6 @@ void write_unflushed(const fs::path& file, const std::string& content) {
     std::ofstream stream(file, std::ios::binary);
     stream << content;
     if (!stream.flush()) throw core::write_error(file, errno);
-}
-
-/// Hidden files are those of locks and shards.
-bool is_leftover_or_hidden(const fs::directory_entry& entry) {
-    return entry.path().filename().string().starts_with(".") || core::is_leftover(entry.path());
-}
-
-bool holds_something(const fs::path& folder) {
-    return !std::all_of(fs::directory_iterator(folder), fs::directory_iterator(), is_leftover_or_hidden);
 }
 
 void require_same(const fs::path& file, const std::string& content, const experiment::RunKey& key) {
@@ -133,7 +123,7 @@ Store Store::create(const fs::path& folder, const Manifest& manifest) {
         core::write_atomically(file, to_json(manifest));
         return {folder, manifest};
     }
-    if (holds_something(folder))
+    if (!core::is_absent_or_empty(folder))
         throw core::InputError({folder.string(), "is not empty and not a run folder", "a new or empty folder",
                                 "Choose another folder with --out"});
     core::write_output(file, to_json(manifest));
@@ -222,9 +212,8 @@ void Store::adopt_recording(const Store& other, const experiment::RunKey& key) c
     if (!fs::exists(recording)) return;
     if (fs::exists(place) && fs::file_size(place) == fs::file_size(recording)) return;
     core::make_folder(place.parent_path());
-    const fs::path part = place.string() + fmt::format(".{}{}", ::getpid(), part_suffix);
-    core::copy_file(recording, part, core::Copying::links);
-    fs::rename(part, place);
+    fs::remove(place);
+    core::copy_file(recording, place, core::Copying::links);
     core::flush_folder(place.parent_path());
 }
 
@@ -397,7 +386,7 @@ void Store::remove_leftovers() const {
     std::vector<fs::path> leftovers;
     for (auto entry = fs::recursive_directory_iterator(folder_, error);
          !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-        if (entry->path().extension() == part_suffix) leftovers.push_back(entry->path());
+        if (core::is_leftover(entry->path())) leftovers.push_back(entry->path());
     }
     for (const fs::path& leftover : leftovers)
         fs::remove_all(leftover, error);

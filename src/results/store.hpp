@@ -56,6 +56,7 @@ class Store {
     std::filesystem::path run_folder(const experiment::RunKey& key) const;
     std::filesystem::path unit_file(const std::string& unit) const;
     std::filesystem::path log_file(const std::string& unit) const;
+    std::filesystem::path work_folder(const std::string& unit) const { return folder_ / "work" / unit; }
     std::filesystem::path runs_csv() const { return folder_ / "runs.csv"; }
     std::filesystem::path vehicles_csv() const { return folder_ / "vehicles.csv"; }
 

@@ -317,10 +317,6 @@ scenario::ScenarioConfig start_config(const Import& import) {
     return config;
 }
 
-}  // namespace
-
-namespace {
-
 /// A program can also run for ever: SUMO draws speed factors until one is possible.
 [[noreturn]] void refuse_slow(const ImportRequest& request, const std::string& stage) {
     throw core::InputError(core::Problem{

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/leftovers.hpp"
 
 namespace clearway::training {
 namespace {

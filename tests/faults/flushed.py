@@ -11,7 +11,8 @@ import subprocess
 import sys
 import tempfile
 
-SKIPPED = 77
+from tracing import require_strace
+
 CALLS = "openat,creat,link,linkat,rename,renameat,renameat2,mkdir,mkdirat,unlink,unlinkat,fsync,fdatasync"
 # What may be lost: times of runs, jobs and demand, which are made anew, output of workers, the note of a lock.
 MAY_BE_LOST = re.compile(r"/timing\.json$|/(logs|units|demand)(/|$)|/netconvert\.log$|/\.lock$")
@@ -86,9 +87,7 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     clearway = pathlib.Path(sys.argv[1]) / "clearway"
-    if shutil.which("strace") is None or subprocess.run(["strace", "-qq", "-o", os.devnull, "true"], check=False).returncode:
-        print("strace is not installed or may not trace: skipped")
-        sys.exit(SKIPPED)
+    require_strace()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name).resolve()
         study = [clearway, "run", "merge", "--no-solo", "--seeds", "2", "--jobs", "1", "--record", "--out", "out"]

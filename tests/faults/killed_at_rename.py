@@ -11,7 +11,8 @@ import subprocess
 import sys
 import tempfile
 
-SKIPPED = 77
+from tracing import require_strace
+
 LEFTOVER = re.compile(r"\.\d+\.part$|\.importing-\d+$")
 
 
@@ -42,10 +43,7 @@ def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
     clearway, renames = pathlib.Path(sys.argv[1]) / "clearway", int((sys.argv[2:] or ["2"])[0])
-    probe = ["strace", "-qq", "-o", os.devnull, "-e", "inject=rename:error=EIO:signal=SIGKILL:when=9999", "true"]
-    if shutil.which("strace") is None or subprocess.run(probe, check=False, capture_output=True).returncode:
-        print("strace is not installed or may not inject: skipped")
-        sys.exit(SKIPPED)
+    require_strace("-e", "inject=rename:error=EIO:signal=SIGKILL:when=9999")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         small = ["--seeds", "1", "--jobs", "1"]
@@ -59,7 +57,9 @@ def main():
                  ("report", ["report", "done"], ""),
                  ("init", ["scenario", "init", "e"], "e"),
                  ("import", ["scenario", "import", network, "--name", "f"], "f"),
-                 ("equip", ["equip", "intersection", "--budget", "1", "--seeds", "2", "--out", "g"], "g")]
+                 ("equip", ["equip", "intersection", "--budget", "1", "--seeds", "2", "--out", "g"], "g"),
+                 ("evaluate", ["links", "evaluate", "merge", "--failure", "B10", "--predictor", "route_rule", "--seeds", "1",
+                               "--validation-seeds", "1", "--out", "h"], "h")]
         faults = [fault for title, words, made in verbs
                   for fault in faults_of(title, [clearway, *words], folder, made, renames)]
     print("\n".join(faults) or f"{len(verbs)} verbs killed at {renames} renames each: every one went on")

@@ -19,9 +19,10 @@ import subprocess
 import sys
 import tempfile
 
+from tracing import require_strace
+
 CALLS = ("openat", "read", "pread64", "write", "pwrite64", "fsync", "rename", "mkdir", "clone", "mmap", "ftruncate")
 ERRORS = ("EIO", "ENOSPC", "EMFILE", "ENOMEM")
-SKIPPED = 77
 LIMIT_S = 120
 # What two equal commands write differently: times, process numbers.
 CHANGING = re.compile(r"/timing\.json$|^units/|/jobs/|^logs/|^\.lock$|^report\.html$|\.pdf$|/netconvert\.log$")
@@ -303,11 +304,6 @@ class Sweep:
         return met, lines
 
 
-def can_inject():
-    probe = ["strace", "-f", "--seccomp-bpf", "-qq", "-o", os.devnull, "-e", "inject=read:error=EIO:when=9999", "true"]
-    return shutil.which("strace") and not subprocess.run(probe, check=False, capture_output=True).returncode
-
-
 def make_pristine(folder, programs):
     """What the verbs find in their folder."""
     folder.mkdir()
@@ -334,9 +330,7 @@ def main():
     parser.add_argument("--messages", action="store_true")
     parser.add_argument("--jobs", type=int, default=1)
     asked = parser.parse_args()
-    if not can_inject():
-        print("strace is not installed or may not trace: skipped")
-        sys.exit(SKIPPED)
+    require_strace("-f", "--seccomp-bpf", "-e", "inject=read:error=EIO:when=9999")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         make_pristine(folder / "pristine", asked.programs)

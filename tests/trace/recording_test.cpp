@@ -12,6 +12,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/leftovers.hpp"
 #include "support/temporary_folder.hpp"
 #include "trace/detail/seal.hpp"
 #include "trace/difference.hpp"

@@ -1,0 +1,66 @@
+"""Too few descriptors, too little memory, too small a limit of files, no /proc: each is told, and the same command without the
+limit gives the tables of an untroubled run.
+
+    limits.py BIN
+"""
+import filecmp
+import pathlib
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+
+TABLES = ("runs.csv", "vehicles.csv")
+
+
+class Study:
+    def __init__(self, clearway, folder):
+        self.words = [clearway, "run", "merge", "--policy", "none", "--no-solo", "--seeds", "1", "--jobs", "1"]
+        self.folder = folder
+        self.faults = []
+        self.run("clean")
+
+    def run(self, out, prefix=(), options=(), limit=None):
+        def limit_child():
+            if limit:
+                resource.setrlimit(limit[0], (limit[1], limit[1]))
+        return subprocess.run([*prefix, *self.words, *options, "--out", out], cwd=self.folder, capture_output=True, text=True,
+                              errors="replace", check=False, preexec_fn=limit_child)
+
+    def is_clean(self, out):
+        return all((self.folder / out / name).exists() and filecmp.cmp(self.folder / out / name, self.folder / "clean" / name, False)
+                   for name in TABLES)
+
+    def check(self, name, said, **limits):
+        """Runs within limits, which `said` must tell of where it fails, then without."""
+        shutil.rmtree(self.folder / "out", ignore_errors=True)
+        first = self.run("out", **limits)
+        told = f"{first.returncode}: {first.stderr[-400:]}"
+        if first.returncode == 0 and not self.is_clean("out"):
+            self.faults.append(f"{name}: exit code 0 and other tables")
+        if first.returncode and said not in first.stderr:
+            self.faults.append(f"{name}: does not say '{said}': {told}")
+        second = self.run("out")
+        if second.returncode or not self.is_clean("out"):
+            self.faults.append(f"{name}: stays: {second.stderr[-400:]}\nafter {told}")
+        return first.returncode
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    with tempfile.TemporaryDirectory() as name:
+        study = Study(pathlib.Path(sys.argv[1]).resolve() / "clearway", pathlib.Path(name))
+        ends = [study.check(f"{count} descriptors", "", limit=(resource.RLIMIT_NOFILE, count)) for count in range(4, 24, 2)]
+        ends.append(study.check("little memory", "The command of the study tries again those that a signal or a limit ended (1)", options=["--memory-limit", "40"]))
+        ends.append(study.check("small files", "ulimit -f", limit=(resource.RLIMIT_FSIZE, 20000)))
+        hide = ["unshare", "-rm", "sh", "-c", 'mount -t tmpfs none /proc && exec "$@"', "sh"]
+        if subprocess.run([*hide, "true"], check=False, capture_output=True).returncode == 0:
+            ends.append(study.check("no /proc", "Mount /proc", prefix=hide))
+    print("\n".join(study.faults), ends)
+    sys.exit(bool(study.faults) or not any(ends))
+
+
+if __name__ == "__main__":
+    main()
