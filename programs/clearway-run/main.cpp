@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -29,6 +30,7 @@ int fail_usage() {
 
 int main(int argument_count, char** arguments) {
     namespace core = clearway::core;
+    std::signal(SIGXFSZ, SIG_IGN);  // a file over `ulimit -f` is then an error that names it
     const std::string_view word = argument_count == 2 ? arguments[1] : "";
     try {
         if (word == "--version") {

@@ -156,9 +156,11 @@ def end_group(*_: Any) -> None:
     os.killpg(0, signal.SIGKILL)
 
 
-def be_part(memory: int, read: int, write: int) -> None:
-    """All that this process does from now on. Never returns."""
+def be_part(memory: int, read: int, write: int, owner: int) -> None:
+    """All that this process does from now on, for the process `owner`. Never returns."""
     os.setpgid(0, 0)
+    with contextlib.suppress(OSError):  # its memory counts as that of its run, which finds it by this name (src/loop/watch.cpp)
+        Path("/proc/self/comm").write_text(f"part-{owner}", encoding="ascii")
     signal.signal(signal.SIGTERM, end_group)
     for descriptor in (memory, read, write):
         os.set_inheritable(descriptor, False)  # what user code starts must not hold the pipes open
@@ -178,4 +180,4 @@ def be_part(memory: int, read: int, write: int) -> None:
 
 
 if __name__ == "__main__":
-    be_part(*map(int, sys.argv[1:4]))
+    be_part(*map(int, sys.argv[1:4]), os.getppid())

@@ -25,6 +25,12 @@ PR_SET_PDEATHSIG = 1
 PATIENCE_S = 1.0
 
 
+def peer_of(connection: socket.socket) -> tuple[int, int]:
+    """Process and user at the other end."""
+    process, user, _ = struct.unpack("3i", connection.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, 12))
+    return process, user
+
+
 class Nursery:
     """The parts that live, by their connection."""
 
@@ -51,8 +57,7 @@ class Nursery:
 
     def _accept(self, listener: socket.socket) -> None:
         connection, _ = listener.accept()
-        _, user, _ = struct.unpack("3i", connection.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, 12))
-        if user != os.getuid():
+        if peer_of(connection)[1] != os.getuid():
             connection.close()
             return
         self._selector.register(connection, selectors.EVENT_READ, self._asked)
@@ -74,13 +79,13 @@ class Nursery:
         parent = os.getpid()
         process = os.fork()
         if process == 0:
-            self._become_part(parent, folder, descriptors)
+            self._become_part(parent, peer_of(connection)[0], folder, descriptors)
         handle = os.pidfd_open(process)
         self._parts[process] = (handle, connection)
         self._selector.register(handle, selectors.EVENT_READ, lambda _: self._ended(process))
         self._selector.register(connection, selectors.EVENT_READ, lambda _: self._left(process))
 
-    def _become_part(self, parent: int, folder: str, descriptors: list[int]) -> None:
+    def _become_part(self, parent: int, owner: int, folder: str, descriptors: list[int]) -> None:
         try:
             self._prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
             if os.getppid() != parent:
@@ -94,7 +99,7 @@ class Nursery:
                         os.close(int(name))
             os.chdir(folder)
             sys.path[0] = folder  # as -m makes it
-            _host.be_part(memory, read, write)
+            _host.be_part(memory, read, write, owner)
         finally:
             os._exit(1)
 

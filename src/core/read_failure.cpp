@@ -10,6 +10,11 @@
 #include "core/error.hpp"
 
 namespace clearway::core {
+namespace {
+
+constexpr std::array reasons_of_machine = {EIO, EMFILE, ENFILE, ENOMEM, ENOSPC, EDQUOT, EFBIG, ESTALE};
+
+}  // namespace
 
 void fail_to_read(const std::filesystem::path& file, int reason) {
     switch (reason) {
@@ -49,10 +54,14 @@ const char* cure_of(int reason) {
     }
 }
 
+bool is_of_machine(int reason) {
+    return std::ranges::find(reasons_of_machine, reason) != reasons_of_machine.end();
+}
+
 bool tells_of_machine(std::string_view words) {
-    constexpr std::array<int, 5> reasons = {EIO, ENOSPC, EMFILE, ENFILE, ENOMEM};
-    return std::ranges::any_of(
-        reasons, [&](int reason) { return words.find(std::strerror(reason)) != std::string_view::npos; });
+    return std::ranges::any_of(reasons_of_machine, [&](int reason) {
+        return words.find(std::strerror(reason)) != std::string_view::npos;
+    });
 }
 
 }  // namespace clearway::core

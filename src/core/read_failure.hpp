@@ -13,6 +13,8 @@ namespace clearway::core {
 /// What to do after a call on a path failed with `reason`, an `errno`: one sentence without its full stop.
 const char* cure_of(int reason);
 
+/// Whether `reason`, an `errno`, is a failure of the machine that may pass.
+bool is_of_machine(int reason);
 /// Whether another program says in `words` that the machine failed, not that its input is wrong.
 bool tells_of_machine(std::string_view words);
 

@@ -2,12 +2,12 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "core/counted.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/json.hpp"
 #include "core/settings.hpp"
 #include "prediction/predictor.hpp"
 #include "report/read_facts.hpp"
@@ -39,13 +39,13 @@ std::string held_out_name(const std::vector<std::string_view>& head, const std::
     return std::string(head[2].substr(0, head[2].size() - ending.size()));
 }
 
-std::optional<double> number_of(const nlohmann::json& object, const char* name) {
+std::optional<double> number_of(const core::Json& object, const char* name) {
     const auto found = object.find(name);
     if (found == object.end() || !found->is_number()) return std::nullopt;
     return found->get<double>();
 }
 
-std::string text_of(const nlohmann::json& object, const char* name) {
+std::string text_of(const core::Json& object, const char* name) {
     const auto found = object.find(name);
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
@@ -53,11 +53,7 @@ std::string text_of(const nlohmann::json& object, const char* name) {
 /// Adds what the curve does not show, from the summary beside it.
 void add_summary(const std::filesystem::path& file, LossCurve& curve) {
     if (!std::filesystem::exists(file)) return;
-    const auto summary = nlohmann::json::parse(core::read_file(file), nullptr, false);
-    if (!summary.is_object()) {
-        throw core::InputError(core::Problem{file.string(), "is not a JSON object", "",
-                                             "Train again with clearway links train."});
-    }
+    const core::Json summary = core::parse_object(core::read_file(file), file.string());
     const std::string pairs = text_of(summary, "pairs");
     const std::string mode = text_of(summary, "mode");
     const auto named = [](const char* predictor, const char* data) {

@@ -33,9 +33,9 @@ constexpr std::array csv_tables = {"runs.csv", "vehicles.csv", "leases.csv"};
          "it: `clearway report` on the folder writes it again from its runs"});
 }
 
-[[noreturn]] void fail(const std::filesystem::path& file, int code, const std::string& reason) {
-    if (code == SQLITE_IOERR || code == SQLITE_NOMEM) core::fail_to_read(file, EIO);
-    refuse(file, code == SQLITE_CANTOPEN ? "cannot be read" : reason);
+[[noreturn]] void fail(const std::filesystem::path& file, int code, int reason, const std::string& words) {
+    if (code == SQLITE_IOERR || code == SQLITE_NOMEM) core::fail_to_read(file, reason);
+    refuse(file, code == SQLITE_CANTOPEN ? "cannot be read" : words);
 }
 
 std::string text_at(sqlite3_stmt* row, int column) {

@@ -32,6 +32,9 @@ constexpr std::size_t most_clients = 8;
 constexpr std::size_t most_connections = 64;
 constexpr std::chrono::seconds last_patience{10};
 constexpr std::chrono::milliseconds beat{20};
+/// After a connection that could not be taken, because the system has no descriptor left. It still waits, so
+/// that taking it again at once would only fill a core.
+constexpr std::chrono::milliseconds accept_pause{200};
 constexpr std::chrono::milliseconds status_period{500};
 constexpr double fastest = 1000.0;
 
@@ -84,11 +87,25 @@ struct LiveServer::State {
                .control = [this](const std::string& words) { control(words); }} {}
 
     void accept_runs() {
-        for (std::size_t run = 0; run < runs.size(); ++run) {
-            runs[run].async_accept([this, run](const boost::system::error_code& error, Feed::Socket socket) {
-                if (!error) add_run(run, std::move(socket));
-            });
-        }
+        for (std::size_t run = 0; run < runs.size(); ++run)
+            accept_run(run);
+    }
+
+    void accept_run(std::size_t run) {
+        runs[run].async_accept([this, run](const boost::system::error_code& error, Feed::Socket socket) {
+            if (error == asio::error::operation_aborted) return;
+            if (error) return later([this, run] { accept_run(run); });
+            add_run(run, std::move(socket));
+        });
+    }
+
+    /// Calls `action` after a pause.
+    template <class Action>
+    void later(const Action& action) {
+        const auto pause = std::make_shared<asio::steady_timer>(loop, accept_pause);
+        pause->async_wait([pause, action](const boost::system::error_code& error) {
+            if (!error) action();
+        });
     }
 
     void add_run(std::size_t run, Feed::Socket socket) {
@@ -120,6 +137,7 @@ struct LiveServer::State {
             } else {
                 ++counts.refused;  // One too many for this server, or for the system.
             }
+            if (error) return later([this] { accept_browsers(); });
             accept_browsers();
         });
     }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -14,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/read_failure.hpp"
 #include "sumo/detail/commander.hpp"
 #include "sumo/detail/gateway.hpp"
 #include "sumo/detail/message_log.hpp"
@@ -86,16 +89,23 @@ struct Session::State {
     void close();
     std::string fault_message(const char* doing, const std::string& what) const;
 
-    /// Runs `work` with SUMO's messages going to the log. Its faults get time and log, and end the session.
+    /// Runs `work` with SUMO's messages going to the log. Its faults get time and log, and end the session;
+    /// those of the machine are EnvironmentErrors.
     template <class Work>
     auto guarded(const char* doing, Work&& work) {
         if (!is_open) throw std::logic_error("the session is closed or has failed");
         const MessageCapture capture(*log);
+        errno = 0;
         try {
             return work();
         } catch (const core::SimulatorError& fault) {
+            const int reason = errno;
             is_open = false;
             process_state = ProcessState::spoilt;
+            if (core::is_of_machine(reason))  // which SUMO does not tell, but leaves in errno
+                throw core::EnvironmentError(
+                    fmt::format("{}\nThe machine failed ({}), not the scenario: give the same command again",
+                                fault_message(doing, fault.what()), std::strerror(reason)));
             throw core::SimulatorError(fault_message(doing, fault.what()));
         }
     }

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/json.hpp"
 #include "prediction/state_dict.hpp"
 #include "training/output_folder.hpp"
 
@@ -46,13 +47,24 @@ std::filesystem::path head_of(const Checkpoint& checkpoint) {
     return checkpoint.folder / checkpoint_file;
 }
 
+Json head_from(const std::filesystem::path& file) {
+    const std::string text = core::read_file(file);
+    try {
+        return core::parse_object(text, file.string());
+    } catch (const core::InputError& error) {
+        core::Problem problem = error.problems().front();
+        problem.cure = cure_anew;
+        throw core::InputError(std::move(problem));
+    }
+}
+
 /// The hashes that the tensors may have: that of the newest checkpoint and, if any, of the one before.
 std::vector<std::string> content_hashes(const Checkpoint& checkpoint, const RepairConfig& config) {
     const std::filesystem::path file = head_of(checkpoint);
     if (!std::filesystem::exists(file))
         throw core::InputError({file.string(), "is missing beside checkpoint.pth", "", cure_anew});
+    const Json head = head_from(file);
     try {
-        const Json head = Json::parse(core::read_file(file));
         if (head.at("format") != format)
             throw core::InputError({file.string(), head["format"].dump(), format, cure_anew});
         require_same_training(head, identity_of(config, checkpoint.data_hash), file);

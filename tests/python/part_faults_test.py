@@ -45,6 +45,10 @@ class NoSignal(Policy):
 class Sleeps(Policy):
     def act(self, belief):
         time.sleep(1000)
+class Fills(Policy):
+    def act(self, belief):
+        self.held = np.ones(600 * 2**20, dtype=np.uint8)
+        time.sleep(1000)
 class Interrupts(Policy):
     def act(self, belief):
         raise KeyboardInterrupt
@@ -326,6 +330,13 @@ class FaultTest(FolderCase):
         while hosts_of(self.folder) and time.monotonic() < end:
             time.sleep(0.1)
         self.assertEqual(hosts_of(self.folder), [])
+
+    def test_the_memory_of_a_part_is_that_of_its_run(self) -> None:
+        subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "bad.py:Fills", "--no-solo", "--seeds", "1",
+                        "--memory-limit", "500", "--out", "runs"], capture_output=True, check=False, timeout=100)
+        errors = clearway.open("runs").errors
+        self.assertEqual(list(errors["cause"]), ["memory"])
+        self.assertIn("500 MiB", errors["message"][0])
 
     def test_a_part_that_does_not_answer_ends_with_the_time_limit(self) -> None:
         program("run", "intersection", "--policy", "bad.py:Sleeps", "--no-solo", "--seeds", "1", "--out", "runs", "--run-time-limit",

@@ -1,14 +1,18 @@
 #include "server/live_server.hpp"
 
 #include <chrono>
+#include <ctime>
 #include <memory>
 #include <optional>
 #include <thread>
 #include <vector>
 
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "core/error.hpp"
 #include "server/browser.hpp"
@@ -274,6 +278,42 @@ TEST(LiveServer, a_crowd_of_connections_does_not_end_the_service) {
     }
     EXPECT_EQ(status, 200U);
     EXPECT_GE(show.counts().refused, 100U);
+}
+
+/// While it lives, this process can open nothing more.
+class NoDescriptors {
+  public:
+    NoDescriptors() {
+        ::getrlimit(RLIMIT_NOFILE, &before_);
+        const rlimit none{0, before_.rlim_max};
+        ::setrlimit(RLIMIT_NOFILE, &none);
+    }
+    ~NoDescriptors() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+    NoDescriptors(const NoDescriptors&) = delete;
+    NoDescriptors& operator=(const NoDescriptors&) = delete;
+
+  private:
+    rlimit before_{};
+};
+
+TEST(LiveServer, a_connection_without_a_descriptor_waits_and_takes_no_time_of_the_processor) {
+    LiveShow show(config_of(1));
+    boost::asio::io_context loop;
+    boost::asio::ip::tcp::socket browser(loop);
+    browser.open(boost::asio::ip::tcp::v4());
+    {
+        const NoDescriptors limit;
+        browser.connect({boost::asio::ip::make_address("127.0.0.1"), show.port()});
+        const std::clock_t before = std::clock();
+        std::this_thread::sleep_for(std::chrono::seconds(1));
+        const double used_s = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+        EXPECT_LT(used_s, 0.2);
+    }
+    boost::asio::write(browser, boost::asio::buffer(fmt::format(
+                                    "GET / HTTP/1.1\r\nHost: 127.0.0.1:{}\r\n\r\n", show.port())));
+    std::string answer(12, ' ');
+    boost::asio::read(browser, boost::asio::buffer(answer));
+    EXPECT_EQ(answer, "HTTP/1.1 200");
 }
 
 TEST(LiveServer, when_the_runs_are_over_viewers_are_told_and_the_server_ends) {

@@ -1,9 +1,13 @@
 #include <csignal>
+#include <filesystem>
+#include <iterator>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -28,6 +32,40 @@ TEST(Fault, MissingNetworkIsNamedByTheLog) {
     EXPECT_THAT(message_of<core::SimulatorError>([&] { Session{config}; }),
                 AllOf(HasSubstr("cannot load"), HasSubstr("missing.net.xml"), HasSubstr("not accessible")));
     EXPECT_THAT(core::read_file(config.folder / "sumo.log"), HasSubstr("not accessible"));
+}
+
+/// How loading ends in a process of its own that can open `more` files: 0, or the exit code of its error.
+int loads_with(const sumo::SessionConfig& config, rlim_t more) {
+    const pid_t child = fork();
+    if (child == 0) {
+        const auto open = std::distance(std::filesystem::directory_iterator("/proc/self/fd"),
+                                        std::filesystem::directory_iterator());
+        const rlimit few{static_cast<rlim_t>(open) + more, static_cast<rlim_t>(open) + more};
+        ::setrlimit(RLIMIT_NOFILE, &few);
+        try {
+            const Session session(config);
+            _exit(0);
+        } catch (const core::Error& error) {
+            _exit(static_cast<int>(error.exit_code()));
+        }
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+TEST(Fault, TooFewDescriptorsAreTheMachinesFaultAndNotTheScenarios) {
+    const Scene scene;
+    const auto config = scene.config(scene.straight_road(), vehicle("a", "hv", 0, "in out"));
+    constexpr int environment = static_cast<int>(core::ExitCode::environment);
+    bool has_failed = false;
+    for (rlim_t more = 0; more < 12; ++more) {
+        const int end = loads_with(config, more);
+        has_failed = has_failed || end == environment;
+        EXPECT_THAT(end, testing::AnyOf(0, environment)) << more << " more files";
+    }
+    EXPECT_TRUE(has_failed);
+    EXPECT_EQ(loads_with(config, 100), 0);
 }
 
 TEST(Fault, AfterOneTheProcessTakesNoFurtherSession) {

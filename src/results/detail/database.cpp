@@ -11,17 +11,16 @@
 #include "core/fields.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
+#include "core/read_failure.hpp"
 #include "results/detail/sqlite.hpp"
 #include "results/factor_columns.hpp"
 
 namespace clearway::results::detail {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, int code, const std::string& reason) {
-    throw core::EnvironmentError(fmt::format("{}: {}{}", file.string(), reason,
-                                             code == SQLITE_FULL
-                                                 ? ". Free some space there and give the same command again"
-                                                 : ". The machine failed: give the same command again"));
+[[noreturn]] void fail(const std::filesystem::path& file, int code, int reason, const std::string& words) {
+    throw core::EnvironmentError(fmt::format("{}: {}. {}", file.string(), words,
+                                             core::cure_of(code == SQLITE_FULL ? ENOSPC : reason)));
 }
 
 /// Inserts row after row; values fill the columns from left to right.

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cerrno>
 #include <filesystem>
 #include <memory>
 #include <string>
 
 #include <sqlite3.h>
+
+#include "core/read_failure.hpp"
 
 namespace clearway::results::detail {
 
@@ -19,8 +22,9 @@ using Statement = std::unique_ptr<sqlite3_stmt, FinishStatement>;
 /// An open SQLite file.
 class Database {
   public:
-    /// Must throw. `code` is SQLite's result code, `reason` its message.
-    using Fail = void (*)(const std::filesystem::path& file, int code, const std::string& reason);
+    /// Must throw. `code` is SQLite's result code, `reason` the `errno` behind it or EIO, `words` SQLite's
+    /// message.
+    using Fail = void (*)(const std::filesystem::path& file, int code, int reason, const std::string& words);
 
     /// `flags` are those of sqlite3_open_v2. Every error of this and all other members goes to `fail`.
     Database(std::filesystem::path file, int flags, Fail fail) : file_(std::move(file)), fail_(fail) {
@@ -33,7 +37,9 @@ class Database {
     const std::filesystem::path& file() const { return file_; }
     void check(int code) const {
         if (code == SQLITE_OK || code == SQLITE_DONE) return;
-        fail_(file_, code, handle_ ? sqlite3_errmsg(handle_.get()) : "no memory");
+        const int reason = errno;  // sqlite3_system_errno() is 0 where a file is over `ulimit -f`
+        fail_(file_, code, core::is_of_machine(reason) ? reason : EIO,
+              handle_ ? sqlite3_errmsg(handle_.get()) : "no memory");
     }
     void execute(const std::string& sql) const {
         check(sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr));

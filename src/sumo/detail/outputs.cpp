@@ -48,9 +48,12 @@ int create_like(int like, const std::filesystem::path& file, const std::string& 
 
 std::set<int> Outputs::open_descriptors() {
     std::set<int> descriptors;
-    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", error))
         descriptors.insert(std::stoi(entry.path().filename().string()));
-    }
+    if (error)
+        throw core::EnvironmentError("/proc/self/fd cannot be read: " + error.message() +
+                                     ". Mount /proc: the files that SUMO writes are found there");
     // The descriptor of the listing itself is among them, but closed by now.
     std::erase_if(descriptors, [](int descriptor) { return ::fcntl(descriptor, F_GETFD) < 0; });
     return descriptors;
