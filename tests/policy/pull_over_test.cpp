@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "straight_road.hpp"
+#include "policy/straight_road.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::testing {
