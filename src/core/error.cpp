@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
 #include <numeric>
-#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,19 +12,33 @@
 namespace clearway::core {
 namespace {
 
-/// A problem that several parts of an input share is told once.
-std::vector<Problem> each_once(std::vector<Problem> problems) {
-    std::set<std::string> told;
-    std::erase_if(problems, [&](const Problem& one) { return !told.insert(format_problem(one)).second; });
-    return problems;
+/// The first places, and how many more there are.
+std::string some_of(const std::vector<std::string>& places) {
+    constexpr std::size_t most_shown = 2;
+    if (places.size() <= most_shown) return fmt::format("{}", fmt::join(places, " and "));
+    return fmt::format("{} and {} more", places.front(), places.size() - 1);
+}
+
+/// A problem that several places of an input share is told once, where it says more than what is missing.
+std::vector<Problem> each_once(const std::vector<Problem>& problems) {
+    std::vector<Problem> told;
+    std::map<std::string, std::vector<std::string>> places;  // by the problem without its place
+    const auto kind_of = [](Problem one) {
+        if (!one.allowed.empty()) one.where.clear();
+        return format_problem(one);
+    };
+    for (const Problem& one : problems) {
+        std::vector<std::string>& known = places[kind_of(one)];
+        if (known.empty()) told.push_back(one);
+        if (std::ranges::find(known, one.where) == known.end()) known.push_back(one.where);
+    }
+    for (Problem& one : told)
+        one.where = some_of(places.at(kind_of(one)));
+    return told;
 }
 
 std::string format_all(const std::vector<Problem>& problems) {
-    std::string text;
-    for (const Problem& problem : each_once(problems)) {
-        text += (text.empty() ? "" : "\n") + format_problem(problem);
-    }
-    return text;
+    return fmt::format("{}", fmt::join(texts_of(each_once(problems), format_problem), "\n"));
 }
 
 std::string lower(std::string text) {
@@ -70,7 +84,7 @@ std::size_t edit_distance(const std::string& left, const std::string& right) {
 }  // namespace
 
 InputError::InputError(std::vector<Problem> problems)
-    : Error(ExitCode::bad_input, format_all(problems)), problems_(each_once(std::move(problems))) {}
+    : Error(ExitCode::bad_input, format_all(problems)), problems_(each_once(problems)) {}
 
 InputError::InputError(Problem problem) : InputError(std::vector<Problem>{std::move(problem)}) {}
 

@@ -85,6 +85,16 @@ TEST(InputError, TellsAnEqualProblemOnce) {
     EXPECT_STREQ(error.what(), "a: one\nb: two");
 }
 
+TEST(InputError, TellsOnceWhatIsAllowedForSeveralPlaces) {
+    const auto unknown = [](const char* where) { return Problem{where, "`B1` is unknown", "B5, B10", ""}; };
+    EXPECT_STREQ(InputError({unknown("a"), unknown("b")}).what(),
+                 "a and b: `B1` is unknown (allowed: B5, B10)");
+    EXPECT_STREQ(InputError({unknown("a"), unknown("b"), unknown("c")}).what(),
+                 "a and 2 more: `B1` is unknown (allowed: B5, B10)");
+    const auto missing = [](const char* where) { return Problem{where, "is missing", "", ""}; };
+    EXPECT_STREQ(InputError({missing("a"), missing("b")}).what(), "a: is missing\nb: is missing");
+}
+
 TEST(Nearest, PrefersTheSmallerDistanceThenTheEarlierWord) {
     EXPECT_EQ(nearest("lanes", {"lines", "lane", "lanes_m"}), "lines");
     EXPECT_EQ(nearest("lanes", {"planets", "lane"}), "lane");
