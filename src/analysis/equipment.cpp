@@ -7,13 +7,13 @@
 namespace clearway::analysis {
 namespace {
 
-/// A signal that is not chosen yet.
+/// A signal that is not chosen yet, or two that are chosen together.
 struct Candidate {
-    std::size_t number = 0;
+    SignalSet signals;
     std::size_t measured_in = 0;  ///< Place of `gain`, from 1; 0: never.
     bool left_race = false;       ///< Of that place.
-    Values values;
-    MaybeEstimate gain;
+    Values values = {};  ///< Of a pair, with half of what it gains, so that it races by its gain a signal.
+    MaybeEstimate gain = std::nullopt;  ///< A signal.
 
     /// What it may gain at `place`, s.
     double promise(std::size_t place) const {
@@ -26,10 +26,12 @@ struct Candidate {
 
 class Greedy {
   public:
-    Greedy(const EquipConfig& config, const MeasureSets& measure)
-        : config_(config), measure_(measure), open_(config.candidates) {
-        for (std::size_t number = 0; number < open_.size(); ++number)
-            open_[number].number = number;
+    Greedy(const EquipConfig& config, const MeasureSets& measure) : config_(config), measure_(measure) {
+        for (std::size_t number = 0; number < config.candidates; ++number)
+            open_.push_back({.signals = {number}});
+        for (const auto& pair : config.pairs)
+            open_.push_back({.signals = {pair.begin(), pair.end()}});
+        close_what_cannot_be();
     }
 
     EquipPlan run() {
@@ -38,16 +40,13 @@ class Greedy {
                 plan_.end = EquipEnd::exhausted;
                 return plan_;
             }
-            const std::size_t best = next();
-            const EquipStep step{open_[best].number, open_[best].gain};
-            if (!step.gain || step.gain->mean <= 0.0) {
+            const Candidate& best = open_[next()];
+            if (!best.gain || best.gain->mean <= 0.0) {
                 plan_.end = EquipEnd::no_gain;
-                plan_.next = step;
+                plan_.next = EquipStep{best.signals.front(), best.gain};
                 return plan_;
             }
-            chosen_.push_back(step.candidate);
-            open_.erase(open_.begin() + static_cast<std::ptrdiff_t>(best));
-            plan_.steps.push_back(step);
+            choose(best.signals, best.gain);
         }
         plan_.end = EquipEnd::budget;
         return plan_;
@@ -55,6 +54,24 @@ class Greedy {
 
   private:
     std::size_t place() const { return plan_.steps.size() + 1; }
+
+    void choose(const SignalSet& signals, const MaybeEstimate& gain) {
+        for (const std::size_t signal : signals) {
+            chosen_.push_back(signal);
+            plan_.steps.push_back({signal, gain});
+            if (signals.size() == 2) plan_.steps.back().partner = signals[signal == signals.front() ? 1 : 0];
+        }
+        close_what_cannot_be();
+    }
+
+    /// What has a chosen signal or more signals than places are left is no candidate any more.
+    void close_what_cannot_be() {
+        const std::size_t left = config_.budget - plan_.steps.size();
+        std::erase_if(open_, [&](const Candidate& candidate) {
+            return candidate.signals.size() > left ||
+                   std::ranges::find_first_of(candidate.signals, chosen_) != candidate.signals.end();
+        });
+    }
 
     MaybeEstimate gain_of(const Values& values, double level) const {
         return estimate_paired(present_, values, MetricKind::quantity, level);
@@ -111,8 +128,9 @@ class Greedy {
     void measure(const std::vector<std::size_t>& rows, std::size_t replications) {
         std::vector<SignalSet> sets = {chosen_};
         for (const std::size_t row : rows) {
+            const SignalSet& more = open_[row].signals;
             sets.push_back(chosen_);
-            sets.back().push_back(open_[row].number);
+            sets.back().insert(sets.back().end(), more.begin(), more.end());
         }
         std::vector<Values> values = measure_(sets, replications);
         present_ = std::move(values.front());
@@ -121,8 +139,14 @@ class Greedy {
             candidate.measured_in = place();
             candidate.left_race = false;
             candidate.values = std::move(values.at(i + 1));
+            if (candidate.signals.size() > 1) halve_gain(candidate.values);
             candidate.gain = gain_of(candidate.values, config_.level);
         }
+    }
+
+    void halve_gain(Values& values) const {
+        for (std::size_t at = 0; at < values.size(); ++at)
+            if (values[at] && present_.at(at)) values[at] = 0.5 * (*values[at] + *present_[at]);
     }
 
     void describe() {
@@ -130,14 +154,15 @@ class Greedy {
         for (const Candidate& candidate : open_) {
             Values values = candidate.values;
             values.resize(present_.size());
-            plan_.candidates.push_back({gain_of(values, together), candidate.left_race});
+            auto& described = candidate.signals.size() == 1 ? plan_.candidates : plan_.pairs;
+            described.push_back({gain_of(values, together), candidate.left_race});
         }
     }
 
     const EquipConfig& config_;
     const MeasureSets& measure_;
     Values present_;               ///< With the chosen signals.
-    std::vector<Candidate> open_;  ///< By number.
+    std::vector<Candidate> open_;  ///< By number, then pairs.
     SignalSet chosen_;
     EquipPlan plan_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -30,12 +31,14 @@ struct EquipConfig {
     std::size_t replications = 2;  ///< At least 2.
     Search search = Search::lazy;
     double level = usual_level;
+    /// Tried together too while two places are left: neighbours, of which one may pay only with the other.
+    std::vector<std::array<std::size_t, 2>> pairs = {};
 };
 
-/// A candidate by itself, as the first place saw it.
+/// A candidate by itself, or a pair, as the first place saw it.
 struct EquipCandidate {
-    /// Less time than with no signal equipped, s; over fewer pairs where it left the race. Nothing without a
-    /// pair. The intervals of all candidates hold together at the level (Bonferroni).
+    /// Less time than with no signal equipped, s, of a pair half of it; over fewer runs where it left the
+    /// race. Nothing without runs to pair. The intervals of all hold together at the level (Bonferroni).
     MaybeEstimate gain;
     bool left_race = false;  ///< Shown to gain less than another before all replications were made.
 };
@@ -44,8 +47,9 @@ struct EquipCandidate {
 struct EquipStep {
     std::size_t candidate = 0;
     /// Less time than without it, s, in the runs that it was chosen by: too high by the choice. Nothing
-    /// without a pair of runs.
+    /// without a pair of runs. Of two that were chosen together, half of what both gain.
     MaybeEstimate gain;
+    std::optional<std::size_t> partner = std::nullopt;  ///< The one that was chosen together with it.
 };
 
 /// Why no further signal was chosen.
@@ -57,6 +61,7 @@ enum class EquipEnd : std::uint8_t {
 
 struct EquipPlan {
     std::vector<EquipCandidate> candidates;  ///< By number.
+    std::vector<EquipCandidate> pairs;       ///< As EquipConfig has them; empty if the budget is 1.
     std::vector<EquipStep> steps;            ///< By rank.
     EquipEnd end = EquipEnd::budget;
     std::optional<EquipStep> next;  ///< With `no_gain`: the one that was not chosen.
@@ -66,8 +71,9 @@ struct EquipPlan {
 /// 10, 20, ... below `replications`, then `replications`.
 std::vector<std::size_t> equip_looks(std::size_t replications);
 
-/// Chooses signals one by one: each time the candidate with the greatest mean gain over those chosen before,
-/// of equal ones the first, until the budget is spent, no candidate is left or the next one gains nothing.
+/// Chooses signals one by one, or two by two: each time the candidate or pair with the greatest mean gain a
+/// signal over those chosen before, of equal ones the first, until the budget is spent, no candidate is left
+/// or the next one gains nothing.
 ///
 /// A place is filled by a race. After each look but the last, a candidate leaves if its paired difference
 /// from another is shown to be for the worse: one-sided t test at (1 - level) / ((m - 1) L) for m candidates
@@ -77,7 +83,7 @@ std::vector<std::size_t> equip_looks(std::size_t replications);
 ///
 /// The greedy choice is within 1 - 1/e of the best set if gains are submodular (Nemhauser, Wolsey and Fisher
 /// 1978), and then the lazy search (Minoux 1978) finds what the thorough one finds. Gains of signals need not
-/// be: a green may pay only with the next one.
+/// be: a green may pay only with the next one, which is what pairs are for.
 EquipPlan equip_greedily(const EquipConfig& config, const MeasureSets& measure);
 
 }  // namespace clearway::analysis

@@ -90,8 +90,9 @@ Signals signals_of(const study::StudyConfig& config, std::size_t most, const std
 
 EquipQuestion question_of(const study::StudyConfig& config, const EquipRequest& request,
                           const Signals& signals) {
-    EquipQuestion question{config,         request.condition, {}, signals.candidates.passed,
-                           request.budget, request.search};
+    EquipQuestion question{
+        config,         request.condition, {}, signals.candidates.passed, signals.candidates.neighbours,
+        request.budget, request.search};
     analysis::SignalSet all;
     for (std::size_t candidate = 0; candidate < signals.candidates.signals.size(); ++candidate) {
         all.push_back(candidate);
@@ -146,6 +147,25 @@ void add_outcomes(const analysis::EquipPlan& plan, const Signals& signals, const
     }
 }
 
+void add_pairs(const analysis::EquipPlan& plan, const Signals& signals, const FreshOutcomes& fresh,
+               report::EquipmentFacts& facts) {
+    for (std::size_t row = 0; row < plan.pairs.size(); ++row) {
+        const auto [first, second] = signals.candidates.neighbours.at(row);
+        report::EquipPairFacts& pair = facts.pairs.emplace_back();
+        pair.numbers = {signals.number(first), signals.number(second)};
+        pair.gain = plan.pairs[row].gain;
+        pair.left_race = plan.pairs[row].left_race;
+        const auto chosen = std::ranges::find_if(plan.steps, [&](const analysis::EquipStep& step) {
+            return step.candidate == first && step.partner == second;
+        });
+        if (chosen == plan.steps.end()) continue;
+        pair.chosen = true;
+        const auto rank = static_cast<std::size_t>(chosen - plan.steps.begin());
+        pair.both_gain = less((rank == 0 ? fresh.none : fresh.chosen.at(rank - 1)).emergency_s,
+                              fresh.chosen.at(rank + 1).emergency_s);
+    }
+}
+
 report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipRequest& request,
                                 const Signals& signals) {
     report::EquipmentFacts facts;
@@ -170,6 +190,7 @@ void write_files(const report::EquipmentFacts& facts, const std::filesystem::pat
     core::write_output(folder / "report.html", page.str());
     core::write_output(folder / "equip.csv", report::equipment_csv(facts));
     core::write_output(folder / "candidates.csv", report::candidates_csv(facts));
+    core::write_output(folder / "pairs.csv", report::pairs_csv(facts));
     core::write_output(folder / "equip.json", report::equipment_json(facts));
     core::write_output(folder / "curve.svg", report::equipment_curve(facts));
     core::write_output(folder / "map.svg", report::equipment_map(facts));
@@ -231,8 +252,11 @@ core::ExitCode equip(EquipRequest request) {
     const core::TemporaryFolder network_folder;
     Search search = search_of(request, network_folder.path());
     EquipRounds& rounds = search.rounds;
-    const analysis::EquipConfig config{search.signals.candidates.signals.size(), request.budget,
-                                       request.replications, request.search};
+    const analysis::EquipConfig config{.candidates = search.signals.candidates.signals.size(),
+                                       .budget = request.budget,
+                                       .replications = request.replications,
+                                       .search = request.search,
+                                       .pairs = search.signals.candidates.neighbours};
     const analysis::EquipPlan plan = analysis::equip_greedily(
         config, [&](const std::vector<analysis::SignalSet>& sets, std::size_t replications) {
             return rounds.measure(sets, replications);
@@ -247,6 +271,7 @@ core::ExitCode equip(EquipRequest request) {
     facts.end = plan.end;
     add_candidates(plan, search.signals, facts);
     add_outcomes(plan, search.signals, fresh, facts);
+    add_pairs(plan, search.signals, fresh, facts);
     facts.roads = report::road_map(results::Store::open(rounds.fresh_folder()), facts.scenario);
     write_files(facts, request.run.folder);
     fmt::print("{}", request.run.publish.printing == Printing::json ? report::equipment_json(facts)
@@ -283,7 +308,9 @@ core::ExitCode equip_dry_run(EquipRequest request) {
     const std::size_t candidates = search.signals.candidates.signals.size();
     const std::size_t first =
         std::min<std::size_t>(analysis::equip_looks(request.replications).front(), request.replications);
-    add(fmt::format("place 1: {} on {} seeds", report::counted(candidates, "candidate"), first),
+    const std::size_t pairs = request.budget > 1 ? search.signals.candidates.neighbours.size() : 0;
+    add(fmt::format("place 1: {}{} on {} seeds", report::counted(candidates, "candidate"),
+                    pairs > 0 ? " and " + report::counted(pairs, "pair") : "", first),
         runs.first_look, runs.first_look);
     add(fmt::format("place 1: on {} seeds, if none drops out", request.replications), runs.race, runs.race);
     add("later places", runs.later, runs.later_most);

@@ -1,6 +1,7 @@
 #include "campaign/equip_rounds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -26,6 +27,8 @@ namespace {
 constexpr const char* fresh_prefix = "fresh-";
 /// Candidates that a lazy search is assumed to try for each later place. From small cities.
 constexpr std::size_t likely_tries = 2;
+/// Pairs of neighbours that race with the candidates. Assumed: more would cost more than the race of signals.
+constexpr std::size_t most_pairs = 6;
 
 /// The signals between each edge and the next.
 using Crossings = std::map<std::pair<std::string, std::string>, std::set<core::SignalIndex>>;
@@ -47,14 +50,39 @@ Crossings crossings_of(const roads::Network& network) {
     return crossings;
 }
 
-std::set<core::SignalIndex> passed_by(const traffic::EmergencyDeparture& departure,
-                                      const Crossings& crossings) {
-    std::set<core::SignalIndex> passed;
+/// The signals on its way, in their order.
+std::vector<core::SignalIndex> passed_by(const traffic::EmergencyDeparture& departure,
+                                         const Crossings& crossings) {
+    std::vector<core::SignalIndex> passed;
     for (std::size_t at = 1; at < departure.edges.size(); ++at) {
         const auto found = crossings.find({departure.edges[at - 1], departure.edges[at]});
-        if (found != crossings.end()) passed.insert(found->second.begin(), found->second.end());
+        if (found == crossings.end()) continue;
+        for (const core::SignalIndex signal : found->second)
+            if (std::ranges::find(passed, signal) == passed.end()) passed.push_back(signal);
     }
     return passed;
+}
+
+/// The candidates that follow each other on these ways, with how often.
+std::vector<std::array<std::size_t, 2>> neighbours_of(
+    const std::vector<core::SignalIndex>& candidates,
+    const std::vector<std::vector<core::SignalIndex>>& ways) {
+    std::map<std::array<std::size_t, 2>, std::size_t> counts;
+    const auto number = [&](core::SignalIndex signal) {
+        return static_cast<std::size_t>(std::ranges::find(candidates, signal) - candidates.begin());
+    };
+    for (const std::vector<core::SignalIndex>& way : ways) {
+        for (std::size_t at = 1; at < way.size(); ++at) {
+            const auto [first, second] = std::minmax({number(way[at - 1]), number(way[at])});
+            if (second < candidates.size()) ++counts[{first, second}];
+        }
+    }
+    std::vector<std::array<std::size_t, 2>> pairs;
+    for (const auto& [pair, count] : counts)
+        pairs.push_back(pair);
+    std::ranges::stable_sort(pairs, std::greater{}, [&](const auto& pair) { return counts.at(pair); });
+    pairs.resize(std::min(pairs.size(), most_pairs));
+    return pairs;
 }
 
 EquipOutcome outcome_of(const results::Results& results, const std::string& condition) {
@@ -116,18 +144,17 @@ EquipCandidates equip_candidates(const study::StudyConfig& config, const scenari
     const Crossings crossings = crossings_of(built.network);
     std::map<core::SignalIndex, std::size_t> trips;  // of emergency vehicles that pass
     std::vector<std::set<core::SignalIndex>> passed(config.replications);
-    std::size_t all_trips = 0;
+    std::vector<std::vector<core::SignalIndex>> ways;
     for (std::uint32_t replication = 0; replication < config.replications; ++replication) {
         const core::TemporaryFolder folder;
         const scenario::Prepared prepared =
             scenario::prepare(config.scenarios.front(), built, core::StudySeed{config.seed},
                               core::Replication{replication}, folder.path());
         for (const traffic::EmergencyDeparture& departure : prepared.emergency) {
-            const std::set<core::SignalIndex> way = passed_by(departure, crossings);
+            const std::vector<core::SignalIndex>& way = ways.emplace_back(passed_by(departure, crossings));
             passed[replication].insert(way.begin(), way.end());
             for (const core::SignalIndex signal : way)
                 ++trips[signal];
-            ++all_trips;
         }
     }
     EquipCandidates candidates;
@@ -143,10 +170,11 @@ EquipCandidates equip_candidates(const study::StudyConfig& config, const scenari
         candidates.signals.resize(most);
         std::ranges::sort(candidates.signals);
     }
+    candidates.neighbours = neighbours_of(candidates.signals, ways);
     candidates.passed.resize(config.replications);
     for (std::size_t candidate = 0; candidate < candidates.signals.size(); ++candidate) {
         const core::SignalIndex signal = candidates.signals[candidate];
-        candidates.trips.push_back(static_cast<double>(trips.at(signal)) / static_cast<double>(all_trips));
+        candidates.trips.push_back(static_cast<double>(trips.at(signal)) / static_cast<double>(ways.size()));
         for (std::size_t replication = 0; replication < passed.size(); ++replication)
             if (passed[replication].contains(signal)) candidates.passed[replication].push_back(candidate);
     }
@@ -211,6 +239,9 @@ EquipForecast EquipRounds::forecast() const {
     std::vector<analysis::SignalSet> sets = {{}};
     for (std::size_t candidate = 0; candidate < question_.signals.size(); ++candidate)
         sets.push_back({candidate});
+    if (question_.budget > 1)
+        for (const auto& pair : question_.pairs)
+            sets.emplace_back(pair.begin(), pair.end());
     if (sets.size() == 1) return {.fresh = fresh_runs()};
     Wanted first;
     Wanted all;
@@ -267,9 +298,8 @@ void EquipRounds::run_round(const Wanted& wanted) {
     }
     RunOptions options = options_;
     ++rounds_;
-    options.folder /= rounds_ == 1
-                          ? first_round
-                          : fmt::format("round-{:02}-{}", rounds_, core::content_hash(names).substr(0, 6));
+    options.folder /=
+        rounds_ == 1 ? first_round : fmt::format("round-{}", core::content_hash(names).substr(0, 6));
     study::Plan plan = plan_for(config, options);
     for (study::PlannedUnit& planned : plan.units) {
         std::erase_if(planned.unit.conditions, [&](const experiment::ConditionSpec& condition) {
@@ -287,24 +317,33 @@ void EquipRounds::run_round(const Wanted& wanted) {
     }
 }
 
-std::vector<analysis::Values> EquipRounds::measure(const std::vector<analysis::SignalSet>& sets,
-                                                   std::size_t replications) {
+void EquipRounds::measure_in_a_round(const std::vector<analysis::SignalSet>& sets,
+                                     const std::vector<analysis::SignalSet>& racing,
+                                     std::size_t replications) {
     Wanted wanted;
     add_missing(sets, replications, wanted);
+    if (wanted.empty()) return;
     const std::size_t place = sets.front().size() + 1;
-    if (!wanted.empty()) {
-        Wanted whole_race;
-        add_missing(sets, question_.config.replications, whole_race);
-        const bool races = place == 1 || question_.search == analysis::Search::thorough;
-        const std::size_t tries =
-            question_.search == analysis::Search::thorough ? question_.signals.size() : likely_tries;
-        expected_ = (races ? count_of(whole_race) - count_of(wanted) : 0) +
-                    later_runs(question_.budget - place, tries) + fresh_runs();
-        doing_ = fmt::format("place {} of {}, {} on {} seeds", place, question_.budget,
-                             sets.size() == 2 ? "1 candidate" : fmt::format("{} candidates", sets.size() - 1),
-                             replications);
-        run_round(wanted);
-    }
+    const bool is_thorough = question_.search == analysis::Search::thorough;
+    Wanted whole_race;
+    add_missing(racing, place == 1 || is_thorough ? question_.config.replications : replications, whole_race);
+    expected_ = count_of(whole_race) - count_of(wanted) +
+                later_runs(question_.budget - place, is_thorough ? question_.signals.size() : likely_tries) +
+                fresh_runs();
+    doing_ = fmt::format("place {} of {}, {} on {} seeds", place, question_.budget,
+                         sets.size() == 2 ? "1 candidate" : fmt::format("{} candidates", sets.size() - 1),
+                         replications);
+    run_round(wanted);
+}
+
+std::vector<analysis::Values> EquipRounds::measure(const std::vector<analysis::SignalSet>& sets,
+                                                   std::size_t replications) {
+    const std::size_t place = sets.front().size() + 1;
+    std::vector<analysis::SignalSet> without_pairs = sets;
+    std::erase_if(without_pairs, [&](const analysis::SignalSet& set) { return set.size() > place; });
+    // Apart, so that a search for one signal is the beginning of one for two.
+    measure_in_a_round(without_pairs, sets, replications);
+    measure_in_a_round(sets, sets, replications);
     std::vector<analysis::Values> values;
     for (const analysis::SignalSet& set : sets) {
         analysis::Values& of_set = values.emplace_back();

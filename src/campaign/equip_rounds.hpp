@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <map>
@@ -25,7 +26,9 @@ struct EquipCandidates {
     std::vector<core::SignalIndex> signals;  ///< Ascending.
     /// By replication: which of them emergency vehicles pass there, ascending.
     std::vector<analysis::SignalSet> passed;
-    std::vector<double> trips;      ///< By candidate: share of the emergency vehicles that pass it.
+    std::vector<double> trips;  ///< By candidate: share of the emergency vehicles that pass it.
+    /// Candidates that follow each other on ways, the most driven first, six at most.
+    std::vector<std::array<std::size_t, 2>> neighbours;
     std::size_t not_passed = 0;     ///< No emergency vehicle passes them.
     std::size_t switched_off = 0;   ///< Passed, but their preemption parameters have `enabled` 0.
     std::size_t seldom_passed = 0;  ///< More emergency vehicles pass each of `most` others.
@@ -51,10 +54,11 @@ struct FreshOutcomes {
 
 /// What is searched, and for what.
 struct EquipQuestion {
-    study::StudyConfig config;                ///< Scenario, seed and replications.
-    experiment::ConditionSpec base;           ///< The condition whose signals are chosen.
-    std::vector<std::string> signals;         ///< Ids of the candidates.
-    std::vector<analysis::SignalSet> passed;  ///< As EquipCandidates has them.
+    study::StudyConfig config;                      ///< Scenario, seed and replications.
+    experiment::ConditionSpec base;                 ///< The condition whose signals are chosen.
+    std::vector<std::string> signals;               ///< Ids of the candidates.
+    std::vector<analysis::SignalSet> passed;        ///< As EquipCandidates has them.
+    std::vector<std::array<std::size_t, 2>> pairs;  ///< That are tried together.
     std::size_t budget = 1;
     analysis::Search search = analysis::Search::lazy;
 };
@@ -72,10 +76,10 @@ struct EquipForecast {
 };
 
 /// The runs behind a choice of signals, in folders below `options.folder`, so that the same call continues
-/// what was interrupted. `round-01`, ... hold what the search needed: a set and a replication whose emergency
-/// vehicles pass none of its signals but those of another set is the run of that set, and is not made again.
-/// `fresh-xxxxxx` is a study with the next seed. One display on standard error shows the progress of all. For
-/// one thread.
+/// what was interrupted. `round-01` and `round-xxxxxx` hold what the search needed: a set and a replication
+/// whose emergency vehicles pass none of its signals but those of another set is the run of that set, and is
+/// not made again. `fresh-xxxxxx` is a study with the next seed. One display on standard error shows the
+/// progress of all. For one thread.
 class EquipRounds {
   public:
     /// The folder of the first round, in every folder of a search.
@@ -111,6 +115,9 @@ class EquipRounds {
     /// Adds the runs that these sets need and that are neither known nor in `wanted`.
     void add_missing(const std::vector<analysis::SignalSet>& sets, std::size_t replications,
                      Wanted& wanted) const;
+    /// Makes the missing runs of `sets`, which with others are `racing`.
+    void measure_in_a_round(const std::vector<analysis::SignalSet>& sets,
+                            const std::vector<analysis::SignalSet>& racing, std::size_t replications);
     void run_round(const Wanted& wanted);
     results::Results run(const study::Plan& plan, const RunOptions& options);
     std::size_t fresh_runs() const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -65,10 +66,51 @@ std::string names_of(const EquipmentFacts& facts) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
+template <class Facts>
+double gain_or_least(const Facts& one) {
+    return analysis::mean_of(one.gain).value_or(std::numeric_limits<double>::lowest());
+}
+
+const char* shown_word(const analysis::MaybeEstimate& value) {
+    return is_shown(value) ? "shown" : "not shown";
+}
+
+std::string estimate_or_dash(const analysis::MaybeEstimate& value) {
+    return estimate(value, {});
+}
+
+/// What the others lose or, where that is shown, save.
+std::string others_words(const analysis::MaybeEstimate& loss) {
+    const analysis::Interval* const interval = analysis::shown_interval(loss);
+    if (interval == nullptr || interval->high >= 0.0)
+        return fmt::format("lose {} s each ({})", estimate_or_dash(loss), shown_word(loss));
+    analysis::MaybeEstimate saving = loss;
+    saving->mean = -loss->mean;
+    saving->interval = analysis::Interval{-interval->high, -interval->low};
+    return fmt::format("save {} s each (shown)", estimate_or_dash(saving));
+}
+
+std::string together_sentence(const EquipmentFacts& facts) {
+    std::vector<std::string> pairs;
+    for (const EquipPairFacts& pair : facts.pairs)
+        if (pair.chosen)
+            pairs.push_back(fmt::format("{} with {}, which gain {} s ({})", pair.numbers[0], pair.numbers[1],
+                                        estimate_or_dash(pair.both_gain), shown_word(pair.both_gain)));
+    return pairs.empty() ? "" : fmt::format("Chosen together: {}.", fmt::join(pairs, "; "));
+}
+
+/// Whether it was chosen in a pair, by what both gain.
+bool is_of_pair(const EquipmentFacts& facts, const EquippedSignal& signal) {
+    return std::ranges::any_of(facts.pairs, [&](const EquipPairFacts& pair) {
+        return pair.chosen && std::ranges::find(pair.numbers, signal.number) != pair.numbers.end();
+    });
+}
+
 std::string not_shown_sentence(const EquipmentFacts& facts) {
     std::vector<std::size_t> ranks;
     for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
-        if (!is_shown(facts.ranked[rank].gain)) ranks.push_back(rank + 1);
+        if (!is_shown(facts.ranked[rank].gain) && !is_of_pair(facts, facts.ranked[rank]))
+            ranks.push_back(rank + 1);
     if (ranks.empty()) return "";
     const std::string which = ranks.size() == facts.ranked.size()
                                   ? "of any of them"
@@ -99,10 +141,6 @@ std::string share_sentence(const EquipmentFacts& facts) {
 
 std::string left_out_sentence(std::size_t count, const char* why) {
     return count == 0 ? "" : fmt::format("Left out: {} that {}.", counted(count, "signal"), why);
-}
-
-std::string estimate_or_dash(const analysis::MaybeEstimate& value) {
-    return estimate(value, {});
 }
 
 const char* end_word(EquipEnd end) {
@@ -145,13 +183,28 @@ Sheet candidate_sheet(const EquipmentFacts& facts) {
                  {"rank", "Rank"}},
                 {}};
     std::vector<EquipCandidateFacts> candidates = facts.candidates;
-    std::ranges::stable_sort(candidates, std::greater{}, [](const EquipCandidateFacts& one) {
-        return analysis::mean_of(one.gain).value_or(-1e30);
-    });
+    std::ranges::stable_sort(candidates, std::greater{}, gain_or_least<EquipCandidateFacts>);
     for (const EquipCandidateFacts& one : candidates)
         sheet.rows.push_back({one.number, one.signal, one.streets, Share{one.trips}, one.gain,
                               is_shown(one.gain), one.gain ? one.gain->n : std::size_t{0}, one.left_race,
                               count_or_nothing(one.rank.value_or(0))});
+    return sheet;
+}
+
+Sheet pair_sheet(const EquipmentFacts& facts) {
+    Sheet sheet{{{"number", "No."},
+                 {"with", "with"},
+                 {"gain_a_signal_s", "Gain a signal, s"},
+                 {"shown", "Effect"},
+                 {"pairs", "Pairs"},
+                 {"left_race", "", Where::in_data},
+                 {"chosen", "", Where::in_data}},
+                {}};
+    std::vector<EquipPairFacts> pairs = facts.pairs;
+    std::ranges::stable_sort(pairs, std::greater{}, gain_or_least<EquipPairFacts>);
+    for (const EquipPairFacts& one : pairs)
+        sheet.rows.push_back({one.numbers[0], one.numbers[1], one.gain, is_shown(one.gain),
+                              one.gain ? one.gain->n : std::size_t{0}, one.left_race, one.chosen});
     return sheet;
 }
 
@@ -165,10 +218,10 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts) {
     } else {
         const EquippedSignal& last = facts.ranked.back();
         sentences.push_back(fmt::format("Equip first: {}.", names_of(facts)));
-        sentences.push_back(fmt::format(
-            "Together, an EV needs {} s less a trip than with none ({}), and the others lose {} s each ({}).",
-            estimate_or_dash(last.so_far), is_shown(last.so_far) ? "shown" : "not shown",
-            estimate_or_dash(last.others), is_shown(last.others) ? "shown" : "not shown"));
+        sentences.push_back(
+            fmt::format("Together, an EV needs {} s less a trip than with none ({}), and the others {}.",
+                        estimate_or_dash(last.so_far), shown_word(last.so_far), others_words(last.others)));
+        sentences.push_back(together_sentence(facts));
         sentences.push_back(not_shown_sentence(facts));
     }
     sentences.push_back(end_sentence(facts));
@@ -200,6 +253,10 @@ std::string candidate_legend(const EquipmentFacts& facts) {
         "[95 %, all rows together (Bonferroni), from {} pairs on]. One with fewer pairs was shown to gain "
         "less than another.",
         facts.seed, analysis::fewest_for_interval);
+}
+
+std::string pair_legend() {
+    return "Neighbours on the ways of the EVs, tried together in the same race: half of what both gain.";
 }
 
 std::string ranked_legend(const EquipmentFacts& facts) {
@@ -241,6 +298,8 @@ std::string equipment_text(const EquipmentFacts& facts) {
     if (!facts.candidates.empty())
         text += "\n" + detail::text_of(detail::candidate_sheet(facts)) +
                 paragraph({detail::candidate_legend(facts)});
+    if (!facts.pairs.empty())
+        text += "\n" + detail::text_of(detail::pair_sheet(facts)) + paragraph({detail::pair_legend()});
     text += "\n" + detail::text_of(detail::ranked_sheet(facts, detail::LastRow::all)) +
             paragraph({detail::ranked_legend(facts)});
     return text + "\n" + paragraph(detail::circumstances_of(facts)) + "\n" +
@@ -267,6 +326,7 @@ std::string equipment_json(const EquipmentFacts& facts) {
                        {"all_equipped_s", estimate_json(facts.all_s)},
                        {"alone_s", estimate_json(facts.alone_s)},
                        {"candidates", detail::json_of(detail::candidate_sheet(facts))},
+                       {"pairs", detail::json_of(detail::pair_sheet(facts))},
                        {"ranked", detail::json_of(detail::ranked_sheet(facts, detail::LastRow::ranked))},
                        {"all", detail::json_of(all).front()},
                        {"rank_with_80_percent", rank ? Json(*rank) : Json(nullptr)},
@@ -284,6 +344,10 @@ std::string equipment_csv(const EquipmentFacts& facts) {
 
 std::string candidates_csv(const EquipmentFacts& facts) {
     return detail::csv_of(detail::candidate_sheet(facts));
+}
+
+std::string pairs_csv(const EquipmentFacts& facts) {
+    return detail::csv_of(detail::pair_sheet(facts));
 }
 
 }  // namespace clearway::report

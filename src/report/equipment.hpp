@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -37,6 +38,16 @@ struct EquipCandidateFacts {
     std::optional<std::size_t> rank;  ///< From 1; nothing if it was not chosen.
 };
 
+/// Two candidates that follow each other on the ways of emergency vehicles, tried together as the candidates
+/// were alone.
+struct EquipPairFacts {
+    std::array<std::size_t, 2> numbers{};
+    analysis::MaybeEstimate gain;  ///< A signal: half of what both gain.
+    bool left_race = false;
+    bool chosen = false;
+    analysis::MaybeEstimate both_gain = {};  ///< Fresh: of both over the ranks before. Nothing if not chosen.
+};
+
 /// Which signals to equip first, and what that is worth. Gains are restricted mean travel times of emergency
 /// vehicles, paired by replication.
 struct EquipmentFacts {
@@ -55,6 +66,7 @@ struct EquipmentFacts {
     std::size_t seldom_passed = 0;  ///< Left out because more emergency vehicles pass the candidates.
     std::size_t runs = 0;           ///< Those that decide and those that estimate.
     std::vector<EquipCandidateFacts> candidates;  ///< By number.
+    std::vector<EquipPairFacts> pairs;            ///< Empty where only one signal was wanted.
     // Of the fresh seeds.
     analysis::MaybeEstimate baseline_s;  ///< Time without the policy.
     analysis::MaybeEstimate none_s;      ///< With the policy, no signal equipped.
@@ -88,6 +100,8 @@ std::string equipment_json(const EquipmentFacts& facts);
 std::string equipment_csv(const EquipmentFacts& facts);
 /// The candidates as CSV, the greatest gain first.
 std::string candidates_csv(const EquipmentFacts& facts);
+/// The pairs as CSV, the greatest gain first; only the names of the columns without pairs.
+std::string pairs_csv(const EquipmentFacts& facts);
 /// The curve of gain against number equipped with its intervals, and the gain of all: a stand-alone SVG.
 std::string equipment_curve(const EquipmentFacts& facts);
 /// The roads with the numbers of the chosen signals, the other candidates and those left out, as a

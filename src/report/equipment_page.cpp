@@ -202,11 +202,15 @@ void write_equipment_page(const EquipmentFacts& facts, std::ostream& page) {
         to_html(detail::data_table_of(detail::ranked_sheet(facts, detail::LastRow::all))) +
         note(detail::ranked_legend(facts));
     std::vector<detail::PageSection> sections = {{"equipment", "Which first", answer}};
+    const std::string pairs =
+        facts.pairs.empty()
+            ? ""
+            : to_html(detail::data_table_of(detail::pair_sheet(facts))) + note(detail::pair_legend());
     if (!facts.candidates.empty())
         sections.push_back({"candidates", "All candidates",
                             figures({detail::candidates_figure(facts)}) +
                                 to_html(detail::data_table_of(detail::candidate_sheet(facts))) +
-                                note(detail::candidate_legend(facts))});
+                                note(detail::candidate_legend(facts)) + pairs});
     sections.push_back({"reproduce", "Conditions",
                         paragraphs(detail::circumstances_of(facts), "") + "<pre><code>" +
                             escaped(facts.command) + "</code></pre>\n"});

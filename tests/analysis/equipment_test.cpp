@@ -1,6 +1,7 @@
 #include "analysis/equipment.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 #include <random>
@@ -24,9 +25,10 @@ class Crossroads {
 
     EquipPlan plan(std::size_t budget, Search search = Search::lazy, std::size_t replications = 3) {
         return equip_greedily(
-            {signals_, budget, replications, search},
+            {signals_, budget, replications, search, usual_level, pairs_},
             [this](const std::vector<SignalSet>& sets, std::size_t wanted) { return measure(sets, wanted); });
     }
+    void try_pair(std::size_t first, std::size_t second) { pairs_.push_back({first, second}); }
     /// Sets that were asked for, call by call, without the one chosen before, which comes first.
     const std::vector<std::vector<SignalSet>>& calls() const { return calls_; }
     const std::vector<std::size_t>& looks() const { return looks_; }
@@ -49,6 +51,7 @@ class Crossroads {
     std::size_t signals_;
     std::map<std::set<std::size_t>, double> gains_;
     double spread_;
+    std::vector<std::array<std::size_t, 2>> pairs_;
     std::vector<std::vector<SignalSet>> calls_;
     std::vector<std::size_t> looks_;
 };
@@ -90,6 +93,39 @@ TEST(Equipment, IsFoundByTheThoroughSearchAloneWhereASignalPaysOnlyWithAnother) 
         {{0}, 9.0}, {{1}, 5.0}, {{2}, 0.0}, {{0, 1}, 13.0}, {{0, 2}, 20.0}};
     EXPECT_THAT(chosen(Crossroads(3, gains).plan(2, Search::lazy)), ElementsAre(0, 1));
     EXPECT_THAT(chosen(Crossroads(3, gains).plan(2, Search::thorough)), ElementsAre(0, 2));
+}
+
+TEST(Equipment, IsFoundInPairsWhereASignalPaysOnlyWithItsNeighbour) {
+    Crossroads roads(3,
+                     {{{0}, 3.0}, {{1}, 0.0}, {{2}, -1.0}, {{1, 2}, 12.0}, {{0, 1}, 3.0}, {{0, 1, 2}, 14.0}});
+    roads.try_pair(1, 2);
+    const EquipPlan plan = roads.plan(3);
+    EXPECT_THAT(chosen(plan), ElementsAre(1, 2, 0)) << "6 s a signal are more than 3 s";
+    EXPECT_EQ(plan.steps[0].partner, 2U);
+    EXPECT_EQ(plan.steps[1].partner, 1U);
+    EXPECT_EQ(plan.steps[2].partner, std::nullopt);
+    EXPECT_DOUBLE_EQ(plan.steps[0].gain->mean, 6.0);
+    EXPECT_DOUBLE_EQ(plan.steps[2].gain->mean, 2.0) << "over both";
+    ASSERT_EQ(plan.pairs.size(), 1U);
+    EXPECT_DOUBLE_EQ(plan.pairs[0].gain->mean, 6.0);
+    EXPECT_EQ(plan.candidates.size(), 3U);
+}
+
+TEST(Equipment, IsNotTriedInPairsThatDoNotFitTheBudget) {
+    Crossroads roads(3, {{{0}, 3.0}, {{1}, 0.0}, {{2}, -1.0}, {{1, 2}, 12.0}, {{0, 1}, 2.0}, {{0, 2}, 2.0}});
+    roads.try_pair(1, 2);
+    EXPECT_THAT(chosen(roads.plan(1)), ElementsAre(0));
+    EXPECT_TRUE(roads.plan(1).pairs.empty());
+    EXPECT_THAT(chosen(roads.plan(2)), ElementsAre(1, 2));
+}
+
+TEST(Equipment, OfAPairWithAChosenSignalIsTriedAlone) {
+    Crossroads roads(2, {{{0}, 9.0}, {{1}, 1.0}, {{0, 1}, 11.0}});
+    roads.try_pair(0, 1);
+    const EquipPlan plan = roads.plan(2);
+    EXPECT_THAT(chosen(plan), ElementsAre(0, 1));
+    EXPECT_EQ(plan.steps[0].partner, std::nullopt) << "9 s are more than 5.5 s";
+    EXPECT_DOUBLE_EQ(plan.steps[1].gain->mean, 2.0);
 }
 
 TEST(Equipment, OfEqualGainGoesToTheFirst) {

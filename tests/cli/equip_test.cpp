@@ -61,6 +61,7 @@ TEST_F(EquipTest, ranks_signals_and_continues_in_its_folder_without_new_runs) {
     EXPECT_THAT(read("out/equip.json"), ended.out);
     EXPECT_THAT(read("out/equip.csv"), HasSubstr("equipped,number,signal"));
     EXPECT_THAT(read("out/candidates.csv"), HasSubstr("number,signal,streets,share_of_trips,gain_s"));
+    EXPECT_THAT(read("out/pairs.csv"), HasSubstr("\n1,2,")) << "A and B follow each other";
     EXPECT_THAT(read("out/curve.svg"), HasSubstr("<svg"));
     EXPECT_THAT(read("out/map.svg"), HasSubstr("Two crossings: signals to equip first"));
     EXPECT_THAT(read("out/report.html"), HasSubstr("<section id=\"equipment\">"));
@@ -95,9 +96,10 @@ TEST_F(EquipTest, says_before_it_runs_how_many_runs_it_makes) {
     EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
     const auto json = nlohmann::json::parse(dry.out);
     EXPECT_EQ(json.at("candidates"), 2);
-    // None and each alone on 5 seeds; both together on 5; then baseline, none, all, alone and two ranks.
-    EXPECT_EQ(json.at("runs"), 15 + 5 + 30);
-    EXPECT_EQ(json.at("most_runs"), 50);
+    // None, each alone and both together on 5 seeds, once more at the second place; then baseline, none, all,
+    // alone and two ranks.
+    EXPECT_EQ(json.at("runs"), 20 + 5 + 30);
+    EXPECT_EQ(json.at("most_runs"), 55);
     EXPECT_GT(json.at("estimated_time_s").get<double>(), 0.0);
     EXPECT_FALSE(json.at("estimate_measured").get<bool>());
     const auto made = nlohmann::json::parse(equip({"--json"}).out);
@@ -107,7 +109,7 @@ TEST_F(EquipTest, says_before_it_runs_how_many_runs_it_makes) {
     }
     const Ended text = equip({"--dry-run"});
     EXPECT_THAT(text.out,
-                AllOf(HasSubstr("50 runs likely, 50 at most"), HasSubstr("from runs of this scenario")));
+                AllOf(HasSubstr("55 runs likely, 55 at most"), HasSubstr("from runs of this scenario")));
     std::istringstream lines(text.out);
     for (std::string line; std::getline(lines, line);)
         EXPECT_LE(line.size(), 80U) << line;

@@ -93,6 +93,35 @@ TEST(Equipment, HasARowForEachCandidateAndRankInEightyColumns) {
         EXPECT_LE(line.size(), 80U) << line;
 }
 
+TEST(Equipment, SaysThatTheOthersSaveTimeWhereThatIsShown) {
+    EquipmentFacts facts = two_of_twelve();
+    EXPECT_THAT(flat_text(facts), HasSubstr("the others lose 1.0 [0.6, 1.4] s each (shown)"));
+    facts.ranked.back().others = about(-3.0, 1.0);
+    EXPECT_THAT(flat_text(facts), HasSubstr("the others save 3.0 [2.0, 4.0] s each (shown)"));
+    facts.ranked.back().others = about(-3.0, 4.0);
+    EXPECT_THAT(flat_text(facts), HasSubstr("the others lose -3.0 [-7.0, 1.0] s each (not shown)"));
+}
+
+TEST(Equipment, HasPairsThatWereTriedTogether) {
+    EquipmentFacts facts = two_of_twelve();
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("Gain a signal")));
+    facts.pairs = {{{1, 4}, about(2.0, 3.0), true, false},
+                   {{4, 9}, about(21.0, 4.0), false, true, about(42.0, 5.0)}};
+    const std::string text = flat_text(facts);
+    EXPECT_THAT(text, AllOf(HasSubstr("21.0 [17.0, 25.0]  shown"),
+                            HasSubstr("Chosen together: 4 with 9, which gain 42.0 [37.0, 47.0] s (shown)."),
+                            Not(HasSubstr("Not shown:"))));
+    EXPECT_LT(text.find("21.0 [17"), text.find("2.0 [-1.0, 5.0]")) << "the greatest gain first";
+    EXPECT_EQ(
+        pairs_csv(facts),
+        "number,with,gain_a_signal_s,gain_a_signal_low_s,gain_a_signal_high_s,shown,pairs,left_race,chosen\n"
+        "4,9,21,17,25,true,10,false,true\n1,4,2,-1,5,false,10,true,false\n");
+    EXPECT_EQ(nlohmann::json::parse(equipment_json(facts)).at("pairs").at(0).at("with"), 9);
+    std::ostringstream page;
+    write_equipment_page(facts, page);
+    EXPECT_THAT(page.str(), HasSubstr("Gain a signal, s"));
+}
+
 TEST(Equipment, EndsWithTheAnswer) {
     const std::string text = flat_text(two_of_twelve());
     const std::string answer =

@@ -13,6 +13,7 @@ enum class LastRow : std::uint8_t { ranked, all };
 Sheet ranked_sheet(const EquipmentFacts& facts, LastRow last);
 /// The greatest gain first.
 Sheet candidate_sheet(const EquipmentFacts& facts);
+Sheet pair_sheet(const EquipmentFacts& facts);
 
 /// What was found, a sentence each, the answer first.
 std::vector<std::string> findings_of(const EquipmentFacts& facts);
@@ -21,6 +22,7 @@ std::vector<std::string> circumstances_of(const EquipmentFacts& facts);
 /// How the columns are to be read.
 std::string ranked_legend(const EquipmentFacts& facts);
 std::string candidate_legend(const EquipmentFacts& facts);
+std::string pair_legend();
 
 /// A drawing of the page; without one where there is nothing to draw.
 Figure curve_figure(const EquipmentFacts& facts);
