@@ -19,12 +19,13 @@ std::string some_of(const std::vector<std::string>& places) {
     return fmt::format("{} and {} more", places.front(), places.size() - 1);
 }
 
-/// A problem that several places of an input share is told once, where it says more than what is missing.
+/// An equal problem is told once; so is one of several places that comes with a long list of what is allowed.
 std::vector<Problem> each_once(const std::vector<Problem>& problems) {
     std::vector<Problem> told;
     std::map<std::string, std::vector<std::string>> places;  // by the problem without its place
     const auto kind_of = [](Problem one) {
-        if (!one.allowed.empty()) one.where.clear();
+        constexpr std::size_t long_list = 100;
+        if (one.allowed.size() > long_list) one.where.clear();
         return format_problem(one);
     };
     for (const Problem& one : problems) {

@@ -85,14 +85,16 @@ TEST(InputError, TellsAnEqualProblemOnce) {
     EXPECT_STREQ(error.what(), "a: one\nb: two");
 }
 
-TEST(InputError, TellsOnceWhatIsAllowedForSeveralPlaces) {
-    const auto unknown = [](const char* where) { return Problem{where, "`B1` is unknown", "B5, B10", ""}; };
-    EXPECT_STREQ(InputError({unknown("a"), unknown("b")}).what(),
-                 "a and b: `B1` is unknown (allowed: B5, B10)");
-    EXPECT_STREQ(InputError({unknown("a"), unknown("b"), unknown("c")}).what(),
-                 "a and 2 more: `B1` is unknown (allowed: B5, B10)");
-    const auto missing = [](const char* where) { return Problem{where, "is missing", "", ""}; };
-    EXPECT_STREQ(InputError({missing("a"), missing("b")}).what(), "a: is missing\nb: is missing");
+TEST(InputError, TellsALongListOfWhatIsAllowedOnceForSeveralPlaces) {
+    const std::string many(101, 'x');
+    const auto unknown = [&](const char* where) { return Problem{where, "`B1` is unknown", many, ""}; };
+    EXPECT_EQ(InputError({unknown("a"), unknown("b")}).what(),
+              "a and b: `B1` is unknown (allowed: " + many + ")");
+    EXPECT_EQ(InputError({unknown("a"), unknown("b"), unknown("c")}).what(),
+              "a and 2 more: `B1` is unknown (allowed: " + many + ")");
+    const auto negative = [](const char* where) { return Problem{where, "-1", "0 to 5", ""}; };
+    EXPECT_STREQ(InputError({negative("a"), negative("b")}).what(),
+                 "a: -1 (allowed: 0 to 5)\nb: -1 (allowed: 0 to 5)");
 }
 
 TEST(Nearest, PrefersTheSmallerDistanceThenTheEarlierWord) {

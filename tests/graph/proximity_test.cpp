@@ -113,11 +113,33 @@ TEST(ProximityGraph, RefusesWhatIsNoPlace) {
         wrong.y_m[1] = bad;
         EXPECT_THROW(builder.build(wrong.places(), {}, graph), std::invalid_argument);
     }
+    Crowd alone;
+    alone.add(0.0F, 0.0F, human);
     for (const double radius_m : {0.0, -1.0, 1070.5, std::nan("")}) {
-        EXPECT_THROW(builder.build_all_pairs(crowd.places(), radius_m, graph), std::invalid_argument);
+        EXPECT_THROW(builder.build_all_pairs(alone.places(), radius_m, graph), std::invalid_argument)
+            << radius_m;
     }
-    crowd.x_m.push_back(2.0F);
-    EXPECT_THROW(builder.build(crowd.places(), {}, graph), std::invalid_argument);
+    EXPECT_NO_THROW(builder.build_all_pairs(crowd.places(), 1070.0, graph)) << "the largest";
+    for (const auto column : {&Crowd::x_m, &Crowd::y_m}) {
+        Crowd longer = crowd;
+        (longer.*column).push_back(2.0F);
+        EXPECT_THROW(builder.build(longer.places(), {}, graph), std::invalid_argument);
+        Crowd wide = crowd;
+        (wide.*column) = {-1e11F, 1e11F};
+        EXPECT_THROW(builder.build(wide.places(), {}, graph), std::invalid_argument)
+            << "more cells than numbers";
+    }
+}
+
+TEST(ProximityGraph, APairJustInsideTheRadiusIsLinkedWhereverTheCellsBegin) {
+    LinkRules rules;
+    rules.radius_m = 1000.0;
+    Crowd crowd;
+    crowd.add(0.0F, 0.0F, human);  // where the first cell begins
+    crowd.add(999.9989F, 0.0F, human);
+    crowd.add(1999.9983F, 0.0F, automated);  // two cells of 999.999 m on
+    const ProximityGraph graph = build(crowd, rules);
+    EXPECT_THAT(graph.neighbour, ElementsAre(2u, 1u));
 }
 
 TEST(ProximityGraph, AFarOutlierCostsNeitherTimeNorLinks) {
