@@ -20,8 +20,9 @@ constexpr VehicleClass human = VehicleClass::human;
 constexpr VehicleClass automated = VehicleClass::automated;
 constexpr VehicleClass emergency = VehicleClass::emergency;
 
-ProximityGraph build(const Crowd& crowd, const LinkRules& rules = {}) {
-    ProximityBuilder builder;
+ProximityGraph build(const Crowd& crowd, const LinkRules& rules = {},
+                     ProximityBuilder::Kernel kernel = ProximityBuilder::Kernel::fastest_here) {
+    ProximityBuilder builder(kernel);
     ProximityGraph graph;
     builder.build(crowd.places(), rules, graph);
     return graph;
@@ -73,6 +74,7 @@ TEST(ProximityGraph, ADistanceOfExactlyTheRadiusIsNoLink) {
         at_radius.add(0.0F, 0.0F, automated);
         at_radius.add(radius_m, 0.0F, human);
         EXPECT_EQ(build(at_radius, rules).link_count(), 0u) << radius_m;
+        EXPECT_EQ(build(at_radius, rules, ProximityBuilder::Kernel::scalar).link_count(), 0u) << radius_m;
         at_radius.x_m[1] = std::nextafter(radius_m, 0.0F);
         EXPECT_EQ(build(at_radius, rules).link_count(), 1u) << radius_m;
     }
@@ -80,6 +82,12 @@ TEST(ProximityGraph, ADistanceOfExactlyTheRadiusIsNoLink) {
     diagonal.add(0.0F, 0.0F, automated);
     diagonal.add(30.0F, -40.0F, human);
     EXPECT_EQ(build(diagonal).link_count(), 0u);
+    LinkRules rules;
+    rules.radius_m = 40.0;
+    diagonal.x_m[1] = std::nextafter(32.0F, 0.0F);
+    diagonal.y_m[1] = 24.0F;
+    EXPECT_EQ(build(diagonal, rules).link_count(), 0u)
+        << "the square is below 1600 m2, its root rounds to 40 m";
 }
 
 TEST(ProximityGraph, VehiclesOnOneSpotAreLinked) {

@@ -3,9 +3,9 @@
     mutate.py BUILD [MODULE ...] [--sample N] [--seed S] [--jobs J]
 
 BUILD: a build folder with tests, such as build/ci. A mistake turns a comparison, adds one to a number, swaps + and -, * and /,
-&& and ||, or drops a call; of each module N of all that can be made are tried. One that does not compile does not count. Those
-that no test finds are printed; survivors.txt says of the ones that change nothing why. Ends with 1 where fewer than 85 % of the
-others are found, or where one survives without a reason there. Takes 5 to 10 s of processor time for each mistake.
+&& and ||, or drops a call; of each module N of all that can be made are tried. One that does not compile does not count, nor one
+of which survivors.txt says why it changes nothing. The others that no test finds are printed, each of which asks for a test or
+a reason there. Ends with 1 where fewer than 85 % are found. Takes 2 to 10 s of processor time for each mistake.
 """
 import argparse
 import concurrent.futures
@@ -139,7 +139,7 @@ def reasons():
 
 
 def judge(module, bench, asked, known):
-    """Prints what survived; whether that is few enough, and all of it has a reason."""
+    """Prints what survived; whether that is few enough."""
     files = sorted((ROOT / "src" / module).rglob(MODULES[module].rpartition("/")[2]))
     files = [file for file in files if file.match(f"{module}/{MODULES[module]}") or "/" not in MODULES[module]]
     tried = [mistake for file in files for mistake in mistakes_of(module, file)]
@@ -156,7 +156,7 @@ def judge(module, bench, asked, known):
     for mistake in survived:
         if mistake.name() not in known:
             print(f"  line {mistake.number + 1}: {mistake.name()}", flush=True)
-    return share >= LEAST_FOUND and len(listed) == len(survived)
+    return share >= LEAST_FOUND
 
 
 def main():
