@@ -64,6 +64,7 @@ TEST(LinkQuality, f1_counts_the_threshold_as_predicted) {
     EXPECT_DOUBLE_EQ(*f1_score(links, 0.5), 2.0 / 4.0);   // TP 1, FP 1, FN 1
     EXPECT_DOUBLE_EQ(*f1_score(links, 0.51), 2.0 / 3.0);  // TP 1, FN 1
     EXPECT_DOUBLE_EQ(*f1_score(links, 0.0), 4.0 / 6.0);   // all predicted
+    EXPECT_EQ(f1_score(Links{{0.9, 0.1}, {0, 1}}, 0.5), 0.0);
 }
 
 TEST(LinkQuality, best_threshold_maximises_f1) {
@@ -92,6 +93,9 @@ TEST(LinkQuality, calibration_error_weighs_bins_by_their_pairs) {
     // Bin of 0.10: mean 0.10, share 1/2, two pairs. Bin of 0.90: mean 0.90, share 1, one pair.
     EXPECT_NEAR(*calibration_error(Links{{0.10, 0.10, 0.90}, {1, 0, 1}}), (2 * 0.4 + 1 * 0.1) / 3, 1e-12);
     EXPECT_NEAR(*calibration_error(Links{{0.5, 0.5}, {1, 0}}), 0.0, 1e-12);
+    // The first of the 15 bins ends at 0.0667.
+    EXPECT_NEAR(*calibration_error(Links{{0.064, 0.05}, {1, 0}}), (1.0 - 0.114) / 2, 1e-12);
+    EXPECT_NEAR(*calibration_error(Links{{0.068, 0.05}, {1, 0}}), (0.932 + 0.05) / 2, 1e-12);
     EXPECT_NEAR(*calibration_error(Links{{1.0, 0.0}, {1, 0}}), 0.0, 1e-12);
 }
 

@@ -176,7 +176,7 @@ TEST_F(LockWatch, a_ring_is_one_lock) {
 
 TEST_F(LockWatch, one_that_waits_for_a_gap_in_a_stream_is_not_locked) {
     put("b1", south, 99.0F);
-    put("stream", west, 80.0F, 8.0F);
+    put("stream", west, 0.0F, 8.0F);
     stand(200);
     put("stream", inside_we, 5.0F, 8.0F);
     stand(200);
@@ -257,6 +257,23 @@ TEST_F(LockWatch, a_red_beyond_free_road_explains_nothing) {
     put("a1", west, 99.0F);
     stand(200, "Gr");
     EXPECT_EQ(finish().metrics.locks, 1U);
+}
+
+TEST_F(LockWatch, a_red_is_too_far_where_a_vehicle_and_a_gap_just_fit_before_it) {
+    put("a1", west, 99.0F);
+    drives("a1", {EdgeIndex{west}, EdgeIndex{east}, EdgeIndex{north}}, 10.0F);
+    stand(100, "Gr");
+    EXPECT_EQ(finish().metrics.locks, 1U);
+}
+
+TEST_F(LockWatch, vehicles_that_end_their_routes_wait_for_nobody_ahead) {
+    watch_street(false);
+    drives("a1", {EdgeIndex{1}});
+    put("a1", 3, 19.0F);  // at a red that it does not pass
+    drives("a2", {EdgeIndex{3}});
+    put("a2", 5, 99.0F);
+    stand(100, "r");
+    EXPECT_EQ(finish().metrics.locked_vehicles, 2U);
 }
 
 TEST_F(LockWatch, a_queue_behind_a_moving_vehicle_is_no_lock) {

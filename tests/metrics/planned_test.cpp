@@ -54,5 +54,30 @@ TEST(ReadPlanned, RefusesFlowsAndDeparturesThatAreNoTimesNamingTheLine) {
     EXPECT_THROW(read_planned(std::vector{folder.path() / "none.xml"}, {}), core::InputError);
 }
 
+TEST(PlannedIn, ListsTheVehiclesOfATripinfoWithTheClassOfTheRosterAndTheTimeTheyWantedToDepart) {
+    const support::TemporaryFolder folder;
+    const auto file = folder.write("tripinfo.xml", R"(<tripinfos>
+    <tripinfo id="one" depart="61.50" departDelay="1.50"/>
+    <tripinfo id="two" depart="-1" departDelay="30"/>
+    <personinfo id="walker" depart="0"/>
+</tripinfos>)");
+    traffic::Roster roster;
+    traffic::VehicleInfo info;
+    info.id = "one";
+    info.key = core::vehicle_key(info.id);
+    info.vehicle_class = VehicleClass::emergency;
+    info.kind = VehicleKind::fire_engine;
+    roster.add(info);
+    const auto planned = planned_in(file, roster);
+    ASSERT_EQ(planned.size(), 2U);
+    EXPECT_EQ(planned[0].id, "one");
+    EXPECT_EQ(planned[0].vehicle_class, VehicleClass::emergency);
+    EXPECT_EQ(planned[0].kind, VehicleKind::fire_engine);
+    EXPECT_DOUBLE_EQ(planned[0].depart_s, 60.0);
+    EXPECT_EQ(planned[1].vehicle_class, VehicleClass::human) << "it never entered";
+    EXPECT_EQ(planned[1].depart_s, 0.0);
+    EXPECT_THROW(planned_in(folder.path() / "none.xml", roster), core::SimulatorError);
+}
+
 }  // namespace
 }  // namespace clearway::metrics

@@ -1,5 +1,7 @@
 #include "metrics/recorder.hpp"
 
+#include <set>
+
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
@@ -66,6 +68,7 @@ TEST_F(RecorderAtTheEnd, AveragesOverThoseThatArrivedOrWereInserted) {
     EXPECT_DOUBLE_EQ(*metrics.depart_delay_s, 6.0 / 5.0);
     EXPECT_DOUBLE_EQ(*metrics.others_travel_time_s, 45.0);  // h1, a1
     EXPECT_DOUBLE_EQ(metrics.simulated_s, 100.0);
+    EXPECT_DOUBLE_EQ(metrics.vehicle_km, 5 * 0.5);
 }
 
 TEST_F(RecorderAtTheEnd, AStopThatWasCommandedIsTimeLostAndWaiting) {
@@ -118,6 +121,34 @@ TEST_F(RecorderAtTheEnd, AVehicleWithoutTripinfoWasNotInserted) {
     EXPECT_FALSE(summary.vehicles.back().depart_s);
 }
 
+TEST_F(RecorderAtTheEnd, AVehicleMayArriveInTheFirstStep) {
+    const RunSummary summary =
+        Recorder().finish(end(trip("h1", "0.00", "0.00", "0.00", "0.00", "0.00", "0.00")));
+    EXPECT_EQ(summary.vehicles.front().outcome, VehicleOutcome::arrived);
+    EXPECT_EQ(summary.vehicles.front().arrival_s, 0.0);
+}
+
+TEST_F(RecorderAtTheEnd, CountsRequestsToSignalsThatWereMessagesAndThoseThatWereLeases) {
+    RunEnd end;
+    end.leases.requests.signal_sent = 10;
+    end.leases.requests.signal_heard = 7;
+    end.leases.requests.signal_messages = 20;
+    end.leases.signal_requests.sent = 4;
+    end.leases.signal_requests.heard = 3;
+    end.leases.signal_requests.messages = 5;
+    const RunMetrics before = Recorder().finish(end).metrics;
+    EXPECT_EQ(before.signal_requests_sent, 14U);
+    EXPECT_EQ(before.signal_requests_heard, 10U);
+    EXPECT_EQ(before.signal_request_messages, 25U);
+    EXPECT_FALSE(before.signal_granted_after_s);
+    auto& told = end.leases.signal_requests.told;
+    told[static_cast<std::size_t>(traffic::RequestStatus::granted)] = 1;
+    end.leases.signal_requests.until_granted_s = 8.0;
+    EXPECT_EQ(Recorder().finish(end).metrics.signal_granted_after_s, 8.0);
+    told[static_cast<std::size_t>(traffic::RequestStatus::granted)] = 2;
+    EXPECT_EQ(Recorder().finish(end).metrics.signal_granted_after_s, 4.0);
+}
+
 TEST_F(RecorderAtTheEnd, RefusesATripinfoThatIsCutOffUnknownOrDouble) {
     RunEnd cut = end(all_trips_);
     folder_.write("tripinfo.xml", "<tripinfos>\n" + all_trips_);
@@ -148,7 +179,7 @@ TEST_F(RecorderAtTheEnd, CountsWalksAndAveragesTheTimeLostOnThoseThatEnded) {
     end.tripinfo_files = {
         folder_.write("walks.xml",
                       "<tripinfos>"
-                      "<personinfo id=\"a\"><walk arrival=\"9\" timeLoss=\"4\"/></personinfo>"
+                      "<personinfo id=\"a\"><walk arrival=\"0\" timeLoss=\"4\"/></personinfo>"
                       "<personinfo id=\"b\"><walk arrival=\"9\" timeLoss=\"6\"/></personinfo>"
                       "<personinfo id=\"c\"><walk arrival=\"-1\" timeLoss=\"0\"/></personinfo>"
                       "</tripinfos>")};
@@ -289,6 +320,28 @@ TEST_F(TraceHashOfARun, MovesWithTargetActionAndExpiryOfALease) {
     EXPECT_NE(faster, later);
     lease.target = core::SignalIndex{1};
     EXPECT_NE(hash({lease}), faster);
+}
+
+TEST_F(TraceHashOfARun, MovesWithEveryNumberOfAStretch) {
+    traffic::Stretch stretch;
+    std::set<std::string> hashes;
+    const auto look = [&] {
+        traffic::Lease lease;
+        lease.target = stretch;
+        hashes.insert(hash({lease}));
+    };
+    look();
+    stretch.lane = core::LaneIndex{1};
+    look();
+    stretch.from_m = 1.0F;
+    look();
+    stretch.to_m = 2.0F;
+    look();
+    stretch.below_mps = 3.0F;
+    look();
+    stretch.addressed = traffic::Addressed::drivers;
+    look();
+    EXPECT_EQ(hashes.size(), 6U);
 }
 
 }  // namespace

@@ -36,6 +36,7 @@ struct Vehicle {
     float speed_mps = 10.0F;
     float acceleration_mps2 = 0.0F;
     float x_m = 0.0F;
+    float y_m = 0.0F;
 };
 
 class Safety : public testing::Test {
@@ -56,6 +57,7 @@ class Safety : public testing::Test {
             snapshot.speed_mps[row] = vehicle.speed_mps;
             snapshot.acceleration_mps2[row] = vehicle.acceleration_mps2;
             snapshot.x_m[row] = vehicle.x_m;
+            snapshot.y_m[row] = vehicle.y_m;
             if (roster_.find(snapshot.key[row]) == nullptr) {
                 traffic::VehicleInfo info;  // 5 m long
                 info.key = snapshot.key[row];
@@ -110,34 +112,53 @@ TEST_F(Safety, SeesNoConflictAcrossLanesFarFromAnEvOrSideBySide) {
 }
 
 TEST_F(Safety, CountsConflictsOfOthersNearAnEv) {
-    step(0.0, {emergency(1, 50.0F, 10.0F),
-               {"h1", VehicleClass::human, 0, 50.0F, 10.0F},
-               {"h2", VehicleClass::human, 0, 60.0F, 5.0F}});
-    EXPECT_EQ(metrics().emergency_conflicts, 1U);
+    const auto conflicts = [&](float away_m) {
+        step(0.0, {{"ev", VehicleClass::emergency, 1, 50.0F, 10.0F, 0.0F, 500.0F, 800.0F},
+                   {"h1", VehicleClass::human, 0, 50.0F, 10.0F, 0.0F, 500.0F, 800.0F + away_m},
+                   {"h2", VehicleClass::human, 0, 60.0F, 5.0F, 0.0F, 500.0F, 800.0F + away_m}});
+        return metrics().emergency_conflicts;
+    };
+    EXPECT_EQ(conflicts(100.0F), 0U);
+    EXPECT_EQ(conflicts(99.0F), 1U);
+}
+
+TEST_F(Safety, TakesVehiclesThatTouchForNoConflict) {
+    step(0.0, {emergency(0, 50.0F, 10.0F), {"h", VehicleClass::human, 0, 55.0F, 0.0F}});
+    EXPECT_FALSE(metrics().emergency_least_ttc_s);
+    EXPECT_FALSE(metrics().emergency_greatest_drac_mps2);
+    step(1.0, {emergency(0, 50.0F, 10.0F), {"h", VehicleClass::human, 0, 55.5F, 0.0F}});
+    EXPECT_DOUBLE_EQ(*metrics().emergency_least_ttc_s, 0.05);
 }
 
 TEST_F(Safety, CountsPassagesOfRedByClassAndPassagesOfDemandByTheHour) {
-    step(0.0, {emergency(0, 99.0F, 10.0F), {"h1", VehicleClass::human, 1}, {"h2", VehicleClass::human, 0}},
-         "rr");
-    // The EV crosses on red; h1 jumps over the junction on red; h2 stays.
-    step(1.0, {emergency(2, 1.0F, 10.0F), {"h1", VehicleClass::human, 4}, {"h2", VehicleClass::human, 0}},
-         "rr");
+    const Vehicle waits{"h2", VehicleClass::human, 0};
+    step(0.0,
+         {emergency(0, 99.0F, 10.0F), {"h1", VehicleClass::human, 1}, waits, {"h3", VehicleClass::human, 1}});
+    // The EV and h3 cross on red; h1 jumps over the junction on red.
+    step(1.0,
+         {emergency(2, 1.0F, 10.0F), {"h1", VehicleClass::human, 4}, waits, {"h3", VehicleClass::human, 3}});
     // The letter changes in the step in which h2 crosses: no passage of red.
     step(2.0, {emergency(4, 1.0F, 10.0F), {"h1", VehicleClass::human, 4}, {"h2", VehicleClass::human, 2}},
          "Gr");
     const RunMetrics found = metrics();
     EXPECT_EQ(found.emergency_red_passages, 1U);
-    EXPECT_EQ(found.others_red_passages, 1U);
-    EXPECT_DOUBLE_EQ(*found.signal_throughput_per_hour, 3.0 / 2.0 * 3600.0);
+    EXPECT_EQ(found.others_red_passages, 2U);
+    EXPECT_DOUBLE_EQ(*found.signal_throughput_per_hour, 4.0 / 2.0 * 3600.0);
 }
 
 TEST_F(Safety, CountsHardBrakingOfOthersOnceAndTheirJerk) {
     // In steps of 0.5 s: 0, -4, -4, 0 m/s^2: jerks of 8, 0 and 8 m/s^3. The EV brakes harder and counts not.
     double time_s = 0.0;
-    for (const float acceleration_mps2 : {0.0F, -4.0F, -4.0F, 0.0F}) {
+    const auto drive = [&](float acceleration_mps2) {
         step(time_s += 0.5, {{"ev", VehicleClass::emergency, 1, 0.0F, 10.0F, 2.0F * acceleration_mps2},
                              {"a", VehicleClass::automated, 0, 0.0F, 10.0F, acceleration_mps2}});
-    }
+    };
+    drive(0.0F);
+    EXPECT_FALSE(metrics().others_jerk_mps3);
+    drive(-4.0F);
+    EXPECT_DOUBLE_EQ(*metrics().others_jerk_mps3, 8.0);
+    drive(-4.0F);
+    drive(0.0F);
     EXPECT_EQ(metrics().others_hard_brakings, 1U);
     EXPECT_DOUBLE_EQ(*metrics().others_jerk_mps3, std::sqrt(128.0 / 3.0));
 }
@@ -146,6 +167,8 @@ TEST_F(Safety, AveragesQueuesOverApproachesAndTheTimeOfDemand) {
     const Vehicle first{"h1", VehicleClass::human, 0, 99.0F, 0.0F};
     const Vehicle second{"h2", VehicleClass::human, 0, 90.0F, 0.0F};
     step(0.0, {});
+    EXPECT_FALSE(metrics().signal_queue_vehicles);
+    EXPECT_FALSE(metrics().signal_throughput_per_hour);
     step(1.0, {first});
     step(2.0, {first, second});
     step(100.0, {first});  // Demand is over.

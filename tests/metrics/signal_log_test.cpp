@@ -76,8 +76,8 @@ class SignalLog : public testing::Test {
 
 TEST_F(SignalLog, IsEmptyWhileNobodyAsks) {
     step(0, "Grr");
-    step(1, "yrr");
-    step(2, "rGr");
+    step(1, "yrr", {}, 1);  // past the signal
+    step(2, "rGr", {}, 0);
     EXPECT_THAT(lines(), IsEmpty());
 }
 
@@ -146,6 +146,45 @@ TEST_F(SignalLog, ThatBeginsAgainTellsOnlyWhatChangedSince) {
     EXPECT_THAT(lines(), ElementsAre("1 J 1 2 [1] ", "1 J 23 3 [2] ", "2 J 102 1 [0] ev", "3 J 104 1 [0] ev",
                                      "3 J 150 0 [] ", "5 J 10 2 [1] ", "6 J 1 1 [0] ", "6 J 102 1 [0] ev"))
         << "the yellow in between is lost";
+}
+
+TEST_F(SignalLog, WritesLinksOfAPhaseThatChangeTogetherInOneRow) {
+    RoadLayout layout = junction();
+    layout.signal_heads[0].push_back({2, 2, false, {0}});
+    recorder_.watch(layout);
+    step(0, "rrrr");
+    step(1, "rrrr", asked(SignalStage::program, {}));
+    step(2, "GGrG", asked(SignalStage::program, {}));
+    EXPECT_THAT(lines(), ElementsAre("1 J 102 1 [0] ev", "2 J 1 1 [0] ", "2 J 1 2 [1 3] "))
+        << "nobody knows since when the links were red, so no clearance ends";
+}
+
+TEST_F(SignalLog, EndsTheClearanceOfRedLinksOnly) {
+    step(0, "rrr");
+    step(1, "Grr", asked(SignalStage::program, {}));
+    step(2, "GGr", asked(SignalStage::program, {}));
+    step(3, "rGr", asked(SignalStage::program, {}));
+    step(4, "rGG", asked(SignalStage::program, {}));
+    EXPECT_THAT(lines(), ElementsAre("1 J 1 1 [0] ", "1 J 102 1 [0] ev", "2 J 1 2 [1] ", "3 J 10 1 [0] ",
+                                     "4 J 11 1 [0] ", "4 J 21 3 [2] "));
+}
+
+TEST_F(SignalLog, HasNoApproachesOfSignalsWithoutHeads) {
+    RoadLayout layout = junction();
+    layout.signal_heads.clear();
+    recorder_.watch(layout);
+    step(0, "Grr", asked(SignalStage::program, {}));
+    EXPECT_THAT(lines(), ElementsAre("0 J 102 0 [0] ev"));
+}
+
+TEST_F(SignalLog, NamesACallByTheFirstOfItsLinksWithAnApproach) {
+    RoadLayout layout = junction();
+    layout.signal_heads[0][0].approach = 0;
+    recorder_.watch(layout);
+    auto calls = asked(SignalStage::program, {});
+    calls[0].calls[0].links = {0, 1};
+    step(0, "rrr", calls);
+    EXPECT_THAT(lines(), ElementsAre("0 J 102 2 [0 1] ev"));
 }
 
 TEST_F(SignalLog, LeavesOutSignalsThatOnlyGiveTimeBack) {

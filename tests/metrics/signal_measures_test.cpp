@@ -39,7 +39,12 @@ TEST(SignalMeasures, AreThoseOfEachSignalAndOfAll) {
     const SignalMeasures& all = measures[2];
     EXPECT_EQ(all.signal, "");
     EXPECT_EQ(all.calls, 3U);
+    EXPECT_EQ(all.granted, 2U);
+    EXPECT_EQ(all.useless_holds, 1U);
+    EXPECT_EQ(all.capped, 1U);
+    EXPECT_THAT(all.entry_delay_s, Optional(1.0)) << "of the two that were entered";
     EXPECT_THAT(all.time_to_service_s, Optional(6.0)) << "of the two that were granted";
+    EXPECT_THAT(all.dwell_s, Optional(35.0));
     EXPECT_THAT(all.recovery_s, Optional(24.0));
 }
 

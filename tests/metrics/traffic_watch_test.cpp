@@ -32,7 +32,12 @@ RoadLayout crossing() {
 
 class TrafficWatch : public testing::Test {
   protected:
-    TrafficWatch() { recorder_.watch(crossing()); }
+    TrafficWatch() { watch_anew(); }
+
+    void watch_anew() {
+        recorder_ = Recorder();
+        recorder_.watch(crossing());
+    }
 
     void put(const std::string& id, VehicleClass vehicle_class, std::uint32_t lane, float speed_mps,
              float position_m = 0.0F, std::uint32_t route_edge = 0) {
@@ -115,6 +120,12 @@ TEST_F(TrafficWatch, TakesFlowsWhileDemandDeparts) {
     EXPECT_DOUBLE_EQ(tables().approaches[0].flow_per_hour, 6.0 / 60.0 * 3600.0);
 }
 
+TEST_F(TrafficWatch, OfOneMomentHasNoFlow) {
+    put("h1", VehicleClass::human, 0, 10.0F);
+    step(5.0);
+    EXPECT_THAT(tables().approaches, ElementsAre(ApproachRow{"main", VehicleClass::human, 1, 0.0, 0.0, 0.0}));
+}
+
 TEST_F(TrafficWatch, ShowsTheQueueOnTheOtherApproachesAroundAPassage) {
     // One vehicle stands on `side` all the time, a second from 20 s to 40 s; one stands on the EV's own
     // approach. The EV crosses at 20 s.
@@ -171,18 +182,36 @@ TEST_F(TrafficWatch, KeepsAJourneyInAsFewPlacesAsItsSpeedNeeds) {
     EXPECT_THAT(states, ElementsAre("red0", "yellow12", "green14"));
 }
 
+TEST_F(TrafficWatch, KeepsAPlaceThatALineMissesByMoreThanTwoMetres) {
+    const auto times = [&](const std::vector<float>& positions_m) {
+        watch_anew();
+        double time_s = 0.0;
+        for (const float position_m : positions_m) {
+            put("ev", VehicleClass::emergency, 0, 10.0F, position_m);
+            step(time_s++);
+        }
+        std::vector<double> kept_s;
+        for (const JourneyRow& row : tables().journeys)
+            if (row.signal.empty()) kept_s.push_back(row.time_s);
+        return kept_s;
+    };
+    EXPECT_THAT(times({0.0F}), ElementsAre(0.0));
+    EXPECT_THAT(times({0.0F, 12.0F, 20.0F}), ElementsAre(0.0, 2.0));
+    EXPECT_THAT(times({0.0F, 12.5F, 20.0F}), ElementsAre(0.0, 1.0, 2.0));
+}
+
 TEST_F(TrafficWatch, TellsHowLongAnEmergencyVehicleNeedsForEachEdge) {
     // 6 s on the first edge, 2 s across the junction behind it, which count there, 4 s on the last one.
-    for (int second = 3; second <= 15; ++second) {
+    for (int second = 0; second <= 12; ++second) {
         put("ev", VehicleClass::emergency,
-            second < 9    ? 0
-            : second < 11 ? 2
-                          : 3,
-            10.0F, 0.0F, second < 11 ? 0 : 1);
+            second < 6   ? 0
+            : second < 8 ? 2
+                         : 3,
+            10.0F, 0.0F, second < 8 ? 0 : 1);
         step(second);
     }
     EXPECT_THAT(tables().edge_times,
-                ElementsAre(EdgeTimeRow{"ev", "in", 3.0, 8.0}, EdgeTimeRow{"ev", "out", 11.0, 4.0}));
+                ElementsAre(EdgeTimeRow{"ev", "in", 0.0, 8.0}, EdgeTimeRow{"ev", "out", 8.0, 4.0}));
 }
 
 TEST_F(TrafficWatch, LeavesOutAnEdgeThatAnEmergencyVehicleDidNotDriveToItsEnd) {
@@ -200,14 +229,21 @@ TEST_F(TrafficWatch, CountsASignalAsHeldWhileItIsAskedForGreenAndShowsIt) {
         lease.expiry = core::Seconds(expiry_s);
         return lease;
     };
-    step(0.0, "Gr");
-    step(1.0, "Gr", {green(4.0)});  // asked for; the other link is green
+    step(0.0, "rG", {green(4.0)});  // asked for from the first step on
+    step(1.0, "rG");
+    step(1.5, "Gr");  // the other link is green
     step(2.0, "yr");
     step(3.0, "rG", {green(6.0)});  // renewed, and green from here on
-    step(5.0, "rG");
-    step(8.0, "rG");                 // it expired at 6 s
-    step(9.0, "rG", {green(10.0)});  // a second time
-    EXPECT_THAT(tables().holds, ElementsAre(SignalHoldRow{"J", 2, 4.0}));
+    traffic::Lease shorter;
+    shorter.target = SignalIndex{0};
+    shorter.action = traffic::AdjustGreen{};
+    traffic::Lease slower;
+    slower.target = core::vehicle_key("h1");
+    slower.action = traffic::DriveAt{};
+    step(5.0, "rG", {shorter, slower});  // no holds
+    step(8.0, "rG");                     // it expired at 6 s
+    step(9.0, "rG", {green(10.0)});      // a second time
+    EXPECT_THAT(tables().holds, ElementsAre(SignalHoldRow{"J", 2, 5.0}));
 }
 
 TEST_F(TrafficWatch, OfNobodyIsEmpty) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -112,8 +113,7 @@ void SignalLog::open(std::uint32_t signal) {
     assert(!watched.open && watched.calls.empty());
     watched.open = true;
     std::vector<std::uint16_t> all(watched.heads.size());
-    for (std::size_t link = 0; link < all.size(); ++link)
-        all[link] = static_cast<std::uint16_t>(link);
+    std::iota(all.begin(), all.end(), 0);
     note_heads(signal, all);
 }
 
