@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "actuation/signal_watch.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace clearway::testing {
 namespace {
@@ -67,6 +68,39 @@ TEST(AdjustGreen, leaves_a_green_alone_that_serves_it) {
     bench.offer(signal_a, traffic::AdjustGreen{north}, 60.0);
     while (bench.now.value < 40.0)
         EXPECT_TRUE(bench.only<traffic::RestoreProgram>(bench.step()).empty());
+}
+
+TEST(AdjustGreen, ends_with_its_time) {
+    ActuationBench bench;
+    bench.offer(signal_a, traffic::AdjustGreen{north}, 2.0);
+    bench.run_until(1.75);
+    EXPECT_EQ(bench.actuator.active(), 1U);
+    bench.run_until(2.0);
+    EXPECT_EQ(bench.actuator.active(), 0U);
+    EXPECT_EQ(bench.counts(LeaseKind::adjust_green).expired, 1U);
+}
+
+TEST(AdjustGreen, starts_a_green_that_vehicles_prolong_with_its_least_time) {
+    const support::TemporaryFolder folder;
+    const auto actuated = folder.write("tls.add.xml", R"(<additional>
+    <tlLogic id="A" type="actuated" programID="0">
+        <phase duration="30" minDur="1" state="GGGgrrrrGGGgrrrr"/><phase duration="4" state="yyyyrrrryyyyrrrr"/>
+        <phase duration="30" minDur="1" state="rrrrGGGgrrrrGGGg"/><phase duration="4" state="rrrryyyyrrrryyyy"/>
+    </tlLogic></additional>)");
+    const roads::Network network =
+        roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml", {actuated});
+    ActuationBench bench(0.25, fixed_clearance(), network);
+    std::vector<traffic::RestoreProgram> restored;
+    while (bench.now.value < 20.0) {
+        if (bench.now.value < 8.0) bench.offer(signal_a, traffic::HoldGreen{north}, 2.0);
+        if (bench.now.value < 12.0) bench.offer(signal_a, traffic::AdjustGreen{west}, 2.0);
+        for (const auto& restore : bench.only<traffic::RestoreProgram>(bench.step()))
+            restored.push_back(restore);
+    }
+    ASSERT_EQ(restored.size(), 1U);
+    EXPECT_EQ(restored[0].phase, 2U);
+    ASSERT_TRUE(restored[0].lasting.has_value());
+    EXPECT_DOUBLE_EQ(restored[0].lasting->value, 10.0) << "least_green_s, not 30 s";
 }
 
 TEST(AdjustGreen, leaves_a_program_of_fixed_times_in_step_in_the_end) {

@@ -16,6 +16,7 @@ namespace {
 
 using actuation::ClearanceRule;
 using actuation::detail::Clearance;
+using actuation::detail::LinkHistory;
 
 TEST(ClearanceOfRule, has_the_yellow_that_the_formulas_give_for_a_speed_limit) {
     using actuation::detail::yellow_of_rule_s;
@@ -24,7 +25,9 @@ TEST(ClearanceOfRule, has_the_yellow_that_the_formulas_give_for_a_speed_limit) {
     EXPECT_DOUBLE_EQ(yellow_of_rule_s(ClearanceRule::ite, 5.0), 3.0);
     EXPECT_DOUBLE_EQ(yellow_of_rule_s(ClearanceRule::ite, 60.0), 7.0);
     EXPECT_DOUBLE_EQ(yellow_of_rule_s(ClearanceRule::rilsa, 50.0 / 3.6), 3.0);
+    EXPECT_DOUBLE_EQ(yellow_of_rule_s(ClearanceRule::rilsa, 51.0 / 3.6), 4.0);
     EXPECT_DOUBLE_EQ(yellow_of_rule_s(ClearanceRule::rilsa, 60.0 / 3.6), 4.0);
+    EXPECT_DOUBLE_EQ(yellow_of_rule_s(ClearanceRule::rilsa, 61.0 / 3.6), 5.0);
     EXPECT_DOUBLE_EQ(yellow_of_rule_s(ClearanceRule::rilsa, 70.0 / 3.6), 5.0);
 }
 
@@ -38,6 +41,9 @@ TEST(ClearanceOfRule, has_the_red_that_the_formulas_give_for_a_crossing) {
         << "2 + 26 / 7 - 11 / 11.1 - 3";
     EXPECT_DOUBLE_EQ(red_of_rule_s(ClearanceRule::rilsa, {0.0, 40.0}, {13.9, false, false}, 3.0), 0.0);
     EXPECT_NEAR(red_of_rule_s(ClearanceRule::rilsa, {12.0, 0.0}, {1.0, false, true}, 0.0), 10.0, 0.001);
+    EXPECT_NEAR(red_of_rule_s(ClearanceRule::ite, {10.7, 0.0}, {1.0, false, true}, 0.0), 10.0, 0.001);
+    EXPECT_NEAR(red_of_rule_s(ClearanceRule::ite, {3.9, 0.0}, {0.2, false, false}, 0.0), 10.0, 0.001)
+        << "a lane on which nobody may drive is left at 1 m/s";
 }
 
 TEST(Yellow, is_longer_on_a_slippery_road_by_the_braking_that_takes_longer) {
@@ -57,13 +63,17 @@ TEST(Yellow, of_the_signals_own_program_is_longer_on_a_slippery_road_and_its_red
     EXPECT_DOUBLE_EQ(dry.yellow_s(north[1]), 4.0) << "as the program shows";
     for (std::uint16_t link = 0; link < signal.links.size(); ++link) {
         EXPECT_DOUBLE_EQ(wet.yellow_s(link), 1.0 + (dry.yellow_s(link) - 1.0) / 0.5);
-        for (std::uint16_t other = 0; other < signal.links.size(); ++other)
+        for (std::uint16_t other = 0; other < signal.links.size(); ++other) {
             EXPECT_DOUBLE_EQ(wet.red_s(link, other), dry.red_s(link, other));
+            if (!signal.foes[link][other]) {
+                EXPECT_DOUBLE_EQ(dry.red_s(link, other), 0.0);
+            }
+        }
     }
 }
 
 TEST(LinkHistory, knows_since_when_a_link_is_green_or_red) {
-    actuation::detail::LinkHistory history;
+    LinkHistory history;
     history.watch("Gr", core::Seconds(0.0));
     EXPECT_GT(history.green_s(0, core::Seconds(1.0)), 1e6) << "nobody saw it begin";
     EXPECT_DOUBLE_EQ(history.red_s(0, core::Seconds(1.0)), 0.0);
@@ -77,6 +87,21 @@ TEST(LinkHistory, knows_since_when_a_link_is_green_or_red) {
     EXPECT_DOUBLE_EQ(history.red_s(0, core::Seconds(7.0)), 2.0);
     EXPECT_DOUBLE_EQ(history.green_s(1, core::Seconds(7.0)), 2.0);
     EXPECT_DOUBLE_EQ(history.green_s(9, core::Seconds(7.0)), 0.0) << "no such link";
+    for (const auto time_of : {&LinkHistory::green_s, &LinkHistory::yellow_s, &LinkHistory::red_s})
+        EXPECT_DOUBLE_EQ((history.*time_of)(2, core::Seconds(7.0)), 0.0) << "one more than there are";
+}
+
+TEST(LinkHistory, counts_from_the_first_letter_of_a_colour) {
+    LinkHistory history;
+    history.watch("ry", core::Seconds(0.0));
+    history.watch("yr", core::Seconds(1.0));
+    history.watch("yr", core::Seconds(2.0));
+    EXPECT_DOUBLE_EQ(history.yellow_s(0, core::Seconds(3.0)), 2.0);
+    EXPECT_DOUBLE_EQ(history.red_s(1, core::Seconds(3.0)), 2.0);
+    history.watch("gG", core::Seconds(4.0));
+    history.watch("Gg", core::Seconds(5.0));
+    EXPECT_DOUBLE_EQ(history.green_s(0, core::Seconds(6.0)), 2.0) << "to take right of way is no new green";
+    EXPECT_DOUBLE_EQ(history.green_s(1, core::Seconds(6.0)), 2.0);
 }
 
 TEST(SharedArea, of_two_ways_that_cross_begins_and_ends_where_vehicles_would_touch) {
@@ -89,6 +114,23 @@ TEST(SharedArea, of_two_ways_that_cross_begins_and_ends_where_vehicles_would_tou
     EXPECT_GT(area.first_on_second_m, 3.0);
     EXPECT_TRUE(actuation::detail::turns(two_crossings(), signal.links[west[3]].front()));
     EXPECT_FALSE(actuation::detail::turns(two_crossings(), signal.links[west[1]].front()));
+}
+
+TEST(SharedArea, of_a_left_turn_goes_on_behind_the_place_where_it_waits) {
+    const roads::Network& network = two_crossings();
+    const roads::Signal& signal = network.signal(signal_a);
+    const roads::SignalLink& left = signal.links[north[3]].front();
+    const auto lanes = actuation::detail::lanes_of_way(network, left);
+    ASSERT_EQ(lanes.size(), 2U) << "it waits inside";
+    const double waits_m = network.lane(lanes[0]).length_m;
+    const double whole_m = waits_m + network.lane(lanes[1]).length_m;
+    EXPECT_DOUBLE_EQ(actuation::detail::length_of_way(network, left), whole_m);
+    const auto oncoming =
+        actuation::detail::shared_area(network, left, signal.links[south_straight[0]].front());
+    EXPECT_GT(oncoming.last_on_first_m, waits_m);
+    EXPECT_LT(oncoming.last_on_first_m, whole_m);
+    const auto merging = actuation::detail::shared_area(network, left, signal.links[west[2]].front());
+    EXPECT_NEAR(merging.last_on_first_m, whole_m, 1e-9) << "both end on the same lane";
 }
 
 /// Offers holds of either side in turn, some short and some long.

@@ -1,6 +1,8 @@
 #include <cmath>
 #include <cstddef>
+#include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "actuation/detail/background_plan.hpp"
@@ -118,8 +120,26 @@ TEST(BackgroundPlan, rest_of_a_phase_in_which_others_clear_is_left_out) {
     signal.program = {{50.0, "GrG"}, {4.0, "yrG"}, {6.0, "rrG"}, {36.0, "rGG"}, {4.0, "ryG"}};
     const BackgroundPlan own(signal, true);
     EXPECT_EQ(own.resume(owed_8_s, least_rest, core::Seconds(220.0 + 58.0)), 3) << "2 s are left of 6";
+    EXPECT_EQ(own.resume(owed_8_s, least_rest, core::Seconds(220.0 + 55.0)), 2) << "5 s are enough";
     EXPECT_EQ(own.resume(owed_8_s, core::Seconds(1.0), core::Seconds(220.0 + 58.0)), 2);
     EXPECT_EQ(own.resumed_s(2, owed_8_s, least_rest, core::Seconds(220.0 + 58.0)), 6.0);
+}
+
+TEST(BackgroundPlan, goes_on_with_the_next_phase_when_one_has_just_ended) {
+    roads::Signal signal = known_clockwork();
+    signal.program = {{30.0, "Gr"}, {30.0, "GG"}, {4.0, "yy"}, {36.0, "rG"}};
+    const BackgroundPlan own(signal, true);
+    EXPECT_EQ(own.resume(owed_8_s, core::Seconds(0.0), core::Seconds(220.0 + 29.0)), 0);
+    EXPECT_EQ(own.resume(owed_8_s, core::Seconds(0.0), core::Seconds(220.0 + 30.0)), 1);
+}
+
+TEST(BackgroundPlan, owes_a_link_that_is_always_green_no_more_than_a_cycle) {
+    roads::Signal signal = known_clockwork();
+    signal.program = {{60.0, "rG"}, {36.0, "GG"}, {4.0, "yG"}};
+    const BackgroundPlan own(signal, true);
+    const auto owed_200_s = [](std::uint16_t, std::uint32_t) { return 200.0; };
+    EXPECT_EQ(own.resume(owed_200_s, least_rest, core::Seconds(220.0)), 0);
+    EXPECT_EQ(own.resume(owed_200_s, least_rest, core::Seconds(220.0 + 10.0)), 1) << "90 s are left of it";
 }
 
 TEST(BackgroundPlan, that_gives_less_than_is_owed_is_taken_as_it_is) {
@@ -155,6 +175,43 @@ TEST(KeepsStep, with_neighbours_near_by_and_fixed_times) {
     EXPECT_TRUE(actuation::detail::keeps_step(core::SignalIndex{1}, mixed));
 }
 
+/// Two signals of fixed times, the second one this far east and north of the first, which is far from the
+/// origin.
+roads::Network signals_apart(double east_m, double north_m) {
+    std::string roads;
+    std::string rest;
+    for (const std::string id : {"A", "B"}) {
+        const double x_m = id == "A" ? 5000.0 : 5000.0 + east_m;
+        const double y_m = id == "A" ? 5000.0 : 5000.0 + north_m;
+        roads += fmt::format(R"(
+<edge id=":{0}_0" function="internal"><lane id=":{0}_0_0" index="0" speed="9" length="9" shape="{1},{2} {3},{2}"/></edge>
+<edge id="in_{0}" from="w_{0}" to="{0}"><lane id="in_{0}_0" index="0" speed="9" length="90" shape="{4},{2} {1},{2}"/></edge>
+<edge id="out_{0}" from="{0}" to="e_{0}"><lane id="out_{0}_0" index="0" speed="9" length="90" shape="{3},{2} {5},{2}"/></edge>
+<tlLogic id="{0}" type="static" programID="0" offset="0"><phase duration="40" state="G"/><phase duration="9" state="r"/></tlLogic>)",
+                             id, x_m, y_m, x_m + 9.0, x_m - 90.0, x_m + 99.0);
+        rest += fmt::format(R"(
+<junction id="{0}" type="traffic_light" x="{1}" y="{2}" incLanes="in_{0}_0" intLanes=":{0}_0_0" shape="{1},{2}">
+<request index="0" response="0" foes="0" cont="0"/></junction>
+<connection from="in_{0}" to="out_{0}" fromLane="0" toLane="0" via=":{0}_0_0" tl="{0}" linkIndex="0" dir="s" state="O"/>
+<connection from=":{0}_0" to="out_{0}" fromLane="0" toLane="0" dir="s" state="M"/>)",
+                            id, x_m, y_m);
+    }
+    const support::TemporaryFolder folder;
+    return roads::Network::read(folder.write(
+        "apart.net.xml",
+        R"(<net version="1.9"><location netOffset="0,0" convBoundary="0,0,9,9" origBoundary="0,0,9,9" projParameter="!"/>)" +
+            roads + rest + "</net>"));
+}
+
+TEST(KeepsStep, with_neighbours_within_800_m_in_any_direction) {
+    using actuation::detail::keeps_step;
+    EXPECT_TRUE(keeps_step(core::SignalIndex{0}, signals_apart(790.0, 0.0)));
+    EXPECT_TRUE(keeps_step(core::SignalIndex{1}, signals_apart(0.0, -790.0)));
+    EXPECT_FALSE(keeps_step(core::SignalIndex{0}, signals_apart(810.0, 0.0)));
+    EXPECT_FALSE(keeps_step(core::SignalIndex{1}, signals_apart(0.0, 810.0)));
+    EXPECT_FALSE(keeps_step(core::SignalIndex{0}, signals_apart(700.0, 700.0)));
+}
+
 TEST(BackgroundPlan, keeps_short_greens_that_are_shorter_than_the_least_time) {
     roads::Signal signal = clockwork();
     signal.program[2].duration_s = 6.0;
@@ -181,6 +238,18 @@ TEST(BackgroundPlan, never_cuts_the_least_green_of_the_program) {
     own.watch("rG", core::Seconds(200.0));
     EXPECT_DOUBLE_EQ(own.step_back(least_green, core::Seconds(200.0)).value().lasting.value, 25.0)
         << "20 s late";
+}
+
+TEST(BackgroundPlan, that_is_a_second_late_is_in_step) {
+    const roads::Signal signal = clockwork();
+    for (const double late_s : {1.0, 1.25}) {
+        BackgroundPlan own(signal, true);
+        own.disturb(core::Seconds(0.0));
+        own.watch("yr", core::Seconds(76.0 + late_s));
+        own.watch("rG", core::Seconds(80.0 + late_s));
+        EXPECT_EQ(own.step_back(least_green, core::Seconds(80.0 + late_s)).has_value(), late_s > 1.0);
+        EXPECT_EQ(own.is_in_step(core::Seconds(80.0 + late_s)), late_s <= 1.0);
+    }
 }
 
 TEST(BackgroundPlan, gives_up_after_five_cycles) {

@@ -132,6 +132,17 @@ TEST(SignalHold, ends_a_green_when_nobody_on_it_could_just_stop_or_2_s_later) {
     EXPECT_NEAR(yellow_begins_s(14.0, 100.0), 0.25, 1e-9) << "it stops in comfort";
 }
 
+TEST(SignalHold, waits_for_a_gap_before_it_gives_its_own_green_back) {
+    ActuationBench bench;
+    bench.add({"h", traffic::VehicleClass::human, {"west_A", "A_B"}, 0, line_m - 10.0, 8.0});
+    double ends_s = 0.0;
+    watch(bench, 20.0, [&](ActuationBench& b) {
+        if (b.now.value < 10.0) b.offer(signal_a, traffic::HoldGreen{west}, 0.5);
+        if (ends_s == 0.0 && b.shown[0][west[1]] == 'y') ends_s = b.now.value;
+    });
+    EXPECT_NEAR(ends_s, 10.25 + 2.0, 1e-9) << "it ended at 10.25 s";
+}
+
 TEST(SignalHold, for_two_emergency_vehicles_serves_priority_then_age_then_the_other) {
     ActuationBench bench;
     const core::VehicleKey first{1};
@@ -171,6 +182,15 @@ TEST(SignalHold, for_two_that_only_pass_each_other_shows_the_phase_that_serves_b
     bench.run_until(20.0);
     EXPECT_EQ(bench.shown[0], "GGGgrrrrGGGgrrrr") << "left turns from both sides yield";
     EXPECT_EQ(bench.counts(LeaseKind::hold_green).refused.size(), 0U);
+}
+
+TEST(SignalHold, opens_at_once_before_a_left_turn_that_yields_already) {
+    ActuationBench bench;
+    bench.shown[0] = "GGGgrrrrrrrrrrrr";
+    bench.offer(signal_a, from_north, 30.0, 0, "policy", core::VehicleKey{1});
+    bench.offer(signal_a, from_south, 30.0, 0, "policy", core::VehicleKey{2});
+    bench.step();
+    EXPECT_EQ(bench.shown[0], "GGGgrrrrGGGgrrrr");
 }
 
 TEST(SignalHold, for_one_that_turns_left_stays_protected_when_another_comes_from_the_other_side) {
@@ -254,11 +274,29 @@ TEST(SignalHold, for_links_that_do_not_exist_is_refused) {
 TEST(SignalHold, at_a_signal_that_is_gone_is_dropped) {
     ActuationBench bench;
     bench.offer(signal_a, traffic::HoldGreen{west}, 20.0);
+    bench.offer(signal_a, traffic::AdjustGreen{north}, 20.0);
     bench.step();
     bench.shown.clear();
     EXPECT_TRUE(bench.step().empty());
     EXPECT_EQ(bench.counts(LeaseKind::hold_green).refused.at(Refusal::signal_gone), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::adjust_green).refused.at(Refusal::signal_gone), 1U);
     EXPECT_EQ(bench.actuator.active(), 0U);
+}
+
+TEST(SignalHold, clears_letters_of_links_that_lead_nowhere_with_the_yellow_of_the_settings) {
+    actuation::ActuatorConfig config;
+    config.yellow_s = 0.5;
+    ActuationBench bench(0.25, config);
+    bench.shown[0] += "r";
+    bench.step();
+    bench.shown[0].back() = 'G';
+    std::string letters;
+    watch(bench, 2.0, [&](ActuationBench& b) {
+        hold_until(west, 1000.0)(b);
+        letters += b.shown[0].back();
+    });
+    EXPECT_EQ(bench.shown[0].size(), 17U);
+    EXPECT_EQ(letters, "Gyyrrrr") << "two steps of 0.25 s, and no least green";
 }
 
 TEST(SignalHold, writes_only_states_of_legal_length_and_letters) {
