@@ -186,6 +186,16 @@ TEST_F(LockWatch, one_that_waits_for_a_gap_in_a_stream_is_not_locked) {
     EXPECT_EQ(finish().metrics.locked_vehicles, 1U);
 }
 
+TEST_F(LockWatch, one_waits_for_a_vehicle_with_the_right_of_way_that_stands_at_its_line) {
+    put("b1", south, 99.0F);
+    put("a1", west, 95.0F);
+    stand(100, "r");
+    EXPECT_EQ(finish().metrics.locks, 0U);
+    put("a1", west, 94.0F);
+    stand(62, "r");
+    EXPECT_EQ(finish().metrics.locked_vehicles, 1U);
+}
+
 TEST_F(LockWatch, one_whose_way_a_queue_to_a_red_blocks_is_not_locked) {
     put("a1", east, 19.0F);
     put("a2", east, 11.5F);
@@ -284,6 +294,16 @@ TEST_F(LockWatch, a_queue_behind_a_moving_vehicle_is_no_lock) {
     EXPECT_EQ(finish().metrics.locks, 0U);
 }
 
+TEST_F(LockWatch, ten_metres_are_the_longest_gap_in_a_queue) {
+    put("a1", west, 60.0F, 1.0F);
+    put("a2", west, 45.0F);
+    stand(100);
+    EXPECT_EQ(finish().metrics.locks, 0U);
+    put("a2", west, 44.0F);
+    stand(62);
+    EXPECT_EQ(finish().metrics.locked_vehicles, 1U);
+}
+
 TEST_F(LockWatch, a_vehicle_far_ahead_explains_nothing) {
     put("b1", north, 60.0F, 1.0F);
     put("b2", inside_sn, 8.0F);
@@ -333,6 +353,21 @@ TEST_F(LockWatch, a_lock_that_dissolves_and_comes_back_later_counts_twice) {
     EXPECT_THAT(summary.traffic.locks, ElementsAre(LockRow{"west", "J", 100.0, 69.0, 1, 0},
                                                    LockRow{"west", "J", 290.0, 69.0, 1, 0}));
     EXPECT_EQ(summary.metrics.locked_vehicles, 1U);
+}
+
+TEST_F(LockWatch, a_lock_lasts_over_a_minute_without_a_locked_vehicle) {
+    // a1 is locked until second 69; b1, behind it, is locked 61 s after it came.
+    for (const auto& [came_s, locks] : {std::pair(68, 1U), std::pair(69, 2U)}) {
+        watch({});
+        put("a1", inside_we, 5.0F);
+        put("b1", south, 50.0F, 3.0F);
+        stand(came_s);
+        put("b1", south, 50.0F);
+        stand(70 - came_s);
+        put("a1", east, 10.0F, 3.0F);
+        stand(62);
+        EXPECT_EQ(finish().metrics.locks, locks);
+    }
 }
 
 const std::vector<EdgeIndex> to_the_left = {EdgeIndex{0}, EdgeIndex{1}, EdgeIndex{3}};

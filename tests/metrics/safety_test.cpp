@@ -101,6 +101,19 @@ TEST_F(Safety, CountsALastingConflictOnceAndANewOneAgain) {
     EXPECT_DOUBLE_EQ(*metrics().emergency_least_ttc_s, 1.0);
 }
 
+TEST_F(Safety, SeesAConflictOnlyWhereOneComesNearerWithinOneAndAHalfSeconds) {
+    const auto meet = [&](float speed_mps) {
+        step(0.0, {emergency(0, 50.0F, 10.0F), {"h", VehicleClass::human, 0, 70.0F, speed_mps}});
+    };
+    meet(10.0F);
+    EXPECT_FALSE(metrics().emergency_least_ttc_s);
+    meet(9.5F);
+    EXPECT_DOUBLE_EQ(*metrics().emergency_least_ttc_s, 30.0);
+    meet(0.0F);
+    EXPECT_DOUBLE_EQ(*metrics().emergency_least_ttc_s, 1.5);
+    EXPECT_EQ(metrics().emergency_conflicts, 0U);
+}
+
 TEST_F(Safety, SeesNoConflictAcrossLanesFarFromAnEvOrSideBySide) {
     step(0.0, {emergency(0, 50.0F, 10.0F),
                {"other_lane", VehicleClass::human, 1, 56.0F, 0.0F},
@@ -161,6 +174,26 @@ TEST_F(Safety, CountsHardBrakingOfOthersOnceAndTheirJerk) {
     drive(0.0F);
     EXPECT_EQ(metrics().others_hard_brakings, 1U);
     EXPECT_DOUBLE_EQ(*metrics().others_jerk_mps3, std::sqrt(128.0 / 3.0));
+}
+
+TEST_F(Safety, CallsBrakingHardAboveItsLimit) {
+    double time_s = 0.0;
+    const auto brakings = [&](float acceleration_mps2) {
+        step(time_s += 0.5, {{"h", VehicleClass::human, 0, 0.0F, 10.0F, acceleration_mps2}});
+        return metrics().others_hard_brakings;
+    };
+    EXPECT_EQ(brakings(0.0F), 0U);
+    EXPECT_EQ(brakings(-3.4F), 0U);
+    EXPECT_EQ(brakings(-3.5F), 1U);
+}
+
+TEST_F(Safety, MeasuresFlowsToTheLastMomentOfDemand) {
+    const Vehicle queue{"h1", VehicleClass::human, 0, 99.0F, 0.0F};
+    step(59.0, {queue, {"h2", VehicleClass::human, 1}, {"h3", VehicleClass::human, 1}});
+    step(60.0, {queue, {"h2", VehicleClass::human, 3}, {"h3", VehicleClass::human, 1}});
+    step(61.0, {queue, {"h2", VehicleClass::human, 4}, {"h3", VehicleClass::human, 3}});
+    EXPECT_DOUBLE_EQ(*metrics().signal_throughput_per_hour, 3600.0);
+    EXPECT_DOUBLE_EQ(*metrics().signal_queue_vehicles, 1.0 / 2.0);
 }
 
 TEST_F(Safety, AveragesQueuesOverApproachesAndTheTimeOfDemand) {

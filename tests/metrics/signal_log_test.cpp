@@ -148,6 +148,15 @@ TEST_F(SignalLog, ThatBeginsAgainTellsOnlyWhatChangedSince) {
         << "the yellow in between is lost";
 }
 
+TEST_F(SignalLog, ThatBeginsAgainDoesNotRepeatItsLastMoment) {
+    step(0, "rGr");
+    step(1, "rGr", asked(SignalStage::program, {}));
+    step(2, "ryr");
+    step(3, "ryr", asked(SignalStage::program, {}));
+    EXPECT_THAT(lines(), ElementsAre("1 J 102 1 [0] ev", "2 J 8 2 [1] ", "2 J 104 1 [0] ev", "2 J 150 0 [] ",
+                                     "3 J 102 1 [0] ev"));
+}
+
 TEST_F(SignalLog, WritesLinksOfAPhaseThatChangeTogetherInOneRow) {
     RoadLayout layout = junction();
     layout.signal_heads[0].push_back({2, 2, false, {0}});

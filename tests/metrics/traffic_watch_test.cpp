@@ -221,6 +221,17 @@ TEST_F(TrafficWatch, LeavesOutAnEdgeThatAnEmergencyVehicleDidNotDriveToItsEnd) {
     EXPECT_TRUE(tables().edge_times.empty());
 }
 
+TEST_F(TrafficWatch, LooksFromAMinuteBeforeAPassageToFourMinutesAfter) {
+    for (int second = 0; second <= 400; ++second) {
+        put("ev", VehicleClass::emergency, second < 100 ? 0 : 3, 5.0F, 0.0F, second < 100 ? 0 : 1);
+        step(second);
+    }
+    const TrafficTables found = tables();
+    ASSERT_EQ(found.recovery.size(), 61U) << "every five seconds";
+    EXPECT_EQ(found.recovery.front().offset_s, -60.0);
+    EXPECT_EQ(found.recovery.back().offset_s, 240.0);
+}
+
 TEST_F(TrafficWatch, CountsASignalAsHeldWhileItIsAskedForGreenAndShowsIt) {
     const auto green = [](double expiry_s) {
         traffic::Lease lease;
@@ -244,6 +255,17 @@ TEST_F(TrafficWatch, CountsASignalAsHeldWhileItIsAskedForGreenAndShowsIt) {
     step(8.0, "rG");                     // it expired at 6 s
     step(9.0, "rG", {green(10.0)});      // a second time
     EXPECT_THAT(tables().holds, ElementsAre(SignalHoldRow{"J", 2, 5.0}));
+}
+
+TEST_F(TrafficWatch, CountsAHoldThatIsRenewedWhenItExpiresOnce) {
+    traffic::Lease lease;
+    lease.target = SignalIndex{0};
+    lease.action = traffic::HoldGreen{.links = {1}};
+    for (const double time_s : {0.0, 4.0, 8.0}) {
+        lease.expiry = core::Seconds(time_s + 4.0);
+        step(time_s, "rG", {lease});
+    }
+    EXPECT_THAT(tables().holds, ElementsAre(SignalHoldRow{"J", 1, 8.0}));
 }
 
 TEST_F(TrafficWatch, OfNobodyIsEmpty) {
