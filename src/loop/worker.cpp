@@ -59,7 +59,9 @@ void store_error(const Unit& unit, const experiment::RunKey& key, const core::Er
                  const std::filesystem::path& folder) {
     results::RunError error = error_of(unit, key, folder);
     const bool is_python = dynamic_cast<const python::PartError*>(&cause) != nullptr;
+    const bool is_lost = dynamic_cast<const python::PartLost*>(&cause) != nullptr;
     error.cause = is_python                                        ? results::ErrorCause::python
+                  : is_lost                                        ? results::ErrorCause::signal
                   : cause.exit_code() == core::ExitCode::bad_input ? results::ErrorCause::bad_input
                                                                    : results::ErrorCause::simulator;
     error.message = cause.what();

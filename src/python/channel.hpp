@@ -15,6 +15,12 @@ class PartError : public core::Error {
     explicit PartError(const std::string& message) : core::Error(core::ExitCode::runs_failed, message) {}
 };
 
+/// The process of a part was killed from outside, and not for what its code did.
+class PartLost : public core::Error {
+  public:
+    explicit PartLost(const std::string& message) : core::Error(core::ExitCode::runs_failed, message) {}
+};
+
 /// The bells of the protocol: one byte on a pipe hands the shared memory over. A pipe is a bell that also
 /// tells when the other process is gone, however it ended, so that nobody waits for ever. Decision 7 has the
 /// measurements.

@@ -148,13 +148,13 @@ Host::~Host() {
     ::close(connection_);
 }
 
-std::string Host::wait() {
+std::optional<std::string> Host::wait() {
     if (child_) return child_->wait();
     int status = 0;
     ssize_t read = 0;
     while ((read = ::recv(connection_, &status, sizeof(status), 0)) < 0 && errno == EINTR) {
     }
-    if (read != sizeof(status)) return "with Python's nursery";
+    if (read != sizeof(status)) return std::nullopt;
     core::Exit exit;
     if (WIFSIGNALED(status)) exit.signal = WTERMSIG(status);
     if (WIFEXITED(status)) exit.code = WEXITSTATUS(status);

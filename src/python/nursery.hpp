@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <sys/types.h>
@@ -48,8 +49,9 @@ class Host {
     ~Host();
     Host(const Host&) = delete;
     Host& operator=(const Host&) = delete;
-    /// Waits for its end and says how it ended.
-    std::string wait();
+    /// Waits for its end and says how it ended; nothing where the nursery was killed, and it with the
+    /// nursery.
+    std::optional<std::string> wait();
 
   private:
     int connection_;  ///< To the nursery; -1 without one.

@@ -76,9 +76,12 @@ void PartProcess::wait_for_answer() {
 }
 
 void PartProcess::report_end() {
-    throw PartError(
-        fmt::format("{}: its process ended ({}) instead of answering; what it printed is in the log", label_,
-                    host_.wait()));
+    const std::optional<std::string> end = host_.wait();
+    if (!end)
+        throw PartLost(
+            fmt::format("{}: its process was killed with the one that all parts come from", label_));
+    throw PartError(fmt::format(
+        "{}: its process ended ({}) instead of answering; what it printed is in the log", label_, *end));
 }
 
 void check_part(const PartName& name, PartKind kind, const core::Settings& settings,

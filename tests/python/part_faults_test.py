@@ -49,6 +49,13 @@ class Fills(Policy):
     def act(self, belief):
         self.held = np.ones(600 * 2**20, dtype=np.uint8)
         time.sleep(1000)
+class Orphan(Policy):
+    def act(self, belief):
+        with open(f"/proc/{os.getppid()}/cmdline") as parent:
+            if "_nursery" in parent.read():
+                os.kill(os.getppid(), 9)
+                time.sleep(10)
+        return []
 class Interrupts(Policy):
     def act(self, belief):
         raise KeyboardInterrupt
@@ -330,6 +337,10 @@ class FaultTest(FolderCase):
         while hosts_of(self.folder) and time.monotonic() < end:
             time.sleep(0.1)
         self.assertEqual(hosts_of(self.folder), [])
+
+    def test_a_run_whose_part_is_killed_from_outside_is_tried_again(self) -> None:
+        program("run", "intersection", "--policy", "bad.py:Orphan", "--no-solo", "--seeds", "1", "--out", "runs")
+        self.assertEqual(len(clearway.open("runs").errors), 0)
 
     def test_the_memory_of_a_part_is_that_of_its_run(self) -> None:
         subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "bad.py:Fills", "--no-solo", "--seeds", "1",
