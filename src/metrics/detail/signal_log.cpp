@@ -135,18 +135,13 @@ void SignalLog::follow(const traffic::SignalStatus& status, double now_s) {
         watched.coordination = status.coordination;
     }
     follow_calls(status, now_s);
-    if (status.capped && !watched.capped)
-        rows_.push_back({now_s,
-                         signal,
-                         SignalCode::max_presence_exceeded,
-                         approach_of(signal, watched.held),
-                         watched.held,
-                         {}});
+    const auto note = [&](SignalCode code) {
+        rows_.push_back({now_s, signal, code, approach_of(signal, watched.held), watched.held, {}});
+    };
+    if (status.capped && !watched.capped) note(SignalCode::max_presence_exceeded);
     const bool was_away = watched.stage != SignalStage::program;
     const bool is_away = status.stage != SignalStage::program;
-    if (was_away && status.held.empty() && !watched.leaves)
-        rows_.push_back(
-            {now_s, signal, SignalCode::begin_exit, approach_of(signal, watched.held), watched.held, {}});
+    if (was_away && status.held.empty() && !watched.leaves) note(SignalCode::begin_exit);
     watched.leaves = is_away && status.held.empty();
     if (!status.held.empty()) watched.held = status.held;
     watched.owes_word = watched.owes_word || is_away || status.coordination != watched.coordination;
