@@ -45,7 +45,7 @@ double percentile_90_s(const std::vector<Weighted>& all, RowCounts counts) {
     std::size_t sum = 0;
     for (const Weighted& trip : all) {
         sum += counts[trip.replication];
-        if (static_cast<double>(sum) >= wanted - 1e-9 && sum > 0) return trip.time_s;
+        if (static_cast<double>(sum) >= wanted - 1e-9) return trip.time_s;
     }
     return std::nan("");
 }

@@ -99,6 +99,20 @@ TEST(BootstrapBca, IsWiderWhenSmallSamplesAreMadeUpFor) {
     EXPECT_GT(wide->high, narrow->high);
 }
 
+TEST(BootstrapBca, HasNoAccelerationWhereNoRowAloneChangesAnything) {
+    // Odd rows minus even rows of those drawn twice or more: 0 in the sample and without any row.
+    const auto repeated = [](RowCounts counts) {
+        double sum = 0.0;
+        for (std::size_t row = 0; row < counts.size(); ++row)
+            if (counts[row] >= 2) sum += row % 2 == 0 ? -1.0 : 1.0;
+        return sum;
+    };
+    const auto interval = bootstrap_bca(resamples_of(8), repeated);
+    ASSERT_TRUE(interval);
+    EXPECT_LT(interval->low, 0.0);
+    EXPECT_GT(interval->high, 0.0);
+}
+
 TEST(BootstrapBca, SaysNothingWhereNothingCanBeSaid) {
     const std::vector<double> same = {2.0, 2.0, 2.0, 2.0};
     EXPECT_FALSE(bootstrap_bca_of_mean(resamples_of(4), same));

@@ -98,7 +98,9 @@ TEST(EstimateCount, IsWiderWhereCountsScatterMoreThanChance) {
     const std::vector<double> even = {2.0, 2.0, 2.0, 2.0, 2.0};
     const std::vector<double> uneven = {0.0, 0.0, 0.0, 0.0, 10.0};
     EXPECT_GT(estimate_count(uneven)->interval->high, 2.0 * estimate_count(even)->interval->high);
-    EXPECT_GE(estimate_count(uneven)->interval->low, 0.0);
+    // Dispersion 10, total 1; t(4) at 0.025 is -2.7764, beyond which 0.00275 of a normal distribution lie.
+    EXPECT_NEAR(estimate_count(uneven)->interval->low, 0.005503, 5e-6);
+    EXPECT_NEAR(estimate_count(uneven)->interval->high, 16.2117, 5e-4);
 }
 
 TEST(EstimateCountDifference, DoesNotTakeFourRareEventsForCertain) {
@@ -110,6 +112,20 @@ TEST(EstimateCountDifference, DoesNotTakeFourRareEventsForCertain) {
     std::fill_n(some.begin(), 12, 1.0);
     EXPECT_GT(estimate_count_difference(some, none)->interval->low, 0.0);
     EXPECT_TRUE(estimate_count_difference(none, none)->interval->contains(0.1)) << "never seen is not never";
+}
+
+TEST(EstimateCountDifference, HasTheLimitsOfZouAndDonner) {
+    const std::vector<double> more = {2.0, 4.0, 6.0, 8.0};
+    const std::vector<double> less = {1.0, 2.0, 3.0, 6.0};
+    const double together = 16.0 / std::sqrt(20.0 * 14.0);  // Pearson's correlation.
+    const auto limit_away = [&](double first, double second) {
+        return std::sqrt(first * first + second * second - 2.0 * together * first * second);
+    };
+    const Interval of_more = *estimate_count(more)->interval;
+    const Interval of_less = *estimate_count(less)->interval;
+    const auto difference = estimate_count_difference(more, less);
+    EXPECT_NEAR(difference->interval->low, 2.0 - limit_away(5.0 - of_more.low, of_less.high - 3.0), 1e-9);
+    EXPECT_NEAR(difference->interval->high, 2.0 + limit_away(of_more.high - 5.0, 3.0 - of_less.low), 1e-9);
 }
 
 TEST(Geh, AgreesWithTheWorkedExample) {

@@ -101,6 +101,10 @@ TEST(ResponseThreshold, FollowsFromTheMeanRouteWhereEveryTripCountsOnce) {
     study.rows.push_back(&again);
     EXPECT_THAT(usual_response_threshold_s(study.rows), Optional(125.0))
         << "1.26 km at 100 s/km, in steps of 5 s";
+    again.vehicles[1].route_length_m = 1549.5;
+    EXPECT_THAT(usual_response_threshold_s(study.rows), Optional(125.0)) << "127.475 s";
+    again.vehicles[1].route_length_m = 1550.5;
+    EXPECT_THAT(usual_response_threshold_s(study.rows), Optional(130.0)) << "127.525 s";
 }
 
 }  // namespace

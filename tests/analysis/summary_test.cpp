@@ -80,6 +80,10 @@ TEST_F(SmallStudy, GivesTheDifferenceWithoutThePairsThatLocked) {
     EXPECT_DOUBLE_EQ(comparison.difference->mean, -27.5);
     EXPECT_DOUBLE_EQ(comparison.unlocked->mean, -22.5);  // Of 40 and 50 s, half.
     EXPECT_EQ(summary.find("baseline")->locked_runs(), 1U);
+    EXPECT_EQ(summary.find("baseline")->total("locks"), 2.0);
+    for (RunRecord& run : results_.runs)
+        run.metrics.locks = run.metrics.locks / 2;
+    EXPECT_EQ(scenario().find("treated")->metric(primary_metric).comparison->locked_pairs, 2U);
 }
 
 TEST_F(SmallStudy, DoesNotLetSurvivorsSpeakForLostEmergencyVehicles) {
