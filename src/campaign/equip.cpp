@@ -1,6 +1,7 @@
 #include "campaign/equip.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <sstream>
@@ -150,13 +151,13 @@ void add_outcomes(const analysis::EquipPlan& plan, const Signals& signals, const
 void add_pairs(const analysis::EquipPlan& plan, const Signals& signals, const FreshOutcomes& fresh,
                report::EquipmentFacts& facts) {
     for (std::size_t row = 0; row < plan.pairs.size(); ++row) {
-        const auto [first, second] = signals.candidates.neighbours.at(row);
+        const std::array<std::size_t, 2>& both = signals.candidates.neighbours.at(row);
         report::EquipPairFacts& pair = facts.pairs.emplace_back();
-        pair.numbers = {signals.number(first), signals.number(second)};
+        pair.numbers = {signals.number(both[0]), signals.number(both[1])};
         pair.gain = plan.pairs[row].gain;
         pair.left_race = plan.pairs[row].left_race;
         const auto chosen = std::ranges::find_if(plan.steps, [&](const analysis::EquipStep& step) {
-            return step.candidate == first && step.partner == second;
+            return step.candidate == both[0] && step.partner == both[1];
         });
         if (chosen == plan.steps.end()) continue;
         pair.chosen = true;

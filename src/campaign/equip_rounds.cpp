@@ -317,9 +317,8 @@ void EquipRounds::run_round(const Wanted& wanted) {
     }
 }
 
-void EquipRounds::measure_in_a_round(const std::vector<analysis::SignalSet>& sets,
-                                     const std::vector<analysis::SignalSet>& racing,
-                                     std::size_t replications) {
+void EquipRounds::measure_part_of(const std::vector<analysis::SignalSet>& racing,
+                                  const std::vector<analysis::SignalSet>& sets, std::size_t replications) {
     Wanted wanted;
     add_missing(sets, replications, wanted);
     if (wanted.empty()) return;
@@ -342,8 +341,8 @@ std::vector<analysis::Values> EquipRounds::measure(const std::vector<analysis::S
     std::vector<analysis::SignalSet> without_pairs = sets;
     std::erase_if(without_pairs, [&](const analysis::SignalSet& set) { return set.size() > place; });
     // Apart, so that a search for one signal is the beginning of one for two.
-    measure_in_a_round(without_pairs, sets, replications);
-    measure_in_a_round(sets, sets, replications);
+    measure_part_of(sets, without_pairs, replications);
+    measure_part_of(sets, sets, replications);
     std::vector<analysis::Values> values;
     for (const analysis::SignalSet& set : sets) {
         analysis::Values& of_set = values.emplace_back();
