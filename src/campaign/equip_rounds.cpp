@@ -317,8 +317,10 @@ void EquipRounds::run_round(const Wanted& wanted) {
     }
 }
 
-void EquipRounds::measure_part_of(const std::vector<analysis::SignalSet>& racing,
-                                  const std::vector<analysis::SignalSet>& sets, std::size_t replications) {
+void EquipRounds::measure_up_to(std::size_t largest, const std::vector<analysis::SignalSet>& racing,
+                                std::size_t replications) {
+    std::vector<analysis::SignalSet> sets = racing;
+    std::erase_if(sets, [&](const analysis::SignalSet& set) { return set.size() > largest; });
     Wanted wanted;
     add_missing(sets, replications, wanted);
     if (wanted.empty()) return;
@@ -337,12 +339,10 @@ void EquipRounds::measure_part_of(const std::vector<analysis::SignalSet>& racing
 
 std::vector<analysis::Values> EquipRounds::measure(const std::vector<analysis::SignalSet>& sets,
                                                    std::size_t replications) {
-    const std::size_t place = sets.front().size() + 1;
-    std::vector<analysis::SignalSet> without_pairs = sets;
-    std::erase_if(without_pairs, [&](const analysis::SignalSet& set) { return set.size() > place; });
-    // Apart, so that a search for one signal is the beginning of one for two.
-    measure_part_of(sets, without_pairs, replications);
-    measure_part_of(sets, sets, replications);
+    // Pairs apart, so that a search for one signal is the beginning of one for two.
+    const std::size_t chosen = sets.front().size();
+    measure_up_to(chosen + 1, sets, replications);
+    measure_up_to(chosen + 2, sets, replications);
     std::vector<analysis::Values> values;
     for (const analysis::SignalSet& set : sets) {
         analysis::Values& of_set = values.emplace_back();

@@ -115,9 +115,9 @@ class EquipRounds {
     /// Adds the runs that these sets need and that are neither known nor in `wanted`.
     void add_missing(const std::vector<analysis::SignalSet>& sets, std::size_t replications,
                      Wanted& wanted) const;
-    /// Makes the missing runs of `sets`, all or a part of what is `racing`.
-    void measure_part_of(const std::vector<analysis::SignalSet>& racing,
-                         const std::vector<analysis::SignalSet>& sets, std::size_t replications);
+    /// Makes the missing runs of those sets of `racing` that have at most `largest` signals.
+    void measure_up_to(std::size_t largest, const std::vector<analysis::SignalSet>& racing,
+                       std::size_t replications);
     void run_round(const Wanted& wanted);
     results::Results run(const study::Plan& plan, const RunOptions& options);
     std::size_t fresh_runs() const;
