@@ -3,11 +3,14 @@
 #include <array>
 #include <cerrno>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/error.hpp"
 #include "core/read_failure.hpp"
 
 namespace clearway::core {
@@ -15,10 +18,18 @@ namespace clearway::core {
 /// A file that is open for reading. Throws as fail_to_read does.
 class OpenFile {
   public:
-    /// `flags` are further ones of open(2), such as O_NOFOLLOW.
+    /// `flags` are further ones of open(2), such as O_NOFOLLOW. A pipe or a device is refused: it may have no
+    /// end. Those that a caller hands over, such as /dev/stdin, are read.
     explicit OpenFile(const std::filesystem::path& file, int flags = 0)
-        : file_(file), descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | flags)) {
+        : file_(file), descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | flags)) {
         if (descriptor_ < 0) fail_to_read(file, errno);
+        if (is_regular() || is_folder()) return;
+        if (!is_handed_over()) {
+            ::close(descriptor_);
+            throw InputError({file.string(), "is neither a file nor a folder", "a file",
+                              "Remove it, or put a copy of what it stands for in its place"});
+        }
+        ::fcntl(descriptor_, F_SETFL, 0);  // waits for whoever writes
     }
     ~OpenFile() { ::close(descriptor_); }
     OpenFile(const OpenFile&) = delete;
@@ -38,6 +49,18 @@ class OpenFile {
     }
 
   private:
+    bool has_type(mode_t type) const {
+        struct stat status {};
+        return ::fstat(descriptor_, &status) == 0 && (status.st_mode & S_IFMT) == type;
+    }
+    bool is_regular() const { return has_type(S_IFREG); }
+    bool is_folder() const { return has_type(S_IFDIR); }  // read(2) says that it is one
+    bool is_handed_over() const {
+        const std::string name = file_.string();
+        return name.starts_with("/dev/std") || name.starts_with("/dev/fd/") || name.starts_with("/proc/") ||
+               name == "/dev/null";
+    }
+
     std::filesystem::path file_;
     int descriptor_;
 };

@@ -64,6 +64,7 @@ void store_error(const Unit& unit, const experiment::RunKey& key, const core::Er
                   : is_lost                                        ? results::ErrorCause::signal
                   : cause.exit_code() == core::ExitCode::bad_input ? results::ErrorCause::bad_input
                                                                    : results::ErrorCause::simulator;
+    if (is_lost) error.signal = SIGKILL;
     error.message = cause.what();
     error.exit_code = static_cast<int>(cause.exit_code());
     unit.store.write(error);

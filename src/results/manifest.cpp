@@ -222,7 +222,9 @@ Manifest manifest_from_json(const std::string& text, const std::string& where) {
              fmt::format("at most {} replications and {} runs", most_replications, greatest_most_runs),
              "This is no manifest that Clearway wrote; take the folder from a backup"});
     reader.read("hash", hash);
-    if (problems.empty() && hash != manifest_hash(manifest)) reader.problem("hash", "does not fit the rest");
+    if (problems.empty() && hash != manifest_hash(manifest))
+        problems.push_back({where + ": hash", "does not fit the rest", "",
+                            "The manifest was edited or is damaged: take it from a backup"});
     if (!problems.empty()) throw core::InputError(problems);
     return manifest;
 }

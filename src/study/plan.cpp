@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/folder_name.hpp"
 #include "core/part_folder.hpp"
+#include "core/plain_files.hpp"
 #include "core/read_failure.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/settings.hpp"
@@ -90,9 +91,17 @@ void check(const StudyConfig& config) {
     if (!problems.empty()) throw core::InputError(problems);
 }
 
+/// A continued study never mixes two scenarios. Networks are checked by `verify` alone.
+void require_unchanged(const scenario::ScenarioConfig& config, const fs::path& target) {
+    const fs::path file = target / scenario_file_name;
+    if (scenario::scenario_hash(scenario::load(file.string())) == scenario::scenario_hash(config)) return;
+    throw core::InputError({file.string(), "was changed, or a file beside it, since the study began", "",
+                            fmt::format("Put it back, or remove {}: it is made again", target.string())});
+}
+
 /// Stores a scenario and its network atomically.
 void prepare_scenario(const scenario::ScenarioConfig& config, const fs::path& target) try {
-    if (fs::exists(target)) return;
+    if (fs::exists(target)) return require_unchanged(config, target);
     core::PartFolder part(target);
     scenario::store(config, part.path());
     scenario::build_network(config, part.path() / network_name);
@@ -183,6 +192,7 @@ void check_roads(const Plan& plan) {
 
 results::Store prepare_folder(const Plan& plan, const fs::path& folder) {
     check_roads(plan);
+    if (fs::exists(folder / "manifest.json")) core::require_plain_files(folder);
     const FolderLock lock(folder);
     results::Store store = results::Store::create(folder, plan.manifest);
     for (const scenario::ScenarioConfig& config : plan.scenarios)

@@ -1,6 +1,8 @@
 // What verbs say: what `clearway scenario check` thinks of a baseline run, cures, pages that were written.
 #include "campaign/fitness.hpp"
 
+#include <csignal>
+
 #include <gmock/gmock.h>
 
 #include "campaign/detail/abort_cure.hpp"
@@ -83,6 +85,9 @@ TEST(AbortCure, goes_by_the_assertion) {
     EXPECT_THAT(cure_of_abort(error), HasSubstr("largest_car_component"));
     error.log_tail = "Assertion `myVehicles.size() > 0' failed";
     EXPECT_THAT(cure_of_abort(error), HasSubstr("--time-to-teleport -1"));
+    error.signal = SIGKILL;
+    EXPECT_EQ(cure_of_abort(error), "") << "somebody else ended it";
+    error.signal = SIGABRT;
     error.cause = results::ErrorCause::simulator;
     EXPECT_EQ(cure_of_abort(error), "");
 }

@@ -81,6 +81,20 @@ TEST_F(FilesTest, APipeIsNotReplaced) {
     EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
+TEST_F(FilesTest, APipeIsRefusedAtOnceAndWhatIsHandedOverIsRead) {
+    const std::filesystem::path pipe = folder_.path() / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THROW(read_file(pipe), InputError);
+    EXPECT_THROW(read_file("/dev/zero"), InputError);
+    EXPECT_EQ(read_file("/dev/null"), "");
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    ASSERT_EQ(::write(ends[1], "words", 5), 5);
+    ::close(ends[1]);
+    EXPECT_EQ(read_file("/dev/fd/" + std::to_string(ends[0])), "words");
+    ::close(ends[0]);
+}
+
 TEST_F(FilesTest, NamesTheFileThatCannotBeRead) {
     EXPECT_THAT(complaint<InputError>([&] { read_file(folder_.path() / "missing.toml"); }),
                 HasSubstr("missing.toml: cannot be read"));

@@ -46,6 +46,42 @@ TEST_F(RunFolder, IsKeptWhenItIsPreparedAgain) {
     EXPECT_THROW(prepare_folder(plan(), out_), core::InputError);
 }
 
+/// What the error says that preparing the folder again ends with.
+class ContinuedFolder : public RunFolder {
+  protected:
+    std::string refusal() const {
+        try {
+            prepare_folder(plan(), out_);
+        } catch (const core::InputError& error) {
+            return error.what();
+        }
+        return "";
+    }
+};
+
+TEST_F(ContinuedFolder, IsRefusedWhereItsScenarioWasEdited) {
+    prepare_folder(plan(), out_);
+    EXPECT_EQ(refusal(), "");
+    const auto file = out_ / "scenarios" / "merge" / "scenario.toml";
+    std::string text = core::read_file(file);
+    const std::size_t at = text.find("human = ");
+    ASSERT_NE(at, std::string::npos);
+    text.insert(at + 8, "1");
+    core::write_atomically(file, text);
+    EXPECT_THAT(refusal(), testing::AllOf(testing::HasSubstr("merge/scenario.toml"),
+                                          testing::HasSubstr("was changed"), testing::HasSubstr("remove ")));
+    std::filesystem::remove_all(file.parent_path());
+    EXPECT_EQ(refusal(), "") << "made again";
+}
+
+TEST_F(ContinuedFolder, IsRefusedWhereALinkLeadsOutOfIt) {
+    prepare_folder(plan(), out_);
+    const auto elsewhere = folder_.path() / "elsewhere";
+    std::filesystem::create_directory(elsewhere);
+    std::filesystem::create_directory_symlink(elsewhere, out_ / "work");
+    EXPECT_THAT(refusal(), testing::HasSubstr("work: is a symbolic link"));
+}
+
 TEST_F(RunFolder, HasNoHalfScenarioAfterAFailure) {
     config_.scenarios[0].network.edges = "none.edg.xml";
     EXPECT_ANY_THROW(prepare_folder(plan(), out_));

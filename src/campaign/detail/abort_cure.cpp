@@ -5,7 +5,7 @@
 namespace clearway::campaign {
 
 std::string cure_of_abort(const results::RunError& error) {
-    if (error.signal == 0 || error.signal == SIGKILL) return "";
+    if (error.cause != results::ErrorCause::signal || error.signal == SIGKILL) return "";
     if (error.log_tail.find("getBidiLane") != std::string::npos)
         return "SUMO itself aborted on multi-track rails with trains in both directions. Import the network "
                "again: the import separates such rails. If only road traffic matters, set restrict = "

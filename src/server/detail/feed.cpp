@@ -7,7 +7,7 @@ namespace clearway::server::detail {
 
 bool read_number(std::string_view bytes, std::size_t& at, std::uint64_t& value) {
     value = 0;
-    for (unsigned shift = 0; at < bytes.size(); shift += 7) {
+    for (unsigned shift = 0; at < bytes.size() && shift < 64; shift += 7) {
         const auto byte = static_cast<unsigned char>(bytes[at++]);
         value |= static_cast<std::uint64_t>(byte & 0x7fU) << shift;
         if (byte < 0x80U) return true;

@@ -13,7 +13,7 @@
 
 namespace clearway::server::detail {
 
-/// Reads one number of a stream (view::BlockKind). False when it is not whole yet.
+/// Reads one number of a stream (view::BlockKind). False when it is not whole yet, or has no end.
 bool read_number(std::string_view bytes, std::size_t& at, std::uint64_t& value);
 
 /// The server's end of the connection to a run: reads blocks, writes times up to which it may go.
