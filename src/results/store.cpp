@@ -58,8 +58,8 @@ void require_same_scenario(const RunRecord& run, const Manifest& manifest, const
     const auto entry = std::ranges::find(manifest.scenarios, run.key.scenario, &ScenarioEntry::name);
     if (entry == manifest.scenarios.end() || entry->configuration_hash == run.provenance.configuration_hash)
         return;
-    throw core::InputError(
-        {file.string(), "is of configuration " + run.provenance.configuration_hash, entry->configuration_hash, ""});
+    throw core::InputError({file.string(), "is of configuration " + run.provenance.configuration_hash,
+                            entry->configuration_hash, ""});
 }
 
 /// Throws core::InputError, naming what differs, if a folder's study cannot be extended to the wanted one.

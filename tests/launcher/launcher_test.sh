@@ -460,7 +460,8 @@ package_list_is_well_formed() {
     while read -r name part purpose; do
         [[ -z $name || $name == '#'* ]] && continue
         [[ $name =~ ^[a-z0-9][a-z0-9.+-]+$ ]] || fail "not a package name: $name"
-        [[ $part == run || $part == test || $part == train || $part == extra || $part == package ]] ||
+        [[ $part == run || $part == test || $part == train || $part == extra || $part == package ||
+            $part == fuzz ]] ||
             fail "$name: part $part"
         [[ -n $purpose ]] || fail "$name: who needs it?"
     done <"$source_dir/packaging/packages.txt"
