@@ -53,15 +53,6 @@ void require_key(const experiment::RunKey& held, const experiment::RunKey& key, 
                             "Repeat the command that made the study (command.txt)"});
 }
 
-/// Throws core::InputError when a run was made with another configuration than the study's.
-void require_same_scenario(const RunRecord& run, const Manifest& manifest, const fs::path& file) {
-    const auto entry = std::ranges::find(manifest.scenarios, run.key.scenario, &ScenarioEntry::name);
-    if (entry == manifest.scenarios.end() || entry->configuration_hash == run.provenance.configuration_hash)
-        return;
-    throw core::InputError({file.string(), "is of configuration " + run.provenance.configuration_hash,
-                            entry->configuration_hash, ""});
-}
-
 /// Throws core::InputError, naming what differs, if a folder's study cannot be extended to the wanted one.
 void require_continues(const Manifest& wanted, const Manifest& stored, const fs::path& folder) {
     if (continues(wanted, stored)) return;
@@ -301,7 +292,6 @@ RunRecord Store::read_checked(const experiment::RunKey& key, std::string& vehicl
     vehicles = core::read_file(folder / "vehicles.csv");
     RunRecord record = detail::run_from_json(core::read_file(file), vehicles, file);
     require_key(record.key, key, file);
-    require_same_scenario(record, manifest_, file);
     return record;
 }
 
