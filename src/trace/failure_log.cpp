@@ -23,7 +23,7 @@ FailureLogger::FailureLogger(const RecordingInfo& info, const std::string& failu
     const graph::LinkRules rules = loop_of(info).rules();
     const core::KeyedRandom random(core::StudySeed{info.provenance.study_seed},
                                    core::Replication{info.key.replication});
-    state_.reset(new State{
+    state_ = std::make_unique<State>(State{
         metrics::TrueLinks(rules),
         sensing::make_sensor(failures::failure_from(failure), random, {.network = network, .rules = rules})});
 }
