@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/fields.hpp"
 #include "core/files.hpp"
@@ -270,7 +271,7 @@ void DatabaseWriter::finish() {
     tables_.reset();
     std::error_code error;
     std::filesystem::rename(part_, file_, error);
-    if (error) throw core::EnvironmentError(fmt::format("{}: {}", file_.string(), error.message()));
+    if (error) throw core::write_error(file_, error.value());
     core::flush_folder(file_.parent_path());
 }
 
