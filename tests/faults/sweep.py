@@ -170,8 +170,7 @@ def difference(made, wanted):
 
 
 def numbers_of_calls(trace):
-    """How often each call can fail: numbers of calls of any one process. Of those by which a process loads its libraries, which
-    are most and all alike, one in fifty."""
+    """How often each call can fail: numbers of calls of any one process, without those by which the system loads its libraries."""
     processes = collections.defaultdict(list)
     for line in trace.splitlines():
         if found := re.match(r"(\d+) +(\w+)\(", line):
@@ -182,7 +181,7 @@ def numbers_of_calls(trace):
         counts = collections.Counter()
         for at, (call, _) in enumerate(calls):
             counts[call] += 1
-            if at > loaded or counts[call] % 50 == 1:
+            if at > loaded:
                 numbers[call].add(counts[call])
     return {call: sorted(numbers[call]) for call in CALLS if numbers[call]}
 
