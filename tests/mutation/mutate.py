@@ -23,8 +23,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SURVIVORS = pathlib.Path(__file__).resolve().parent / "survivors.txt"
 # Of actuation only what times signals.
-MODULES = {"analysis": "*.cpp", "graph": "*.cpp", "metrics": "*.cpp",
-           "actuation": "detail/[!v]*.cpp"}
+MODULES = {"analysis": "**/*.cpp", "graph": "**/*.cpp", "metrics": "**/*.cpp", "actuation": "detail/[!v]*.cpp"}
 TESTS = {"analysis": ["analysis_test", "analysis_replications_test"], "graph": ["graph_test"],
          "metrics": ["metrics_link_quality_test", "metrics_recorder_test"], "actuation": ["actuation_test"]}
 LEAST_FOUND = 0.85
@@ -86,7 +85,8 @@ class Bench:
     def link_command(self, test):
         listed = subprocess.run(["ninja", "-C", self.build, "-t", "commands", f"tests/{test}"], check=True, capture_output=True, text=True)
         words = shlex.split(listed.stdout.splitlines()[-1])
-        return [word for word in words[words.index("&&") + 1:] if word != "&&"][:words[words.index("&&") + 1:].index("&&")]
+        first = words.index("&&") + 1
+        return words[first:words.index("&&", first)]
 
     def slow_tests(self, test):
         """Names of those that take long, which run last."""
@@ -142,8 +142,7 @@ def reasons():
 
 def judge(module, bench, asked, known):
     """Prints what survived; whether that is few enough."""
-    files = sorted((ROOT / "src" / module).rglob(MODULES[module].rpartition("/")[2]))
-    files = [file for file in files if file.match(f"{module}/{MODULES[module]}") or "/" not in MODULES[module]]
+    files = sorted((ROOT / "src" / module).glob(MODULES[module]))
     tried = [mistake for file in files for mistake in mistakes_of(module, file)]
     possible = len(tried)
     tried = random.Random(f"{asked.seed} {module}").sample(tried, min(asked.sample, possible))
