@@ -37,6 +37,7 @@ struct BelievedGraph {
     /// What each emergency vehicle knows of itself (see Observation). Ordered by key.
     std::vector<BelievedVehicle> own_states;
     SignalStates signals;
+    std::vector<KnownIncident> incidents;  ///< That last and are known.
     const Roster* roster = nullptr;
 
     std::span<const BelievedLink> links_of(core::VehicleIndex vehicle) const {

@@ -5,6 +5,7 @@
 
 #include "core/ids.hpp"
 #include "core/units.hpp"
+#include "traffic/incident.hpp"
 #include "traffic/signal.hpp"
 #include "traffic/vehicle.hpp"
 
@@ -57,6 +58,7 @@ struct Observation {
     std::vector<ObservedVehicle> own_states;
     std::vector<DetectedLink> detected_links;
     SignalStates signals;
+    std::vector<KnownIncident> incidents;  ///< That last and are known.
     /// Registrations and routes of the vehicles that reported at least once, and of all emergency vehicles.
     const Roster* roster = nullptr;
 };
