@@ -280,6 +280,19 @@ class Lease:
         return Lease._make("pass_red", {"vehicle": _key("vehicle", vehicle)}, serves, lasting_s, priority, reason)
 
     @staticmethod
+    def take_route(vehicle: Any, edges: Sequence[int], *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0,
+                   reason: str = "") -> "Lease":
+        """Drive over these edges (numbers of the network) to the destination; emergency vehicles only. A way that was taken stays.
+
+        The first edge is where the vehicle is or was since; edges that do not follow each other are refused (``route_gap``), and so
+        is another destination (``route_elsewhere``) and a turn for which it is too late (``past_decision``).
+        """
+        way = [_whole("an edge of edges", edge, NO_LANE - 1) for edge in edges]
+        if not way:
+            raise ValueError("edges is empty (allowed: at least the edge where the vehicle is)")
+        return Lease._make("take_route", {"vehicle": _key("vehicle", vehicle)}, serves, lasting_s, priority, reason, edges=way)
+
+    @staticmethod
     def hold_green(signal: int, links: Sequence[int], own_links: Sequence[int] = (), *, serves: Any = None, lasting_s: float = 2.0,
                    priority: int = 0, reason: str = "") -> "Lease":
         """Show green for these links and red for those that conflict; ``own_links`` are those of the one it serves."""

@@ -21,8 +21,26 @@ constexpr double reaction_s = 0.5;
 /// Farther away than this, every vehicle can stop, m: 140 km/h and 4.5 m/s2 take 168 m.
 constexpr double farthest_stop_m = 200.0;
 
+bool leads_on(const roads::Network& network, core::EdgeIndex from, core::EdgeIndex to) {
+    const roads::Edge& edge = network.edge(from);
+    for (std::uint32_t lane = edge.first_lane; lane < edge.first_lane + edge.lane_count; ++lane) {
+        for (const roads::Connection& way : network.connections_from(core::LaneIndex{lane}))
+            if (way.allows_emergency && network.lane(way.to).edge == to) return true;
+    }
+    return false;
+}
+
+std::optional<Refusal> check_way(const roads::Network& network, const std::vector<core::EdgeIndex>& edges) {
+    const bool all_exist =
+        std::ranges::all_of(edges, [&](core::EdgeIndex edge) { return edge.value < network.edges().size(); });
+    if (edges.empty() || !all_exist) return Refusal::no_such_edge;
+    for (std::size_t i = 0; i + 1 < edges.size(); ++i)
+        if (!leads_on(network, edges[i], edges[i + 1])) return Refusal::route_gap;
+    return std::nullopt;
+}
+
 /// Reason why a lease can never be carried out.
-std::optional<Refusal> check_vehicle_action(const traffic::Action& action) {
+std::optional<Refusal> check_vehicle_action(const roads::Network& network, const traffic::Action& action) {
     if (std::holds_alternative<traffic::HoldGreen>(action) ||
         std::holds_alternative<traffic::AdjustGreen>(action))
         return Refusal::wrong_target;
@@ -30,6 +48,7 @@ std::optional<Refusal> check_vehicle_action(const traffic::Action& action) {
         if (!std::isfinite(drive->speed.value)) return Refusal::speed_not_finite;
         if (drive->speed.value < 0.0) return Refusal::speed_negative;
     }
+    if (const auto* way = std::get_if<traffic::TakeRoute>(&action)) return check_way(network, way->edges);
     return std::nullopt;
 }
 
@@ -81,7 +100,7 @@ struct Actuator::State {
         if (std::holds_alternative<traffic::Stretch>(lease.target)) return Refusal::wrong_target;
         if (const auto* signal = std::get_if<core::SignalIndex>(&lease.target))
             return check_signal_action(network, *signal, lease.action);
-        return check_vehicle_action(lease.action);
+        return check_vehicle_action(network, lease.action);
     }
     /// Whether a vehicle could stop before the end of its lane with its usual deceleration, but only without
     /// a reaction time: if it got yellow now, it would brake hard.

@@ -108,6 +108,7 @@ void DecisionChain::decide(prediction::Want want) {
                  1;
     predictor_->predict(observation_, belief_, std::max(want, policies_want_));
     if (shown_) belief_.signals = *shown_;
+    belief_.incidents = observation_.incidents;
     exchange_messages();
     for (const auto& policy : policies_) {
         policy->act(belief_, leases_);

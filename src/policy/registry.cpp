@@ -12,6 +12,7 @@
 #include "policy/hold_cross.hpp"
 #include "policy/line_of_sight.hpp"
 #include "policy/listing_5_5.hpp"
+#include "policy/navigate.hpp"
 #include "policy/policy.hpp"
 #include "policy/preempt_signals.hpp"
 #include "policy/pull_aside.hpp"
@@ -91,6 +92,8 @@ const traffic::Registry<PolicyEntry>& policies() {
             entry<RedPrivilege, RedPrivilegeConfig>(
                 "red_privilege", "For comparison: the emergency vehicle passes red slowly and yielding",
                 {Trait::compares_only}),
+            entry<Navigate, NavigateConfig>(
+                "navigate", "The emergency vehicle takes the way that is believed to be fastest now"),
             entry<VacateLane, VacateLaneConfig>(
                 "vacate_lane", "Vehicles clear a path, planned around those that do not cooperate",
                 {Trait::renews_requests}),

@@ -90,6 +90,8 @@ const char* words_of(traffic::LeaseKind action) {
             return "let the EV pass red";
         case LeaseKind::stand_back:
             return "stood back: not the situation it is for";
+        case LeaseKind::take_route:
+            return "chose another way for the EV";
     }
     return "";
 }

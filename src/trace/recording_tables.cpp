@@ -166,6 +166,12 @@ class StepLines {
         std::string operator()(const traffic::AdjustGreen& action) const {
             return fmt::format(",,,{},", fmt::join(action.links, " "));
         }
+        std::string operator()(const traffic::TakeRoute& action) const {
+            std::string edges;
+            for (const core::EdgeIndex edge : action.edges)
+                edges += (edges.empty() ? "" : " ") + std::to_string(edge.value);
+            return fmt::format(",,,{},", edges);
+        }
         template <class Plain>
         std::string operator()(const Plain&) const {
             return ",,,,";

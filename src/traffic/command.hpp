@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "core/ids.hpp"
 #include "core/spellings.hpp"
@@ -96,9 +97,15 @@ struct RestoreProgram {
     std::optional<std::uint32_t> phase = std::nullopt;
     std::optional<core::Seconds> lasting = std::nullopt;
 };
+/// Drive over these edges: the first is where the vehicle is, the last its destination. Skipped, and counted
+/// as a command that was refused, where SUMO knows no such way for the vehicle or it is inside a junction.
+struct SetRoute {
+    core::VehicleKey vehicle;
+    std::vector<core::EdgeIndex> edges;
+};
 
 using Command = std::variant<SetSpeed, ReleaseSpeed, RequestLane, SetLaneChangeFreedom, SetSafetyChecks,
                              StopOnLane, ResumeFromStop, SetSignalState, RestoreProgram, ReleaseLane,
-                             SetLateralAlignment, SetJunctionPrivilege, SteerSideways>;
+                             SetLateralAlignment, SetJunctionPrivilege, SteerSideways, SetRoute>;
 
 }  // namespace clearway::traffic

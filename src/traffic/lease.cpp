@@ -7,9 +7,9 @@ namespace {
 
 /// In the order of Action.
 constexpr std::array<LeaseKind, std::variant_size_v<Action>> kinds = {
-    LeaseKind::drive_at,     LeaseKind::change_lane,  LeaseKind::hold_lane,
-    LeaseKind::pull_aside,   LeaseKind::stop_at_line, LeaseKind::hold_green,
-    LeaseKind::adjust_green, LeaseKind::pass_red,     LeaseKind::stand_back};
+    LeaseKind::drive_at,     LeaseKind::change_lane, LeaseKind::hold_lane,    LeaseKind::pull_aside,
+    LeaseKind::stop_at_line, LeaseKind::hold_green,  LeaseKind::adjust_green, LeaseKind::pass_red,
+    LeaseKind::stand_back,   LeaseKind::take_route};
 
 }  // namespace
 

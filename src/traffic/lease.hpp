@@ -51,9 +51,16 @@ struct PassRed {};
 /// Nothing: the policy would act, but stands back, because the situation is not one that it is for. For the
 /// emergency vehicle that it does not serve; refused as `stood_back`, so that every table counts it.
 struct StandBack {};
+/// Take another way to the same destination. For emergency vehicles. A way that was taken stays when the
+/// lease ends.
+struct TakeRoute {
+    /// In driving order, from the edge where the vehicle is, or one that it was on since, to the last one of
+    /// its present route.
+    std::vector<core::EdgeIndex> edges;
+};
 
 using Action = std::variant<DriveAt, ChangeLane, HoldLane, PullAside, StopAtLine, HoldGreen, AdjustGreen,
-                            PassRed, StandBack>;
+                            PassRed, StandBack, TakeRoute>;
 
 /// Which vehicles a message to a stretch of road addresses.
 enum class Addressed : std::uint8_t { automated, drivers };
@@ -102,8 +109,9 @@ enum class LeaseKind : std::uint8_t {
     pull_aside,
     stand_back,
     stop_at_line,
+    take_route,
 };
-constexpr core::Spellings<LeaseKind, 10> spellings(LeaseKind) {
+constexpr core::Spellings<LeaseKind, 11> spellings(LeaseKind) {
     return {{{LeaseKind::adjust_green, "adjust_green"},
              {LeaseKind::change_lane, "change_lane"},
              {LeaseKind::drive_at, "drive_at"},
@@ -113,7 +121,8 @@ constexpr core::Spellings<LeaseKind, 10> spellings(LeaseKind) {
              {LeaseKind::pass_red, "pass_red"},
              {LeaseKind::pull_aside, "pull_aside"},
              {LeaseKind::stand_back, "stand_back"},
-             {LeaseKind::stop_at_line, "stop_at_line"}}};
+             {LeaseKind::stop_at_line, "stop_at_line"},
+             {LeaseKind::take_route, "take_route"}}};
 }
 using core::name;
 LeaseKind kind_of(const Lease& lease);

@@ -20,18 +20,22 @@ enum class Refusal : std::uint8_t {
     no_links,                  ///< Never legal: a request for green that names no link.
     no_phase_serves,           ///< No phase of the program shows green for any of the links.
     no_room_beside,            ///< The vehicle itself would not change lanes now.
+    no_such_edge,              ///< Never legal.
     no_such_lane,              ///< The edge has fewer lanes.
     no_such_link,              ///< Never legal.
     no_such_signal,            ///< Never legal.
-    not_an_emergency_vehicle,  ///< Only emergency vehicles pass red.
+    not_an_emergency_vehicle,  ///< Only emergency vehicles pass red and are sent other ways.
     not_controllable,          ///< Human drivers follow no leases unless they comply.
     on_a_junction,             ///< There are no lanes to choose from, and no stop line.
     outdated,                  ///< A newer request was there before it.
     outranked,                 ///< Another lease for the same target goes first.
     own_link_not_held,         ///< Never legal: own links that are not among those to hold.
+    past_decision,             ///< Too near the junction to take another way there.
     preemption_delay,          ///< The signal's controller waits before it grants (traffic::Preemption).
     preemption_off,            ///< The signal's controller grants nothing.
     priority,                  ///< Below the least priority of the signal's controller.
+    route_elsewhere,           ///< A way that does not begin where the vehicle is, or ends elsewhere.
+    route_gap,                 ///< A way whose edges do not follow each other for an emergency vehicle.
     signal_gone,               ///< SUMO no longer has the signal.
     speed_negative,            ///< Never legal.
     speed_not_finite,          ///< Never legal.
@@ -43,7 +47,7 @@ enum class Refusal : std::uint8_t {
     vehicle_gone,             ///< Not on the road (any more).
     wrong_target,             ///< Never legal: a signal cannot drive, a vehicle shows no green.
 };
-constexpr core::Spellings<Refusal, 33> spellings(Refusal) {
+constexpr core::Spellings<Refusal, 37> spellings(Refusal) {
     using R = Refusal;
     return {{{R::above_allowed_speed, "above_allowed_speed"},
              {R::cannot_stop_comfortably, "cannot_stop_comfortably"},
@@ -56,6 +60,7 @@ constexpr core::Spellings<Refusal, 33> spellings(Refusal) {
              {R::no_links, "no_links"},
              {R::no_phase_serves, "no_phase_serves"},
              {R::no_room_beside, "no_room_beside"},
+             {R::no_such_edge, "no_such_edge"},
              {R::no_such_lane, "no_such_lane"},
              {R::no_such_link, "no_such_link"},
              {R::no_such_signal, "no_such_signal"},
@@ -65,9 +70,12 @@ constexpr core::Spellings<Refusal, 33> spellings(Refusal) {
              {R::outdated, "outdated"},
              {R::outranked, "outranked"},
              {R::own_link_not_held, "own_link_not_held"},
+             {R::past_decision, "past_decision"},
              {R::preemption_delay, "preemption_delay"},
              {R::preemption_off, "preemption_off"},
              {R::priority, "priority"},
+             {R::route_elsewhere, "route_elsewhere"},
+             {R::route_gap, "route_gap"},
              {R::signal_gone, "signal_gone"},
              {R::speed_negative, "speed_negative"},
              {R::speed_not_finite, "speed_not_finite"},

@@ -18,9 +18,10 @@ class EveryPolicy : public ::testing::TestWithParam<std::string> {
     }
     /// hold_cross acts only shortly before the arrival.
     static double to_line_m() { return GetParam() == "hold_cross" ? 50.0 : 120.0; }
-    /// Whether the crossings lack what the policy is for: a shoulder, or a junction without a signal.
+    /// Whether the crossings lack what the policy is for: a shoulder, a junction without a signal, or another
+    /// way.
     static bool is_out_of_place() {
-        if (GetParam() == "give_way") return true;
+        if (GetParam() == "give_way" || GetParam() == "navigate") return true;
         return policy::policies().is(GetParam(), traffic::Trait::shoulder);
     }
 };

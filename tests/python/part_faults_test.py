@@ -42,6 +42,9 @@ class Gone(Policy):
 class NoSignal(Policy):
     def act(self, belief):
         return [Lease.hold_green(77, [99], serves=ev) for ev in belief.emergency_vehicles]
+class NoWay(Policy):
+    def act(self, belief):
+        return [Lease.take_route(ev, [99, 99999], serves=ev) for ev in belief.emergency_vehicles]
 class Sleeps(Policy):
     def act(self, belief):
         time.sleep(1000)
@@ -209,6 +212,12 @@ class FaultTest(FolderCase):
         refused = clearway.run("intersection", conditions, seeds=1, out="runs").leases
         for condition in ("no_signal", "by_radio"):
             self.assertGreater(refused.where(condition=condition, reason="no_such_signal")["leases"].sum(), 0, condition)
+
+    def test_a_way_over_roads_that_do_not_exist_is_refused(self) -> None:
+        refused = clearway.run("intersection", [clearway.Condition("no_way", policy="bad.py:NoWay")], seeds=1, out="runs").leases
+        self.assertGreater(refused.where(action="take_route", reason="no_such_edge")["leases"].sum(), 0)
+        with self.assertRaisesRegex(ValueError, "edges is empty"):
+            clearway.Lease.take_route(1, [])
 
     def test_a_file_that_changes_during_a_study_blames_no_run_and_once_restored_the_study_goes_on(self) -> None:
         text = ("import pathlib\nfrom clearway import Policy\nonce = pathlib.Path('%s')\nclass Moody(Policy):\n"

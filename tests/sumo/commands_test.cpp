@@ -133,6 +133,31 @@ TEST(Commands, WithoutFreedomNoVehicleOvertakes) {
     }
 }
 
+TEST(Commands, AWayIsTakenAndKnownInTheNextStep) {
+    const Scene scene;
+    const sumo::SessionConfig config =
+        scene.config(scene.crossing(), vehicle("a", "ev", 0, "west_in east_out", R"(departSpeed="10")"));
+    Session session(config);
+    session.step();
+    const auto edge = [&](const char* id) {
+        const std::vector<std::string>& edges = config.names.edges;
+        return core::EdgeIndex{static_cast<std::uint32_t>(std::ranges::find(edges, id) - edges.begin())};
+    };
+    const auto route = [&] { return session.roster().route(session.roster().find(key("a"))->route); };
+    apply(session, traffic::SetRoute{key("a"), {edge("west_in"), edge("north_out")}});
+    session.step();
+    EXPECT_EQ(route(), (std::vector{edge("west_in"), edge("north_out")}));
+    EXPECT_EQ(session.refused_commands(), 0U);
+    apply(session, traffic::SetRoute{key("a"), {edge("south_in"), edge("north_out")}});
+    EXPECT_EQ(session.refused_commands(), 1U) << "it is elsewhere";
+    apply(session, traffic::SetRoute{key("a"), {edge("west_in"), edge("south_in")}});
+    EXPECT_EQ(session.refused_commands(), 2U) << "no way for SUMO";
+    session.step();
+    EXPECT_EQ(route(), (std::vector{edge("west_in"), edge("north_out")}));
+    EXPECT_THROW(apply(session, traffic::SetRoute{key("a"), {}}), std::invalid_argument);
+    EXPECT_THROW(apply(session, traffic::SetRoute{key("a"), {core::EdgeIndex{9999}}}), std::invalid_argument);
+}
+
 TEST(Commands, StopsAtThePositionAndResumes) {
     const Scene scene;
     Session session(scene.config(scene.straight_road(), one_vehicle()));

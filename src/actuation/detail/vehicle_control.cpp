@@ -36,6 +36,27 @@ double braking_m(const VehicleContext& around, core::VehicleIndex row, const tra
     return speed_mps * speed_mps / (2.0 * info.deceleration_mps2) + speed_mps * around.step.value;
 }
 
+/// Whether the vehicle can still turn into `next` at the end of its edge: it could stop before the junction,
+/// and has room for the changes of lane.
+bool can_turn(const VehicleContext& around, core::VehicleIndex row, const traffic::VehicleInfo& info,
+              core::EdgeIndex next) {
+    constexpr double lane_change_m = 30.0;  // assumed: 2 to 3 s at 50 km/h
+    const roads::Lane& own = around.network.lane(around.snapshot.lane[row]);
+    const roads::Edge& edge = around.network.edge(own.edge);
+    std::optional<std::uint32_t> fewest;
+    for (std::uint32_t lane = edge.first_lane; lane < edge.first_lane + edge.lane_count; ++lane) {
+        const bool leads = std::ranges::any_of(
+            around.network.connections_from(core::LaneIndex{lane}), [&](const roads::Connection& way) {
+                return way.allows_emergency && around.network.lane(way.to).edge == next;
+            });
+        const std::uint32_t number = lane - edge.first_lane;
+        const std::uint32_t changes = number > own.number ? number - own.number : own.number - number;
+        if (leads) fewest = std::min(fewest.value_or(changes), changes);
+    }
+    const double left_m = own.length_m - around.snapshot.lane_position_m[row];
+    return fewest && left_m > braking_m(around, row, info) + lane_change_m * *fewest;
+}
+
 }  // namespace
 
 bool VehicleSettings::is_default() const {
@@ -50,6 +71,7 @@ VehicleControl::Channel VehicleControl::channel_of(const traffic::Action& action
     if (std::holds_alternative<traffic::DriveAt>(action) ||
         std::holds_alternative<traffic::StopAtLine>(action))
         return speed;
+    if (std::holds_alternative<traffic::TakeRoute>(action)) return way;
     return std::holds_alternative<traffic::PassRed>(action) ? privilege : lateral;
 }
 
@@ -115,6 +137,7 @@ VehicleSettings VehicleControl::judge(const VehicleContext& around, const Place&
     }
     judge_speed(around, place, settings, ledger);
     judge_lateral(around, place, settings, ledger);
+    judge_way(around, place, settings, ledger);
     if (HeldLease* held = queues_[privilege].best()) {
         if (place.info.vehicle_class == traffic::VehicleClass::emergency) {
             settings.privilege = traffic::JunctionPrivilege::pass_red;
@@ -182,6 +205,30 @@ void VehicleControl::judge_line(const VehicleContext& around, const Place& place
     held.granted_on = lane.edge;
     settings.line = LineStop{index, lane.length_m - stop_line_gap_m};
     LeaseQueue::act(held, ledger);
+}
+
+/// Another way from the present edge on, as the vehicle could still take it.
+void VehicleControl::judge_way(const VehicleContext& around, const Place& place, VehicleSettings& settings,
+                               Ledger& ledger) {
+    HeldLease* held = queues_[way].best();
+    if (held == nullptr) return;
+    if (place.info.vehicle_class != traffic::VehicleClass::emergency)
+        return LeaseQueue::refuse(*held, Refusal::not_an_emergency_vehicle, ledger);
+    const roads::Lane& lane = around.network.lane(around.snapshot.lane[place.row]);
+    if (around.network.edge(lane.edge).internal)
+        return LeaseQueue::refuse(*held, Refusal::on_a_junction, ledger);
+    const std::vector<core::EdgeIndex>& asked = std::get<traffic::TakeRoute>(held->lease.action).edges;
+    const auto& route = around.roster.route(place.info.route);
+    const auto from = std::ranges::find(asked, lane.edge);
+    const std::uint32_t at = around.snapshot.route_edge[place.row];
+    if (from == asked.end() || at >= route.size() || asked.back() != route.back())
+        return LeaseQueue::refuse(*held, Refusal::route_elsewhere, ledger);
+    if (std::equal(from, asked.end(), route.begin() + at, route.end())) return LeaseQueue::act(*held, ledger);
+    const bool goes_on = std::next(from) != asked.end();
+    const bool turns_here = goes_on && (at + 1 >= route.size() || *std::next(from) != route[at + 1]);
+    if (turns_here && !can_turn(around, place.row, place.info, *std::next(from)))
+        return LeaseQueue::refuse(*held, Refusal::past_decision, ledger);
+    settings.way.assign(from, asked.end());
 }
 
 void VehicleControl::judge_lateral(const VehicleContext& around, const Place& place,
@@ -278,6 +325,7 @@ void VehicleControl::apply(const VehicleSettings& wanted, core::Seconds now,
     applied_.privilege = wanted.privilege;
     apply_stop(wanted, commands);
     apply_lane(wanted, now, commands);
+    if (!wanted.way.empty()) commands.push_back(traffic::SetRoute{vehicle_, wanted.way});
 }
 
 /// One stop at a time; beside the road goes before at the line. A stop at the start of the lane means as soon

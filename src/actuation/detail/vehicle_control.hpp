@@ -51,6 +51,7 @@ struct VehicleSettings {
     traffic::SafetyChecks checks = traffic::SafetyChecks::on;
     bool beside_road = false;  ///< Stands beside the road, or is about to.
     std::optional<LineStop> line;
+    std::vector<core::EdgeIndex> way;  ///< To take now; nothing is left to restore of it.
 
     bool is_default() const;
 };
@@ -71,7 +72,7 @@ class VehicleControl {
     bool is_idle(core::Seconds now) const;
 
   private:
-    enum Channel : std::size_t { speed, lateral, privilege, channel_count };
+    enum Channel : std::size_t { speed, lateral, privilege, way, channel_count };
     struct Place {
         core::VehicleIndex row;
         const traffic::VehicleInfo& info;
@@ -93,6 +94,8 @@ class VehicleControl {
                      HeldLease& held, Ledger& ledger) const;
     std::optional<LaneRequest> judge_lane(const VehicleContext& around, const Place& place, HeldLease& held,
                                           Ledger& ledger) const;
+    void judge_way(const VehicleContext& around, const Place& place, VehicleSettings& settings,
+                   Ledger& ledger);
     void apply(const VehicleSettings& wanted, core::Seconds now, std::vector<traffic::Command>& commands);
     void apply_stop(const VehicleSettings& wanted, std::vector<traffic::Command>& commands);
     void apply_lane(const VehicleSettings& wanted, core::Seconds now,

@@ -42,6 +42,7 @@ struct Adder {
     void operator()(const traffic::AdjustGreen& action) { array(action.links); }
     void operator()(const traffic::PassRed&) {}
     void operator()(const traffic::StandBack&) {}
+    void operator()(const traffic::TakeRoute& action) { array(action.edges); }
     void operator()(core::VehicleKey vehicle) { value(vehicle.value); }
     void operator()(core::SignalIndex signal) { value(signal.value); }
     void operator()(const traffic::Stretch& stretch) {

@@ -68,6 +68,12 @@ traffic::Action action_of(const Json& row) {
     if (kind == "hold_green") return traffic::HoldGreen{links_of(row, "links"), links_of(row, "own_links")};
     if (kind == "adjust_green") return traffic::AdjustGreen{links_of(row, "links")};
     if (kind == "pass_red") return traffic::PassRed{};
+    if (kind == "take_route") {
+        traffic::TakeRoute way;
+        for (const Json& edge : row.at("edges"))
+            way.edges.push_back(core::EdgeIndex{whole_of<std::uint32_t>(edge, "edges")});
+        return way;
+    }
     throw std::invalid_argument(fmt::format("`{}` is not an action", kind));
 }
 

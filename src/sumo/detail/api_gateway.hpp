@@ -227,6 +227,14 @@ class ApiGateway : public Sumo {
         });
     }
 
+    bool set_route(const std::string& vehicle, const std::vector<std::string>& edges) override {
+        try {
+            call([&] { api::Vehicle::setRoute(vehicle, edges); });
+            return true;
+        } catch (const ::libsumo::TraCIException&) {
+            return false;
+        }
+    }
     void set_speed(const std::string& vehicle, double speed_mps) override {
         call(api::Vehicle::setSpeed, vehicle, speed_mps);
     }

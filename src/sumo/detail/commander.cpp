@@ -179,6 +179,24 @@ void Commander::run(const traffic::ResumeFromStop& command) {
         sumo_.cancel_stop(vehicle->id, static_cast<int>(found - stops.begin()));
 }
 
+void Commander::run(const traffic::SetRoute& command) {
+    Vehicle* const vehicle = on_road(command.vehicle);
+    if (vehicle == nullptr) return;
+    const std::vector<std::string>& names = names_.names().edges;
+    std::vector<std::string> edges;
+    for (const core::EdgeIndex edge : command.edges) {
+        require(edge.value < names.size(),
+                fmt::format("vehicle '{}': there is no edge with index {}", vehicle->id, edge.value));
+        edges.push_back(names[edge.value]);
+    }
+    require(!edges.empty(), fmt::format("vehicle '{}': a way without edges", vehicle->id));
+    if (edges.front() != sumo_.edge_of(vehicle->id) || !sumo_.set_route(vehicle->id, edges)) {
+        ++refused_;
+        return;
+    }
+    vehicle->route_id.clear();  // it is read again
+}
+
 const std::string& Commander::signal_name(core::SignalIndex signal) const {
     const std::vector<std::string>& signals = names_.names().signals;
     require(signal.value < signals.size(), fmt::format("there is no signal with index {}", signal.value));

@@ -46,6 +46,7 @@ class Commander {
     void run(const traffic::ResumeFromStop& command);
     void run(const traffic::SetSignalState& command);
     void run(const traffic::RestoreProgram& command);
+    void run(const traffic::SetRoute& command);
 
     /// Null, and counted, when the vehicle has left.
     Vehicle* present(core::VehicleKey key);

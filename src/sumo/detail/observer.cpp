@@ -197,7 +197,7 @@ void Observer::read_vehicles(truth::Snapshot& snapshot, truth::Events& events) {
                 gone.push_back(vehicle);
                 continue;
             }
-            if (check_routes) follow_route(*vehicle);
+            if (check_routes || vehicle->route_id.empty()) follow_route(*vehicle);
             store(*vehicle, snapshot);
             note_braking(*vehicle, events);
         }

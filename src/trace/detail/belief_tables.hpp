@@ -36,8 +36,11 @@ class BeliefTables {
     void code(Belief& now, const traffic::Observation& observation, const KnownStates& known) {
         if constexpr (File::reading) {
             now.roster = observation.roster;
+            now.incidents = observation.incidents;
         } else if (now.roster != observation.roster) {
             throw std::invalid_argument("a belief refers to another roster than its observation");
+        } else if (now.incidents != observation.incidents) {
+            throw std::invalid_argument("a belief knows other incidents than its observation");
         }
         std::size_t one = 1;
         rows_.count(one);

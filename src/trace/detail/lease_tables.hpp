@@ -18,16 +18,18 @@
 namespace clearway::trace::detail {
 
 /// Numbers separated by blanks.
-inline std::string number_list(const std::vector<std::uint16_t>& numbers) {
+template <class Number>
+std::string number_list(const std::vector<Number>& numbers) {
     return fmt::format("{}", fmt::join(numbers, " "));
 }
-inline std::vector<std::uint16_t> numbers_from(const std::string& text) {
-    std::vector<std::uint16_t> numbers;
+template <class Number>
+std::vector<Number> numbers_from(const std::string& text) {
+    std::vector<Number> numbers;
     const char* const end = text.data() + text.size();
     for (const char* at = text.data(); at < end; ++at) {
         const auto [next, error] = std::from_chars(at, end, numbers.emplace_back());
         if (error != std::errc() || (next != end && *next != ' '))
-            throw std::runtime_error("links of a signal are not numbers");
+            throw std::runtime_error("links of a signal, or edges of a way, are not numbers");
         at = next;
     }
     return numbers;
@@ -138,6 +140,11 @@ class LeaseTables {
             members.own_links = number_list(action.own_links);
         } else if constexpr (std::is_same_v<Action, traffic::AdjustGreen>) {
             members.links = number_list(action.links);
+        } else if constexpr (std::is_same_v<Action, traffic::TakeRoute>) {
+            std::vector<std::uint32_t> edges;
+            for (const core::EdgeIndex edge : action.edges)
+                edges.push_back(edge.value);
+            members.links = number_list(edges);
         } else {
             static_assert(std::is_empty_v<Action>, "a new action must be coded here");
         }
@@ -152,10 +159,13 @@ class LeaseTables {
         } else if constexpr (std::is_same_v<Action, traffic::PullAside>) {
             action.side = members.side;
         } else if constexpr (std::is_same_v<Action, traffic::HoldGreen>) {
-            action.links = numbers_from(members.links);
-            action.own_links = numbers_from(members.own_links);
+            action.links = numbers_from<std::uint16_t>(members.links);
+            action.own_links = numbers_from<std::uint16_t>(members.own_links);
         } else if constexpr (std::is_same_v<Action, traffic::AdjustGreen>) {
-            action.links = numbers_from(members.links);
+            action.links = numbers_from<std::uint16_t>(members.links);
+        } else if constexpr (std::is_same_v<Action, traffic::TakeRoute>) {
+            for (const std::uint32_t edge : numbers_from<std::uint32_t>(members.links))
+                action.edges.push_back(core::EdgeIndex{edge});
         } else {
             static_assert(std::is_empty_v<Action>, "a new action must be coded here");
         }
@@ -179,8 +189,8 @@ class LeaseTables {
     Column<double> speed_mps_{rows_, {"speed_mps", "m/s", "Speed of drive_at"}};
     Column<std::uint32_t> lane_number_{rows_, {"lane_number", "1", "Lane of change_lane; 0: the outermost"}};
     Column<traffic::Side> side_{rows_, {"side", "", "Side of pull_aside"}, side_names};
-    Column<std::uint32_t> links_{rows_,
-                                 {"links", "", "Row in /texts: links of a signal, separated by blanks"}};
+    Column<std::uint32_t> links_{
+        rows_, {"links", "", "Row in /texts: links of a signal, or edges of a way, separated by blanks"}};
     Column<std::uint32_t> own_links_{
         rows_, {"own_links", "", "Row in /texts: the links that the beneficiary may take itself"}};
     Column<double> expiry_s_{rows_, {"expiry_s", "s", "Simulation time at which the lease ends"}};

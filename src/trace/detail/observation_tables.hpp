@@ -19,6 +19,7 @@ class ObservationTables {
               "What was last reported of each vehicle, ordered by key; then what emergency vehicles know "
               "of themselves"),
           detections_(file, "observation/detections", "Dark vehicles that a neighbour detected"),
+          incidents_(file, "observation/incidents", "Incidents that last and are known"),
           signals_(file, "observation/signals",
                    "What signals were seen to show, where it differs from /signals", names),
           roster_(file, "observation/", names) {}
@@ -49,6 +50,11 @@ class ObservationTables {
             names_.code(to_, link.to);
             range_m_(link.range_m);
             range_sigma_m_(link.range_sigma_m);
+        });
+        list<File>(incidents_, now.incidents, [&](auto& incident) {
+            code_value(edge_, incident.edge);
+            closed_to_emergency_(incident.closed_to_emergency);
+            speed_past_mps_(incident.speed_past_mps);
         });
         signals_.code(now.signals, snapshot.signals, has_signals_);
     }
@@ -82,7 +88,7 @@ class ObservationTables {
     }
 
     Names& names_;
-    typename File::Rows rows_, vehicles_, detections_;
+    typename File::Rows rows_, vehicles_, detections_, incidents_;
     Column<double> time_s_{rows_, {"time_s", "s", "Reports up to this time"}};
     Column<double> report_time_s_{rows_, {"report_time_s", "s", "Time of the latest report round"}};
     Column<bool> is_report_{rows_, {"is_report", "", "A report round took place in this step"}};
@@ -105,6 +111,10 @@ class ObservationTables {
     Column<std::uint32_t> to_{detections_, {"to", "", "Row in /vehicles: the vehicle that is detected"}};
     Column<float> range_m_{detections_, {"range_m", "m", "Measured distance; negative: not measured"}};
     Column<float> range_sigma_m_{detections_, {"range_sigma_m", "m", "Standard deviation of the distance"}};
+    Column<std::uint32_t> edge_{incidents_, {"edge", "", "Edge of the network"}};
+    Column<bool> closed_to_emergency_{
+        incidents_, {"closed_to_emergency", "", "No lane that an emergency vehicle may use is open"}};
+    Column<float> speed_past_mps_{incidents_, {"speed_past_mps", "m/s", "Limit past it; 0: none"}};
     SignalTable<File> signals_;
     RosterTables<File> roster_;
 };

@@ -1,0 +1,105 @@
+#include "policy/detail/edge_times.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace clearway::policy::detail {
+namespace {
+
+/// Slower traffic is believed to move at this speed, m/s: a queue moves up.
+constexpr double least_mps = 0.5;
+
+bool is_green(char letter) {
+    return letter == 'g' || letter == 'G';
+}
+
+/// Mean wait at a link of a program for arrivals at any time, s: the sum of red^2 / 2 over the reds of a
+/// cycle, divided by the cycle.
+double mean_wait_s(const roads::Signal& signal, std::size_t link) {
+    double cycle_s = 0.0, waited_s2 = 0.0, red_s = 0.0, first_red_s = -1.0;
+    const auto end_red = [&] {
+        if (first_red_s < 0.0)
+            first_red_s = red_s;  // it may go on from the end of the cycle
+        else
+            waited_s2 += red_s * red_s / 2.0;
+        red_s = 0.0;
+    };
+    for (const roads::Phase& phase : signal.program) {
+        const double lasting_s = phase.duration_s + phase.yellow_s + phase.red_s;
+        cycle_s += lasting_s;
+        if (link < phase.state.size() && is_green(phase.state[link]))
+            end_red();
+        else
+            red_s += lasting_s;
+    }
+    if (first_red_s < 0.0 || cycle_s <= 0.0) return 0.0;  // never green: not a link to wait for
+    red_s += first_red_s;
+    return (waited_s2 + red_s * red_s / 2.0) / cycle_s;
+}
+
+}  // namespace
+
+EdgeTimes::EdgeTimes(const roads::Network& network, const roads::RouteSearch& search,
+                     const EdgeTimesConfig& config)
+    : network_(network), search_(search), config_(config), seen_(network.edges().size()) {
+    for (std::uint32_t row = 0; row < network.edges().size(); ++row) {
+        length_m_.push_back(network.edge(core::EdgeIndex{row}).length_m);
+        const double wait_s = mean_wait_s(core::EdgeIndex{row});
+        signal_.push_back(wait_s >= 0.0);
+        wait_s_.push_back(std::max(0.0, wait_s));
+    }
+}
+
+/// Mean over the links of the edge; negative without a signal.
+double EdgeTimes::mean_wait_s(core::EdgeIndex index) const {
+    const roads::Edge& edge = network_.edge(index);
+    double sum_s = 0.0;
+    int links = 0;
+    for (std::uint32_t lane = edge.first_lane; lane < edge.first_lane + edge.lane_count; ++lane) {
+        for (const roads::Connection& way : network_.connections_from(core::LaneIndex{lane})) {
+            if (edge.internal || !way.signal.exists() || !way.allows_emergency) continue;
+            sum_s += detail::mean_wait_s(network_.signal(way.signal), way.signal_link);
+            ++links;
+        }
+    }
+    return links == 0 ? -1.0 : sum_s / links;
+}
+
+double EdgeTimes::fading(double lasting_s) const {
+    return std::exp(-lasting_s / config_.fade_s);
+}
+
+void EdgeTimes::see(const traffic::BelievedGraph& belief, core::Seconds period) {
+    now_s_ = belief.time.value;
+    for (const traffic::BelievedVehicle& vehicle : belief.vehicles) {
+        if (vehicle.vehicle_class == traffic::VehicleClass::emergency || !vehicle.state.lane.exists())
+            continue;
+        const core::EdgeIndex edge = network_.lane(vehicle.state.lane).edge;
+        if (network_.edge(edge).internal) continue;
+        Seen& seen = seen_[edge.value];
+        const double share = fading(now_s_ - seen.at_s);
+        seen.time_s = seen.time_s * share + period.value;
+        seen.distance_m = seen.distance_m * share + vehicle.state.speed_mps * period.value;
+        seen.at_s = now_s_;
+    }
+}
+
+double EdgeTimes::at(core::EdgeIndex edge, double entered_s, double pace) const {
+    const double limit_s = search_.free_s(edge);
+    if (limit_s == roads::no_way_s) return limit_s;
+    const double length_m = std::max(length_m_[edge.value], 0.1);
+    const double prior_s = limit_s + wait_s_[edge.value];
+    const Seen& seen = seen_[edge.value];
+    const double share = fading(now_s_ - seen.at_s);
+    const double speed_mps = (seen.distance_m * share + config_.prior_s * length_m / prior_s) /
+                             (seen.time_s * share + config_.prior_s);
+    const double seen_delay_s = std::max(0.0, length_m / std::max(speed_mps, least_mps) - limit_s);
+    const double prior_delay_s = prior_s - limit_s;
+    // What fades faster than time passes would let a later entry leave earlier.
+    const double difference_s = std::min(seen_delay_s - prior_delay_s, config_.fade_s);
+    const double delay_s = prior_delay_s + difference_s * fading(entered_s);
+    return limit_s / pace + delay_s * (signal_[edge.value] ? config_.signal_share : 1.0);
+}
+
+}  // namespace clearway::policy::detail

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "core/ids.hpp"
+#include "core/units.hpp"
+#include "roads/network.hpp"
+#include "roads/route_search.hpp"
+#include "traffic/belief.hpp"
+
+namespace clearway::policy::detail {
+
+/// How times are believed.
+struct EdgeTimesConfig {
+    double fade_s = 120.0;      ///< Time constant with which what was seen fades, > 0.
+    double prior_s = 30.0;      ///< Weight of the prior, as time of vehicles on the edge, > 0.
+    double signal_share = 1.0;  ///< Share of the delay before a signal that counts.
+};
+
+/// Believed times along edges. The speed on an edge is the distance over the time of the vehicles that are
+/// seen there (Edie 1963), both fading exponentially, with a prior: the limit, and before a signal the mean
+/// wait of its program (red^2 / (2 cycle), Webster 1958, without its random terms).
+class EdgeTimes {
+  public:
+    /// Network and search outlive the object.
+    EdgeTimes(const roads::Network& network, const roads::RouteSearch& search, const EdgeTimesConfig& config);
+
+    /// Takes what is believed of vehicles other than emergency vehicles for one `period`.
+    void see(const traffic::BelievedGraph& belief, core::Seconds period);
+
+    /// Time along an edge that is entered `entered_s` from the last `see`, for somebody who drives `pace`
+    /// times the limit where the road is free, s. Never below that; FIFO in `entered_s`.
+    double at(core::EdgeIndex edge, double entered_s, double pace) const;
+
+  private:
+    /// Fading sums of an edge.
+    struct Seen {
+        double time_s = 0.0;
+        double distance_m = 0.0;
+        double at_s = 0.0;  ///< When they were last brought up to date.
+    };
+    double fading(double lasting_s) const;
+    double mean_wait_s(core::EdgeIndex edge) const;
+
+    const roads::Network& network_;
+    const roads::RouteSearch& search_;
+    EdgeTimesConfig config_;
+    std::vector<double> length_m_;
+    std::vector<double> wait_s_;  ///< By edge: mean wait at the signal at its end.
+    std::vector<bool> signal_;    ///< By edge: whether it ends at one.
+    std::vector<Seen> seen_;
+    double now_s_ = 0.0;
+};
+
+}  // namespace clearway::policy::detail

@@ -1,0 +1,90 @@
+#include "policy/navigate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "roads/route.hpp"
+
+namespace clearway::policy {
+namespace {
+
+/// Room that a turn needs beyond the way to a stop, m: changes of lane at the usual speed in towns.
+constexpr double turn_room_m = 60.0;
+
+bool is_known_closed(const std::vector<traffic::KnownIncident>& incidents, core::EdgeIndex edge) {
+    return std::ranges::any_of(incidents, [&](const traffic::KnownIncident& incident) {
+        return incident.edge == edge && incident.closed_to_emergency;
+    });
+}
+
+}  // namespace
+
+Navigate::Navigate(const PolicyContext& context, const NavigateConfig& config)
+    : ConfiguredPolicy(context, config),
+      search_(context.network, roads::Driver::emergency),
+      times_(context.network, search_,
+             {.fade_s = config.fade_s, .prior_s = config.prior_s, .signal_share = config.signal_share}) {}
+
+void Navigate::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
+    if (config_.observes != 0) times_.see(belief, context_.period);
+    const bool has_news = config_.heeds_incidents != 0 && belief.incidents != known_;
+    if (has_news) known_ = belief.incidents;
+    const detail::View view(context_.network, belief);
+    detail::LeaseWriter write("navigate", context_.period, belief.time, leases, config_.replan_s);
+    for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
+        const auto [planned, is_new] = planned_at_.try_emplace(emergency.key, belief.time.value);
+        const double age_s = belief.time.value - planned->second;
+        if (!is_new && !has_news && age_s + core::clock_tolerance_s < config_.replan_s) continue;
+        planned->second = belief.time.value;
+        plan(view, emergency, write);
+    }
+}
+
+Navigate::Fork Navigate::fork_of(const detail::View& view, const traffic::BelievedVehicle& emergency,
+                                 double pace) const {
+    const traffic::MotionState& state = emergency.state;
+    const roads::Route route = view.route_of(emergency.key);
+    const roads::Lane& lane = context_.network.lane(state.lane);
+    const double left_m = std::max(0.0F, lane.length_m - state.lane_position_m);
+    const double braking_m =
+        state.speed_mps * state.speed_mps / (2.0 * view.info_of(emergency).deceleration_mps2);
+    const bool is_inside = context_.network.edge(lane.edge).internal;
+    const double pace_mps = std::max(0.1, static_cast<double>(lane.speed_limit_mps) * pace);
+    Fork fork{{route[state.route_edge]}, left_m / pace_mps};
+    if (is_inside || left_m < braking_m + turn_room_m) {
+        if (state.route_edge + 1 < route.size()) {
+            const core::EdgeIndex next = route[state.route_edge + 1];
+            fork.before.push_back(next);
+            fork.leaving_s += times_.at(next, fork.leaving_s, pace);
+        }
+    }
+    return fork;
+}
+
+void Navigate::plan(const detail::View& view, const traffic::BelievedVehicle& emergency,
+                    detail::LeaseWriter& write) {
+    const roads::Route route = view.route_of(emergency.key);
+    const traffic::VehicleInfo& info = view.info_of(emergency);
+    const double pace = std::max(1.0F, info.speed_factor);
+    const Fork fork = fork_of(view, emergency, pace);
+    const std::size_t at = emergency.state.route_edge + fork.before.size() - 1;
+    const core::EdgeIndex here = fork.before.back();
+    if (at + 1 >= route.size()) return;
+    const auto edge_s = [&](core::EdgeIndex edge, double entered_s) {
+        if (is_known_closed(known_, edge)) return roads::no_way_s;
+        return times_.at(edge, entered_s, pace);
+    };
+    const double found_s = search_.search(here, route.back(), fork.leaving_s, edge_s, way_, pace);
+    if (found_s == roads::no_way_s) return;
+    const double present_s = search_.time_of(route.subspan(at), fork.leaving_s, edge_s);
+    const double least_gain_s = std::max(config_.gain_s, config_.gain_share * present_s);
+    const bool is_blocked = present_s == roads::no_way_s;
+    if (!is_blocked && present_s - found_s <= least_gain_s) return;
+    if (std::ranges::equal(way_, route.subspan(at))) return;
+    traffic::TakeRoute way{fork.before};
+    way.edges.insert(way.edges.end(), way_.begin() + 1, way_.end());
+    write.add(emergency.key, std::move(way), is_blocked ? "its way is closed" : "another way is faster",
+              emergency.key);
+}
+
+}  // namespace clearway::policy

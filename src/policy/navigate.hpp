@@ -1,0 +1,86 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "core/fields.hpp"
+#include "policy/configured_policy.hpp"
+#include "policy/detail/edge_times.hpp"
+#include "policy/detail/view.hpp"
+#include "roads/route_search.hpp"
+
+namespace clearway::policy {
+
+/// Settings of Navigate.
+struct NavigateConfig {
+    double replan_s = 5.0;
+    double gain_s = 10.0;
+    double gain_share = 0.07;
+    double fade_s = 120.0;
+    double prior_s = 30.0;
+    double signal_share = 1.0;
+    int observes = 1;
+    int heeds_incidents = 1;
+
+    static constexpr auto fields() {
+        using C = NavigateConfig;
+        using core::Field;
+        return std::make_tuple(
+            Field{"replan_s", "s", &C::replan_s, 0.1, 600.0,
+                  "Time between two searches for an emergency vehicle; a new incident is looked at at once",
+                  "assumed: a few hundred metres in between"},
+            Field{"gain_s", "s", &C::gain_s, 0.0, 1e6,
+                  "A way is changed only for a believed gain above this and above gain_share",
+                  "assumed: below it, beliefs decide and not roads"},
+            Field{"gain_share", "1", &C::gain_share, 0.0, 1.0, "Share of the rest of the present way",
+                  "assumed, as gain_s"},
+            Field{"fade_s", "s", &C::fade_s, 1.0, 86400.0,
+                  "What was seen on an edge fades with this time constant, both since it was seen and until "
+                  "the emergency vehicle would get there",
+                  "assumed: one or two cycles of a signal"},
+            Field{
+                "prior_s", "s", &C::prior_s, 0.1, 1e5,
+                "Weight of what is assumed of an edge before anything is seen there, as time of vehicles on "
+                "it",
+                "assumed: one vehicle for half a minute"},
+            Field{"signal_share", "1", &C::signal_share, 0.0, 1.0,
+                  "Share of the usual delay on an edge before a signal that the emergency vehicle has, too",
+                  "1: no priority at signals"},
+            Field{"observes", "1", &C::observes, 0, 1,
+                  "0: traffic is not looked at, ways follow free flow and the signals' programs",
+                  "1; 0 is the control"},
+            Field{"heeds_incidents", "1", &C::heeds_incidents, 0, 1,
+                  "0: what is known of incidents is not heard", "1; 0 is the control"});
+    }
+};
+
+/// Chooses the emergency vehicle's way by the times that are believed now: of vehicles seen on the roads, of
+/// signals by their programs, of incidents that are known. It changes the way where that pays, and asks for
+/// the new one until the vehicle drives it.
+class Navigate : public ConfiguredPolicy<NavigateConfig> {
+  public:
+    Navigate(const PolicyContext& context, const NavigateConfig& config = {});
+
+    std::string_view name() const override { return "navigate"; }
+    void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
+
+  private:
+    /// Where a way may still be changed, and what is driven before it.
+    struct Fork {
+        std::vector<core::EdgeIndex> before;  ///< Edges that stay, the last one is left at `leaving_s`.
+        double leaving_s = 0.0;               ///< From now.
+    };
+    Fork fork_of(const detail::View& view, const traffic::BelievedVehicle& emergency, double pace) const;
+    void plan(const detail::View& view, const traffic::BelievedVehicle& emergency,
+              detail::LeaseWriter& write);
+
+    roads::RouteSearch search_;
+    detail::EdgeTimes times_;
+    std::vector<traffic::KnownIncident> known_;      ///< At the last decision.
+    std::map<core::VehicleKey, double> planned_at_;  ///< s, by emergency vehicle.
+    std::vector<core::EdgeIndex> way_;               ///< Reused.
+};
+
+}  // namespace clearway::policy

@@ -1,0 +1,133 @@
+#include "policy/navigate.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/crossing_scene.hpp"
+
+namespace clearway::testing {
+namespace {
+
+using policy::NavigateConfig;
+using traffic::VehicleClass;
+
+core::EdgeIndex edge(const char* id) {
+    return short_square().find_edge(id).value();
+}
+std::vector<core::EdgeIndex> edges(std::initializer_list<const char*> ids) {
+    std::vector<core::EdgeIndex> found;
+    for (const char* id : ids)
+        found.push_back(edge(id));
+    return found;
+}
+
+/// An emergency vehicle on its way over B0; over A1 it is as far.
+class Navigation : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        ev =
+            scene.add({"e", VehicleClass::emergency, {"left0A0", "A0B0", "B0B1", "B1right1"}, 0, 20.0, 10.0});
+    }
+    /// A queue on A0B0 that nobody leaves.
+    void add_queue(int vehicles = 12) {
+        for (int i = 0; i < vehicles; ++i)
+            scene.add(
+                {"q" + std::to_string(i), VehicleClass::human, {"A0B0", "B0B1"}, 0, 94.0 - 7.5 * i, 0.0});
+    }
+    /// Decisions every 0.5 s; the leases of all.
+    std::vector<traffic::Lease> act_for(policy::Navigate& navigate, double duration_s) {
+        std::vector<traffic::Lease> leases;
+        traffic::BelievedGraph& belief = scene.belief();
+        for (double at_s = 0.0; at_s < duration_s - 1e-9; at_s += 0.5) {
+            now_s += 0.5;
+            belief.time = core::Seconds(now_s);
+            navigate.act(belief, leases);
+        }
+        return leases;
+    }
+    static policy::Navigate make(const NavigateConfig& config = {}) {
+        return policy::Navigate({short_square()}, config);
+    }
+
+    CrossingScene scene{100.0, short_square()};
+    core::VehicleKey ev;
+    double now_s = 100.0;
+};
+
+TEST_F(Navigation, stays_on_its_way_while_none_is_faster) {
+    policy::Navigate navigate({short_square()}, NavigateConfig{});
+    EXPECT_TRUE(act_for(navigate, 60.0).empty());
+}
+
+TEST_F(Navigation, goes_round_a_queue_that_is_seen) {
+    add_queue();
+    policy::Navigate navigate({short_square()}, NavigateConfig{});
+    const auto leases = act_for(navigate, 60.0);
+    ASSERT_FALSE(leases.empty());
+    EXPECT_EQ(std::get<core::VehicleKey>(leases.front().target), ev);
+    EXPECT_EQ(leases.front().beneficiary, ev);
+    EXPECT_STREQ(leases.front().reason, "another way is faster");
+    EXPECT_EQ(std::get<traffic::TakeRoute>(leases.front().action).edges,
+              edges({"left0A0", "A0A1", "A1B1", "B1right1"}));
+}
+
+TEST_F(Navigation, does_not_look_at_traffic_without_observes) {
+    add_queue();
+    policy::Navigate navigate({short_square()}, {.observes = 0});
+    EXPECT_TRUE(act_for(navigate, 60.0).empty());
+}
+
+TEST_F(Navigation, changes_for_no_less_than_the_gain_that_it_asks) {
+    add_queue();
+    policy::Navigate navigate({short_square()}, {.gain_s = 1e6});
+    EXPECT_TRUE(act_for(navigate, 60.0).empty());
+}
+
+TEST_F(Navigation, leaves_a_way_that_is_known_to_be_closed_at_once) {
+    policy::Navigate navigate({short_square()}, NavigateConfig{});
+    EXPECT_TRUE(act_for(navigate, 2.0).empty());
+    scene.belief().incidents = {{edge("B0B1"), true, 0.0F}};
+    const auto leases = act_for(navigate, 0.5);
+    ASSERT_EQ(leases.size(), 1U);
+    EXPECT_STREQ(leases.front().reason, "its way is closed");
+    EXPECT_EQ(std::get<traffic::TakeRoute>(leases.front().action).edges,
+              edges({"left0A0", "A0A1", "A1B1", "B1right1"}));
+}
+
+TEST_F(Navigation, does_not_hear_of_incidents_without_heeds_incidents) {
+    policy::Navigate navigate({short_square()}, {.heeds_incidents = 0});
+    scene.belief().incidents = {{edge("B0B1"), true, 0.0F}};
+    EXPECT_TRUE(act_for(navigate, 30.0).empty());
+}
+
+TEST_F(Navigation, keeps_the_next_edge_where_a_turn_is_too_near) {
+    add_queue(3);
+    scene.belief().own_states.front().state.lane_position_m = 185.0F;
+    policy::Navigate navigate({short_square()}, {.gain_s = 1.0, .gain_share = 0.0});
+    scene.belief().incidents = {{edge("B0B1"), true, 0.0F}};
+    const auto leases = act_for(navigate, 0.5);
+    for (const traffic::Lease& lease : leases)
+        EXPECT_EQ(std::get<traffic::TakeRoute>(lease.action).edges[1], edge("A0B0"));
+}
+
+TEST_F(Navigation, does_not_go_back_and_forth_between_ways_that_are_level) {
+    add_queue();
+    policy::Navigate navigate({short_square()}, NavigateConfig{});
+    int changes = 0;
+    for (int decision = 0; decision < 60; ++decision) {
+        for (const traffic::Lease& lease : act_for(navigate, 5.0)) {
+            const auto& way = std::get<traffic::TakeRoute>(lease.action).edges;
+            traffic::Roster& roster = scene.roster();
+            roster.set_route(ev, roster.add_route(way));
+            ++changes;
+        }
+        // The queue is seen on one way, then on the other, half as long.
+        for (traffic::BelievedVehicle& vehicle : scene.belief().vehicles)
+            if (vehicle.vehicle_class == VehicleClass::human && decision == 30)
+                vehicle.state.lane = short_square().lane_of(edge("A1B1"), 0);
+    }
+    EXPECT_GE(changes, 1);
+    EXPECT_LE(changes, 2);
+}
+
+}  // namespace
+}  // namespace clearway::testing
