@@ -82,6 +82,7 @@ struct Actuator::State {
     std::map<core::SignalIndex, detail::Clearance> clearances;  ///< Of signals that were ever asked for.
     std::optional<core::Seconds> last_step;
     std::vector<core::VehicleKey> heeding;
+    std::vector<core::VehicleKey> keeping = {};  ///< Vehicles whose way no lease changes.
 
     void watch(const traffic::SignalStates& shown, core::Seconds now) {
         assert(shown.state.size() <= histories.size());
@@ -150,6 +151,9 @@ struct Actuator::State {
     }
     void take(const traffic::Lease& lease) {
         if (const auto* vehicle = std::get_if<core::VehicleKey>(&lease.target)) {
+            if (std::holds_alternative<traffic::TakeRoute>(lease.action) &&
+                std::ranges::find(keeping, *vehicle) != keeping.end())
+                return;
             vehicles.try_emplace(*vehicle, *vehicle).first->second.offer(lease, ledger);
         } else {
             const core::SignalIndex signal = std::get<core::SignalIndex>(lease.target);
@@ -197,6 +201,12 @@ void Actuator::refuse(std::span<const traffic::Lease> leases, Refusal reason) {
         ++counts.issued;
         ++counts.refused[reason];
     }
+}
+
+void Actuator::keep_way(core::VehicleKey vehicle) {
+    state_->keeping.push_back(vehicle);
+    const auto found = state_->vehicles.find(vehicle);
+    if (found != state_->vehicles.end()) found->second.drop_way();
 }
 
 void Actuator::heed(std::span<const core::VehicleKey> drivers) {

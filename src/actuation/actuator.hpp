@@ -44,6 +44,9 @@ class Actuator {
     void accept(std::span<const traffic::Lease> leases, core::Seconds now,
                 std::span<const core::VehicleKey> unreachable = {});
 
+    /// From now on no lease sends this vehicle another way; running ones are dropped.
+    void keep_way(core::VehicleKey vehicle);
+
     /// Human drivers who take leases from now on, ordered by key. At first there are none.
     void heed(std::span<const core::VehicleKey> drivers);
 

@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include <fmt/format.h>
+
 #include "core/error.hpp"
 
 namespace clearway::analysis {
@@ -17,6 +19,7 @@ std::map<std::string, std::string> values_of(const ConditionSpec& condition) {
     values["traffic_model"] = experiment::name(condition.traffic_model);
     values["safety_checks"] = condition.safety_checks == traffic::SafetyChecks::on ? "on" : "off";
     values["bluelight"] = condition.bluelight == traffic::BlueLight::on ? "on" : "off";
+    values["rerouting_s"] = fmt::format("{:g}", condition.rerouting_s);
     if (!condition.model_hash.empty()) values["model (content hash)"] = condition.model_hash;
     return values;
 }

@@ -103,6 +103,8 @@ std::string precision_text(const results::PrecisionTarget& target) {
 std::string policy_of(const experiment::ConditionSpec& condition) {
     std::vector<std::string> means = condition.policies;
     if (condition.bluelight == traffic::BlueLight::on) means.emplace_back("bluelight");
+    if (condition.rerouting_s > 0.0)
+        means.push_back(fmt::format("rerouting every {:g} s", condition.rerouting_s));
     const bool is_checked = condition.safety_checks == traffic::SafetyChecks::on;
     const std::string settings = experiment::settings_text(condition);
     return (means.empty() ? "-" : fmt::format("{}", fmt::join(means, "+"))) +

@@ -34,7 +34,8 @@ core::ExitCode write(const Arguments& arguments) {
                                 .lateral_model = condition.traffic_model == experiment::TrafficModel::sublane
                                                      ? traffic::LateralModel::sublane
                                                      : traffic::LateralModel::lane,
-                                .bluelight = condition.bluelight};
+                                .bluelight = condition.bluelight,
+                                .rerouting_s = condition.rerouting_s};
     const std::filesystem::path run_folder =
         named.file.parent_path().parent_path().parent_path().parent_path();
     const std::filesystem::path scenario_folder =

@@ -44,9 +44,13 @@ struct ConditionSpec {
     core::Settings factors = {};
     /// SUMO's own rescue lane model (blue light device).
     traffic::BlueLight bluelight = traffic::BlueLight::off;
+    /// Period of SUMO's rerouting device on true times, s; 0: none.
+    double rerouting_s = 0.0;
 
     /// Whether anything is done for emergency vehicles. Otherwise the condition can be a baseline.
-    bool acts() const { return !policies.empty() || bluelight == traffic::BlueLight::on; }
+    bool acts() const {
+        return !policies.empty() || bluelight == traffic::BlueLight::on || rerouting_s > 0.0;
+    }
 
     bool operator==(const ConditionSpec& other) const;  ///< Equal after `without_folders`.
 
@@ -61,7 +65,9 @@ struct ConditionSpec {
             Field{"traffic_model", "", &S::traffic_model, 0, 0, "SUMO's lateral model", "standard"},
             Field{"safety_checks", "", &S::safety_checks, 0, 0,
                   "SUMO's own checks of commanded speeds and lane changes", "on"},
-            Field{"bluelight", "", &S::bluelight, 0, 0, "SUMO's device.bluelight on every EV", "off"});
+            Field{"bluelight", "", &S::bluelight, 0, 0, "SUMO's device.bluelight on every EV", "off"},
+            Field{"rerouting_s", "s", &S::rerouting_s, 0.0, 3600.0,
+                  "Period of SUMO's device.rerouting on every EV, which knows the true times; 0: none", "0"});
     }
 };
 

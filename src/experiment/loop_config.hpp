@@ -36,12 +36,20 @@ struct LinkSettings {
 /// Period of decisions and link rules in the closed loop. A condition may set the members by name.
 struct LoopConfig : LinkSettings {
     double policy_period_s = 0.5;  ///< Time between two decisions of the policy.
+    int ways_tried = 0;
+    double ways_every_s = 120.0;
 
     static constexpr auto fields() {
         return std::tuple_cat(
-            std::make_tuple(core::Field{"policy_period_s", "s", &LoopConfig::policy_period_s, 0.1, 10.0,
-                                        "Time between two decisions of the policy",
-                                        "assumed: half a report interval"}),
+            std::make_tuple(
+                core::Field{"policy_period_s", "s", &LoopConfig::policy_period_s, 0.1, 10.0,
+                            "Time between two decisions of the policy", "assumed: half a report interval"},
+                core::Field{"ways_tried", "1", &LoopConfig::ways_tried, 0, 16,
+                            "Ways of each EV that are driven to the end in copies of the run, "
+                            "which gives the regret of the chosen one; 0: none",
+                            "0: each costs the rest of a run"},
+                core::Field{"ways_every_s", "s", &LoopConfig::ways_every_s, 1.0, 86400.0,
+                            "Time between two such moments of an EV, from its departure on", "assumed"}),
             LinkSettings::fields_of<LoopConfig>());
     }
 };

@@ -171,6 +171,20 @@ void check_link_radius(const ConditionSpec& condition, const std::string& where,
                                   problems);
 }
 
+/// A part in Python is another process, which a copy of the run would share with it.
+void check_ways(const ConditionSpec& condition, const std::string& where,
+                std::vector<core::Problem>& problems) {
+    std::vector<std::string> parts = condition.policies;
+    parts.push_back(condition.predictor);
+    const bool has_code = std::ranges::any_of(
+        parts, [](const std::string& part) { return python::part_name_from(part).has_value(); });
+    if (has_code && loop_config(condition).ways_tried > 0)
+        problems.push_back({where,
+                            "loop.ways_tried=" + condition.settings.at("loop.ways_tried") +
+                                " copies runs, and a part in Python cannot be copied",
+                            "0 with parts in Python", ""});
+}
+
 /// A lease that is not renewed must outlive two decisions. The policies lengthen their usual lease when the
 /// period is long; a lease which somebody has set is not lengthened in silence.
 void check_leases(const ConditionSpec& condition, const std::string& where,
@@ -406,6 +420,7 @@ std::vector<core::Problem> check_settings(const ConditionSpec& condition, const 
                                    problems);
     check_sublane(condition, where, problems);
     if (problems.empty()) {
+        check_ways(condition, where, problems);
         check_leases(condition, where, problems);
         check_ask(condition, where, problems);
         detail::check_requests(condition, where, problems);
@@ -429,6 +444,7 @@ std::string described_name(const ConditionSpec& condition) {
     std::vector<std::string> words = core::texts_of(
         condition.policies, [](const std::string& policy) { return python::short_name(policy); });
     if (condition.bluelight == traffic::BlueLight::on) words.emplace_back("bluelight");
+    if (condition.rerouting_s > 0.0) words.push_back(fmt::format("rerouting_{:g}s", condition.rerouting_s));
     if (words.empty()) words.emplace_back("no_policy");
     if (condition.failure != usual.failure) words.push_back(condition.failure);
     if (condition.predictor != usual.predictor) words.push_back(python::short_name(condition.predictor));

@@ -1,10 +1,12 @@
 #include "loop/closed_loop.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <chrono>
 #include <cmath>
 #include <span>
 #include <utility>
+#include <vector>
 
 namespace clearway::loop {
 namespace {
@@ -38,8 +40,26 @@ void ClosedLoop::warm_up(core::Seconds end, core::Seconds step_length) {
 void ClosedLoop::run(core::Seconds horizon) {
     assert(std::isfinite(horizon.value));
     while (session_.expected_vehicles() > 0 &&
-           session_.time().value < horizon.value - core::clock_tolerance_s)
+           session_.time().value < horizon.value - core::clock_tolerance_s) {
         step();
+        if (trials_ != nullptr) trials_->look(*this, horizon);
+    }
+}
+
+core::Seconds ClosedLoop::arrival_on(const traffic::SetRoute& way, core::Seconds horizon,
+                                     const std::filesystem::path& folder) {
+    session_.continue_in(folder);
+    listener_ = nullptr;
+    trials_ = nullptr;
+    if (controller_) controller_->keep_way(way.vehicle);
+    session_.stop_rerouting(way.vehicle);
+    session_.apply(std::vector<traffic::Command>{way});
+    while (session_.time().value < horizon.value - core::clock_tolerance_s) {
+        step();
+        const auto& arrived = session_.events().arrived;
+        if (std::ranges::find(arrived, way.vehicle) != arrived.end()) return session_.time();
+    }
+    return horizon;
 }
 
 metrics::LeaseTotals ClosedLoop::finish() {

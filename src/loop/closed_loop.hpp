@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
 #include "core/units.hpp"
 #include "loop/controller.hpp"
+#include "loop/way_trials.hpp"
 #include "metrics/recorder.hpp"
 #include "sumo/session.hpp"
 #include "trace/step_listener.hpp"
@@ -35,16 +37,27 @@ class ClosedLoop {
     void begin(const experiment::ConditionSpec& condition, const ControllerContext& context);
     /// From the next step on, `listener` is told of each step; it outlives the loop and may be null.
     void tell(trace::StepListener* listener) { listener_ = listener; }
+    /// From the next step on, `trials` look at each step of `run`; they outlive the loop, and may be null.
+    void try_ways(WayTrials* trials) { trials_ = trials; }
 
     /// Steps while a step of `step_length` does not go beyond `end`.
     void warm_up(core::Seconds end, core::Seconds step_length);
     /// Steps until no vehicle is left or `horizon` is reached.
     void run(core::Seconds horizon);
+    /// In a forked child: the vehicle drives this way, which nothing changes any more, and all else goes on.
+    /// Returns when it has arrived, or `horizon`. Outputs go to `folder`.
+    core::Seconds arrival_on(const traffic::SetRoute& way, core::Seconds horizon,
+                             const std::filesystem::path& folder);
     /// Releases everything that the controller holds. Returns what became of its leases.
     metrics::LeaseTotals finish();
 
     /// Asks the session, which outlives what is returned.
     metrics::StandingReasons standing_reasons() const;
+
+    /// Of the last step.
+    const truth::Snapshot& snapshot() const { return session_.snapshot(); }
+    const truth::Events& events() const { return session_.events(); }
+    const traffic::Roster& roster() const { return session_.roster(); }
 
     /// Timing of the steps since `begin`, or of all steps before it.
     const LoopTiming& timing() const { return timing_; }
@@ -59,6 +72,7 @@ class ClosedLoop {
     metrics::Recorder& recorder_;
     std::optional<Controller> controller_;
     trace::StepListener* listener_ = nullptr;
+    WayTrials* trials_ = nullptr;
 
     metrics::TrueLinks true_links_{graph::LinkRules{}};
     std::vector<traffic::Command> commands_;

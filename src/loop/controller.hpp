@@ -76,6 +76,9 @@ class Controller {
     /// Once the commands are carried out: signals answer.
     void answer(Step<Done::acted> step);
 
+    /// From now on no lease changes the way of this vehicle.
+    void keep_way(core::VehicleKey vehicle) { actuator_.keep_way(vehicle); }
+
     /// Appends the commands that release everything that is held.
     void restore_all(std::vector<traffic::Command>& commands);
     /// What became of leases and requests.

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include "core/files.hpp"
 #include "experiment/settings.hpp"
 #include "loop/road_layout.hpp"
+#include "loop/way_trials.hpp"
 #include "scenario/sumo_files.hpp"
 #include "trace/recording.hpp"
 #include "trace/step_listener.hpp"
@@ -147,7 +149,7 @@ void UnitRun::record(const experiment::ConditionSpec& condition, trace::StepList
 }
 
 void UnitRun::start_together(const experiment::ConditionSpec& condition, trace::StepListener* listener) {
-    add_emergency_vehicles(condition.bluelight);
+    add_emergency_vehicles(condition);
     const ControllerContext context{
         .network = network_.network,
         .random = core::KeyedRandom(core::StudySeed{unit_.study_seed}, core::Replication{unit_.replication}),
@@ -165,8 +167,16 @@ void UnitRun::start_together(const experiment::ConditionSpec& condition, trace::
 metrics::LeaseTotals UnitRun::run_together(const experiment::ConditionSpec& condition,
                                            trace::StepListener* listener) {
     start_together(condition, listener);
+    const LoopConfig config = experiment::loop_config(condition);
+    std::optional<WayTrials> trials;
+    if (config.ways_tried > 0)
+        trials.emplace(network_.network, config, session_->trip_file().parent_path() / "way");
+    loop_.try_ways(trials ? &*trials : nullptr);
     loop_.run(horizon());
-    return loop_.finish();
+    loop_.try_ways(nullptr);
+    metrics::LeaseTotals totals = loop_.finish();
+    if (trials) totals.ways = trials->result(horizon());
+    return totals;
 }
 
 ClosedLoop& UnitRun::start(const experiment::ConditionSpec& condition) {
@@ -174,9 +184,10 @@ ClosedLoop& UnitRun::start(const experiment::ConditionSpec& condition) {
     return loop_;
 }
 
-void UnitRun::add_emergency_vehicles(traffic::BlueLight bluelight) {
+void UnitRun::add_emergency_vehicles(const experiment::ConditionSpec& condition) {
     for (traffic::EmergencyDeparture departure : prepared_.emergency) {
-        departure.bluelight = bluelight;
+        departure.bluelight = condition.bluelight;
+        departure.rerouting_s = condition.rerouting_s;
         session_->add(departure);
     }
 }

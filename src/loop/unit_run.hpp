@@ -59,7 +59,7 @@ class UnitRun {
 
   private:
     void warm_up();
-    void add_emergency_vehicles(traffic::BlueLight bluelight);
+    void add_emergency_vehicles(const experiment::ConditionSpec& condition);
     metrics::RoadLayout layout() const;
     /// Each emergency vehicle alone, one after the other, with every signal open.
     void run_alone(trace::StepListener* audience);

@@ -414,6 +414,10 @@ RunSummary Recorder::finish(const RunEnd& end) const {
     metrics.leases_expired = end.leases.expired;
     metrics.commands_skipped = end.leases.commands_skipped;
     metrics.commands_refused = end.leases.commands_refused;
+    metrics.way_decisions = end.leases.ways.decisions;
+    metrics.way_decisions_best = end.leases.ways.best;
+    metrics.ways_tried = end.leases.ways.ways;
+    metrics.way_regret_s = end.leases.ways.mean_regret_s();
     describe_requests(end.leases.requests, metrics);
     describe_signal_requests(end.leases, metrics);
     metrics.links_true_positive = link_counts().true_positive;

@@ -11,6 +11,7 @@
 #include "metrics/signal_event.hpp"
 #include "metrics/traffic_tables.hpp"
 #include "metrics/vehicle_row.hpp"
+#include "metrics/way_choices.hpp"
 #include "traffic/request_counts.hpp"
 
 namespace clearway::metrics {
@@ -40,6 +41,7 @@ struct LeaseTotals {
     traffic::RequestCounts requests = {};
     traffic::SignalRequestCounts signal_requests = {};
     traffic::HeldGreenCounts greens = {};
+    WayChoices ways = {};
 
     bool operator==(const LeaseTotals&) const = default;
 };
@@ -115,6 +117,11 @@ struct RunMetrics {
     std::uint64_t leases_expired = 0;
     std::uint64_t commands_skipped = 0;
     std::uint64_t commands_refused = 0;
+
+    std::uint64_t way_decisions = 0;
+    std::uint64_t way_decisions_best = 0;
+    std::uint64_t ways_tried = 0;
+    std::optional<double> way_regret_s;
 
     std::uint64_t requests_sent = 0;
     std::uint64_t requests_heard = 0;
@@ -310,8 +317,18 @@ struct RunMetrics {
             Field{
                 "commands_refused", "1", &M::commands_refused, 0.0, 1e12,
                 "Commands to stop that SUMO did not carry out, because the vehicle could no longer brake in "
-                "time on its lane",
-                "commands"});
+                "time on its lane, and to take a way that SUMO does not know for the vehicle",
+                "commands"},
+            Field{"way_decisions", "1", &M::way_decisions, 0.0, 1e9,
+                  "Moments at which other ways of EVs were driven to their ends in copies of the run",
+                  "setting loop.ways_tried"},
+            Field{"way_decisions_best", "1", &M::way_decisions_best, 0.0, 1e9,
+                  "Of these: no other way was more than 1 s faster", "copies of the run"},
+            Field{"ways_tried", "1", &M::ways_tried, 0.0, 1e9, "Ways that were tried at them",
+                  "copies of the run"},
+            Field{"way_regret_s", "s", &M::way_regret_s, 0.0, 1e9,
+                  "Time that EVs lost against the fastest of these ways, mean of the moments",
+                  "copies of the run"});
     }
     static constexpr auto request_fields() {
         using M = RunMetrics;

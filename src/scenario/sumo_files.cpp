@@ -12,11 +12,16 @@ namespace clearway::scenario {
 
 namespace {
 
-std::string emergency_xml(const std::vector<traffic::EmergencyDeparture>& departures,
-                          traffic::BlueLight bluelight) {
-    const char* const device = bluelight == traffic::BlueLight::on
-                                   ? "        <param key=\"has.bluelight.device\" value=\"true\"/>\n"
-                                   : "";
+std::string emergency_xml(const std::vector<traffic::EmergencyDeparture>& departures, const SumoRun& run) {
+    std::string device;
+    const auto add = [&](const char* key, const std::string& value) {
+        device += fmt::format("        <param key=\"{}\" value=\"{}\"/>\n", key, value);
+    };
+    if (run.bluelight == traffic::BlueLight::on) add("has.bluelight.device", "true");
+    if (run.rerouting_s > 0.0) {
+        add("has.rerouting.device", "true");
+        add("device.rerouting.period", fmt::format("{}", run.rerouting_s));
+    }
     std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<routes>\n";
     for (const traffic::EmergencyDeparture& departure : departures)
         xml += fmt::format(
@@ -48,7 +53,7 @@ void write_sumo_files(const ScenarioConfig& config, const BuiltNetwork& network,
                       const std::filesystem::path& folder) {
     const Prepared prepared = prepare(config, network, run.seed, run.replication, folder);
     core::write_atomically(folder / "network.net.xml", core::read_file(prepared.network_file));
-    core::write_atomically(folder / "emergency.rou.xml", emergency_xml(prepared.emergency, run.bluelight));
+    core::write_atomically(folder / "emergency.rou.xml", emergency_xml(prepared.emergency, run));
     std::string routes = "traffic.rou.xml,emergency.rou.xml";
     for (std::size_t row = 1; row < prepared.route_files.size(); ++row)  // after traffic.rou.xml
         routes += "," + prepared.route_files[row].filename().string();

@@ -18,6 +18,7 @@ struct SumoRun {
     core::Replication replication;
     traffic::LateralModel lateral_model = traffic::LateralModel::lane;
     traffic::BlueLight bluelight = traffic::BlueLight::off;  ///< For every emergency vehicle.
+    double rerouting_s = 0.0;                                ///< Likewise, see traffic::EmergencyDeparture.
 };
 
 /// Writes a run into `folder` as plain SUMO files: network.net.xml, vehicle_types.add.xml, traffic.rou.xml,

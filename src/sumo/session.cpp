@@ -273,6 +273,11 @@ void Session::add(const traffic::EmergencyDeparture& departure) {
         if (!problems.empty()) throw core::InputError(std::move(problems));
         if (departure.bluelight == traffic::BlueLight::on)
             state_->sumo->set_type_parameter(departure.type, "has.bluelight.device", "true");
+        if (departure.rerouting_s > 0.0) {
+            state_->sumo->set_type_parameter(departure.type, "has.rerouting.device", "true");
+            state_->sumo->set_type_parameter(departure.type, "device.rerouting.period",
+                                             fmt::format("{}", departure.rerouting_s));
+        }
         state_->sumo->add({.vehicle = departure.id,
                            .type = departure.type,
                            .edges = departure.edges,
@@ -288,6 +293,13 @@ void Session::apply(std::span<const traffic::Command> commands) {
         for (const traffic::Command& command : commands) {
             state_->commander->carry_out(command);
         }
+    });
+}
+
+void Session::stop_rerouting(core::VehicleKey vehicle) {
+    state_->guarded("SUMO cannot stop rerouting a vehicle", [&] {
+        const traffic::VehicleInfo* const info = roster().find(vehicle);
+        if (info != nullptr) state_->sumo->stop_rerouting(info->id);
     });
 }
 

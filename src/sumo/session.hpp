@@ -107,6 +107,8 @@ class Session : public truth::SelfKnowledge {
     std::uint64_t skipped_commands() const;
     /// Number of stops that were commanded when the vehicle could no longer brake in time on its lane.
     std::uint64_t refused_commands() const;
+    /// SUMO's rerouting device of a vehicle, if it has one, changes its way no more.
+    void stop_rerouting(core::VehicleKey vehicle);
     /// Lets a SUMO with a window show a drawing; without a window it has no effect.
     void draw(const Drawing& drawing);
 

@@ -27,6 +27,7 @@ struct EmergencyDeparture {
     std::string depart_lane = "best";
     std::string depart_speed = "max";
     BlueLight bluelight = BlueLight::off;
+    double rerouting_s = 0.0;  ///< Period of SUMO's `device.rerouting`; 0: none.
 };
 
 /// Parameters of a SUMO vehicle type (`<param key= value=/>`) that a scenario writes and the gateway reads

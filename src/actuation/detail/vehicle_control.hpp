@@ -64,6 +64,8 @@ class VehicleControl {
 
     void offer(const traffic::Lease& lease, Ledger& ledger);
     void step(const VehicleContext& around, Ledger& ledger, std::vector<traffic::Command>& commands);
+    /// Ends the leases for its way.
+    void drop_way() { queues_[way].clear(); }
     /// Restores everything, if the vehicle was on the road at the last step.
     void restore(std::vector<traffic::Command>& commands);
 

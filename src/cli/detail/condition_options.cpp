@@ -25,7 +25,7 @@ bool has_own_condition(const experiment::ConditionSpec& own) {
 }
 
 /// The condition that the options describe. Without --policy they change the one that is named with
-/// --condition, or else the usual one; `--policy none` and device.bluelight mean the car-following model
+/// --condition, or else the usual one; `--policy none` and devices of SUMO mean the car-following model
 /// alone. Throws core::InputError if they would change several.
 experiment::ConditionSpec own_condition(const ConditionWords& words,
                                         const std::vector<experiment::ConditionSpec>& chosen) {
@@ -33,7 +33,8 @@ experiment::ConditionSpec own_condition(const ConditionWords& words,
     experiment::ConditionSpec& own = described.condition;
     const bool names_policies = !own.policies.empty();
     const bool changes = has_own_condition(condition_of(described));
-    if (names_policies || !changes || own.bluelight == traffic::BlueLight::on) return condition_of(described);
+    if (names_policies || !changes || own.bluelight == traffic::BlueLight::on || own.rerouting_s > 0.0)
+        return condition_of(described);
     if (chosen.size() > 1) {
         const std::vector<std::string> names = core::texts_of(chosen, &experiment::ConditionSpec::name);
         throw core::InputError(
@@ -170,6 +171,11 @@ void add_own_condition_options(CLI::App& app, DescribedCondition& described) {
     add_switch(app, "--bluelight", own.bluelight,
                "SUMO's device.bluelight on every emergency vehicle, for comparison")
         ->option_text("on|off [off]");
+    app.add_option("--rerouting", own.rerouting_s,
+                   "SUMO's device.rerouting on every emergency vehicle, with this period and true times, for "
+                   "comparison")
+        ->check(CLI::Range(0.0, 3600.0))
+        ->option_text("S [0: none]");
     static const std::map<std::string, experiment::TrafficModel> models = {
         {"standard", experiment::TrafficModel::standard}, {"sublane", experiment::TrafficModel::sublane}};
     app.add_option_function<std::string>(

@@ -235,6 +235,12 @@ class ApiGateway : public Sumo {
             return false;
         }
     }
+    void stop_rerouting(const std::string& vehicle) override {
+        call([&] {
+            if (api::Vehicle::getParameter(vehicle, "has.rerouting.device") == "true")
+                api::Vehicle::setParameter(vehicle, "device.rerouting.period", "0");
+        });
+    }
     void set_speed(const std::string& vehicle, double speed_mps) override {
         call(api::Vehicle::setSpeed, vehicle, speed_mps);
     }

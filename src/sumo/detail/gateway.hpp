@@ -145,6 +145,8 @@ class Sumo {
     virtual void add(const Insertion& insertion) = 0;
     /// From the edge where the vehicle is. Returns whether SUMO knows this as a way for it.
     virtual bool set_route(const std::string& vehicle, const std::vector<std::string>& edges) = 0;
+    /// Of a vehicle with SUMO's rerouting device; others are left alone.
+    virtual void stop_rerouting(const std::string& vehicle) = 0;
     /// Negative: SUMO decides again.
     virtual void set_speed(const std::string& vehicle, double speed_mps) = 0;
     virtual void set_speed_mode(const std::string& vehicle, int mode) = 0;

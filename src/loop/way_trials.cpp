@@ -1,0 +1,147 @@
+#include "loop/way_trials.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/read_failure.hpp"
+#include "loop/closed_loop.hpp"
+
+namespace clearway::loop {
+namespace {
+
+/// A turn needs this much room beyond the way to a stop, m.
+constexpr double turn_room_m = 60.0;
+/// Ways that are longer than the fastest by more than this, by free flow, are not tried.
+constexpr double longest_share = 2.0;
+constexpr double longest_extra_s = 60.0;
+
+/// Everything of a child but its number. Never returns, because objects of the parent must not be destroyed
+/// twice.
+[[noreturn]] void be_way(ClosedLoop& loop, const traffic::SetRoute& way, core::Seconds horizon,
+                         const std::filesystem::path& folder, int answer) {
+    double arrival_s = std::numeric_limits<double>::quiet_NaN();
+    try {
+        core::make_folder(folder);
+        arrival_s = loop.arrival_on(way, horizon, folder).value;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "another way: {}\n", error.what());
+    }
+    std::fflush(nullptr);
+    const ssize_t written = ::write(answer, &arrival_s, sizeof arrival_s);
+    _exit(written == sizeof arrival_s ? 0 : 1);
+}
+
+}  // namespace
+
+WayTrials::WayTrials(const roads::Network& network, const experiment::LoopConfig& config,
+                     std::filesystem::path folder)
+    : network_(network),
+      config_(config),
+      folder_(std::move(folder)),
+      search_(network, roads::Driver::emergency) {}
+
+void WayTrials::look(ClosedLoop& loop, core::Seconds horizon) {
+    const truth::Snapshot& snapshot = loop.snapshot();
+    const double now_s = snapshot.time.value;
+    for (const core::VehicleKey vehicle : loop.events().arrived)
+        arrived_s_.emplace(vehicle, now_s);
+    for (std::uint32_t row = 0; row < snapshot.size(); ++row) {
+        if (snapshot.vehicle_class[row] != traffic::VehicleClass::emergency) continue;
+        double& next_s = next_s_.try_emplace(snapshot.key[row], now_s).first->second;
+        if (now_s + core::clock_tolerance_s < next_s) continue;
+        if (network_.edge(network_.lane(snapshot.lane[row]).edge).internal) continue;
+        next_s = now_s + config_.ways_every_s;
+        try_ways(loop, row, horizon);
+    }
+}
+
+void WayTrials::try_ways(ClosedLoop& loop, std::uint32_t row, core::Seconds horizon) {
+    const truth::Snapshot& snapshot = loop.snapshot();
+    const core::VehicleKey vehicle = snapshot.key[row];
+    const traffic::VehicleInfo& info = *loop.roster().find(vehicle);
+    const std::vector<core::EdgeIndex> route = loop.roster().route(info.route);
+    const std::size_t at = snapshot.route_edge[row];
+    const roads::Lane& lane = network_.lane(snapshot.lane[row]);
+    const double braking_m =
+        snapshot.speed_mps[row] * snapshot.speed_mps[row] / (2.0 * info.deceleration_mps2);
+    const bool turns_here = lane.length_m - snapshot.lane_position_m[row] > braking_m + turn_room_m;
+    const std::size_t fork = turns_here ? at : at + 1;
+    if (fork + 1 >= route.size()) return;
+    const auto free = [&](core::EdgeIndex edge, double) { return search_.free_s(edge); };
+    auto ways =
+        search_.ways(route[fork], route.back(), 0.0, free, static_cast<std::size_t>(config_.ways_tried));
+    if (ways.empty()) return;
+    const double least_s = search_.time_of(ways.front(), 0.0, free);
+    std::erase_if(ways, [&](const auto& way) {
+        return search_.time_of(way, 0.0, free) > longest_share * least_s + longest_extra_s;
+    });
+    if (ways.size() < 2) return;
+    Trial trial{vehicle, std::numeric_limits<double>::infinity(), ways.size()};
+    for (std::vector<core::EdgeIndex>& way : ways) {
+        if (fork > at) way.insert(way.begin(), route[at]);
+        trial.best_s = std::min(trial.best_s, arrival_s(loop, vehicle, way, horizon));
+    }
+    trials_.push_back(trial);
+}
+
+double WayTrials::arrival_s(ClosedLoop& loop, core::VehicleKey vehicle,
+                            const std::vector<core::EdgeIndex>& way, core::Seconds horizon) {
+    int ends[2];
+    if (pipe(ends) != 0)
+        throw core::EnvironmentError(
+            fmt::format("cannot try another way: {}. {}", std::strerror(errno), core::cure_of(errno)));
+    std::fflush(nullptr);
+    const pid_t child = fork();
+    if (child < 0)
+        throw core::EnvironmentError(fmt::format("cannot fork to try another way: {}. {}",
+                                                 std::strerror(errno), core::cure_of(errno)));
+    if (child == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        be_way(loop, {vehicle, way}, horizon, folder_, ends[1]);
+    }
+    ::close(ends[1]);
+    double arrival_s = std::numeric_limits<double>::quiet_NaN();
+    ssize_t got = 0;
+    do {
+        got = ::read(ends[0], &arrival_s, sizeof arrival_s);
+    } while (got < 0 && errno == EINTR);
+    ::close(ends[0]);
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+    if (got != sizeof arrival_s || !(arrival_s == arrival_s))
+        throw core::SimulatorError("a copy of the run that tried another way did not come to its end");
+    return arrival_s;
+}
+
+metrics::WayChoices WayTrials::result(core::Seconds horizon) const {
+    constexpr double level_s = 1.0;  // the longest step
+    metrics::WayChoices choices;
+    for (const Trial& trial : trials_) {
+        const auto arrived = arrived_s_.find(trial.vehicle);
+        const double chosen_s = arrived == arrived_s_.end() ? horizon.value : arrived->second;
+        const double regret_s = std::max(0.0, chosen_s - trial.best_s);
+        ++choices.decisions;
+        choices.ways += trial.ways;
+        choices.regret_s += regret_s;
+        choices.best += regret_s <= level_s ? 1 : 0;
+    }
+    return choices;
+}
+
+}  // namespace clearway::loop

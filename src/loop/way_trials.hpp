@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "core/units.hpp"
+#include "experiment/loop_config.hpp"
+#include "metrics/way_choices.hpp"
+#include "roads/route_search.hpp"
+#include "truth/events.hpp"
+
+namespace clearway::loop {
+
+class ClosedLoop;
+
+/// Drives other ways of emergency vehicles to their ends in forked children of the run, whose future is the
+/// true one: the same vehicles, signals and drivers, and the condition's own policies for all but the choice
+/// of the way. What the best of them would have saved is the regret of the way that was chosen. The run
+/// itself does not notice.
+class WayTrials {
+  public:
+    /// Keeps a reference to the network. Children write into `folder`, which is removed.
+    WayTrials(const roads::Network& network, const experiment::LoopConfig& config,
+              std::filesystem::path folder);
+
+    /// After each step of `loop`: tries ways of those vehicles for which it is time, up to `horizon`. Throws
+    /// core::EnvironmentError when no child can be made, core::SimulatorError when one fails.
+    void look(ClosedLoop& loop, core::Seconds horizon);
+    /// Once the run is over: an emergency vehicle that did not arrive counts with `horizon`.
+    metrics::WayChoices result(core::Seconds horizon) const;
+
+  private:
+    struct Trial {
+        core::VehicleKey vehicle;
+        double best_s = 0.0;  ///< When the fastest of the ways arrives.
+        std::uint64_t ways = 0;
+    };
+    void try_ways(ClosedLoop& loop, std::uint32_t row, core::Seconds horizon);
+    double arrival_s(ClosedLoop& loop, core::VehicleKey vehicle, const std::vector<core::EdgeIndex>& way,
+                     core::Seconds horizon);
+
+    const roads::Network& network_;
+    experiment::LoopConfig config_;
+    std::filesystem::path folder_;
+    roads::RouteSearch search_;
+    std::map<core::VehicleKey, double> next_s_;     ///< When ways of a vehicle are tried next.
+    std::map<core::VehicleKey, double> arrived_s_;  ///< When vehicles arrived.
+    std::vector<Trial> trials_;
+};
+
+}  // namespace clearway::loop

@@ -1,0 +1,99 @@
+// Other ways, driven to their ends in copies of a run.
+
+#include <algorithm>
+#include <map>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "loop/study_folder.hpp"
+#include "loop/unit_run.hpp"
+
+namespace clearway {
+namespace {
+
+using experiment::ConditionSpec;
+
+ConditionSpec condition(const std::string& name, core::Settings settings = {}) {
+    ConditionSpec spec;
+    spec.name = name;
+    spec.settings = std::move(settings);
+    return spec;
+}
+
+metrics::RunMetrics metrics_of(const test::StudyFolder& folder, const std::string& name) {
+    const auto record = folder.store().read({"city", name, 0});
+    EXPECT_TRUE(record.has_value()) << name << ": " << core::tail(folder.log(), 20);
+    return record.value_or(results::RunRecord{}).metrics;
+}
+
+TEST(WayTrials, DoNotChangeTheRunAndGiveItsRegret) {
+    const core::Settings tried = {{"loop.ways_tried", "3"}};
+    ConditionSpec chooses = condition("chooses", tried);
+    chooses.policies = {"navigate"};
+    const test::StudyFolder folder("city", {}, {condition("plain"), condition("tried", tried), chooses});
+    ASSERT_TRUE(folder.run(folder.unit(0)).ok()) << core::tail(folder.log(), 20);
+    const auto trace = [&](const char* name) {
+        return folder.store().read({"city", name, 0}).value().provenance.trace_hash;
+    };
+    EXPECT_EQ(trace("plain"), trace("tried"));
+    EXPECT_EQ(metrics_of(folder, "plain").way_decisions, 0U);
+    EXPECT_FALSE(metrics_of(folder, "plain").way_regret_s.has_value());
+    for (const char* const name : {"tried", "chooses"}) {
+        const metrics::RunMetrics found = metrics_of(folder, name);
+        EXPECT_GE(found.way_decisions, found.emergency_count) << name << ": each when it departs";
+        EXPECT_GE(found.ways_tried, 2 * found.way_decisions) << name;
+        EXPECT_LE(found.way_decisions_best, found.way_decisions) << name;
+        EXPECT_GE(found.way_regret_s.value(), 0.0) << name;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "work" / "unit-0-standard"));
+}
+
+/// Notes when vehicles arrive.
+class Arrivals : public trace::StepListener {
+  public:
+    void on_step(const truth::Snapshot&, const traffic::Roster&) override {}
+    void on_step_end(const trace::RecordedStep& step) override {
+        for (const core::VehicleKey key : step.events->arrived)
+            at_s.emplace(key, step.events->time.value);
+    }
+    std::map<core::VehicleKey, double> at_s;
+};
+
+TEST(WayTrials, TheWayThatIsDrivenAnywayArrivesWhenTheRunDoes) {
+    const test::StudyFolder folder("city", {}, {condition("plain")});
+    loop::UnitRun run(folder.unit(0), folder.path(), folder.path() / "sumo");
+    loop::ClosedLoop& loop = run.start(condition("plain"));
+    Arrivals arrivals;
+    loop.tell(&arrivals);
+    const auto first_emergency = [&] {
+        const auto& classes = loop.snapshot().vehicle_class;
+        return static_cast<std::size_t>(std::ranges::find(classes, traffic::VehicleClass::emergency) -
+                                        classes.begin());
+    };
+    double until_s = run.session().time().value;
+    while (first_emergency() == loop.snapshot().size())
+        loop.run(core::Seconds(until_s += 1.0));
+    const std::size_t row = first_emergency();
+    const core::VehicleKey vehicle = loop.snapshot().key[row];
+    const std::vector<core::EdgeIndex>& route = loop.roster().route(loop.roster().find(vehicle)->route);
+    const traffic::SetRoute way{vehicle, {route.begin() + loop.snapshot().route_edge[row], route.end()}};
+    int ends[2];
+    ASSERT_EQ(pipe(ends), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        const double arrival_s = loop.arrival_on(way, run.horizon(), folder.path() / "child").value;
+        _exit(write(ends[1], &arrival_s, sizeof arrival_s) == sizeof arrival_s ? 0 : 1);
+    }
+    double arrival_s = 0.0;
+    ASSERT_EQ(read(ends[0], &arrival_s, sizeof arrival_s), static_cast<ssize_t>(sizeof arrival_s));
+    waitpid(child, nullptr, 0);
+    loop.run(run.horizon());
+    ASSERT_TRUE(arrivals.at_s.contains(vehicle));
+    EXPECT_DOUBLE_EQ(arrival_s, arrivals.at_s.at(vehicle));
+    EXPECT_GT(arrival_s, until_s + 30.0);
+}
+
+}  // namespace
+}  // namespace clearway
