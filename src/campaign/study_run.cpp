@@ -227,6 +227,7 @@ results::Store prepare_run_folder(const study::Plan& plan, const RunOptions& opt
         results::Store store = study::prepare_folder(plan, options.folder);
         study::complete_scenarios(plan, store);
         study::keep_command(store, options.command, before);
+        study::keep_titles(store, plan.titles);
         if (before != 0 && !plan.manifest.precision && before != store.manifest().replications)
             fmt::print(stderr, "clearway: {}: extended from {} to {}\n", options.folder.string(), before,
                        core::counted(store.manifest().replications, "replication"));

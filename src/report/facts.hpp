@@ -156,7 +156,7 @@ using analysis::shown_interval;
 
 /// What is known of a condition, and how a report presents it. Its metrics hold those of every `Measure`.
 struct ConditionFacts : analysis::ConditionSummary {
-    std::string title;         ///< As in the dissertation where it has the condition, else the name.
+    std::string title;         ///< In words: detail::ConditionTitles.
     std::string recipe;        ///< Failure, predictor and policies, in words.
     core::Settings factors;    ///< Of the study, with those of the scenario: `failure.dark_share` -> `0.3`.
     bool knows_truth = false;  ///< Its predictor is no repair: it is given the truth.

@@ -15,6 +15,7 @@
 #include "core/strict_table.hpp"
 #include "experiment/settings.hpp"
 #include "prediction/predictor.hpp"
+#include "report/detail/condition_titles.hpp"
 #include "report/detail/map_facts.hpp"
 #include "report/detail/side_files.hpp"
 #include "report/detail/traffic_facts.hpp"
@@ -25,23 +26,6 @@ namespace clearway::report {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The dissertation's names for its conditions, and Clearway's names for the controls. A condition that
-/// repairs the graph is named after its predictor.
-std::string title_of(const experiment::ConditionSpec& condition) {
-    static const std::map<std::string, std::string> titles = {
-        {"baseline", "Baseline"},
-        {"graph_simulation", "Graph made by simulation attributes"},
-        {"solo", "Alone on the road, signals open"},
-    };
-    if (const auto found = titles.find(condition.name); found != titles.end()) return found->second;
-    const std::string repair =
-        prediction::title_of(condition.predictor) + (condition.model_file.empty() ? "" : ", other weights");
-    if (condition.name.starts_with("graph_graphsage")) return repair;
-    if (condition.name == "b10_no_repair" || condition.name == "b10_dead_reckoning")
-        return "Same failures, " + repair;
-    return condition.name;
-}
 
 /// The scenario of the dissertation whose table is shown beside a scenario of its study.
 std::string published_scenario(const std::string& scenario) {
@@ -123,7 +107,6 @@ ConditionFacts condition_facts(const analysis::ConditionSummary& summary,
                                double least_relevant_s) {
     ConditionFacts facts;
     static_cast<analysis::ConditionSummary&>(facts) = summary;
-    facts.title = title_of(facts.condition);
     facts.recipe = recipe_of(facts.condition);
     facts.knows_truth = prediction::knows_truth(facts.condition.predictor);
     facts.least_relevant_s = least_relevant_s;
@@ -302,7 +285,9 @@ StudyFacts facts_of(const results::Store& store, const results::Results& results
     for (const analysis::ScenarioSummary& scenario : summary.scenarios)
         study.scenarios.push_back(scenario_facts(scenario, summary, least_relevant_s));
     Conditions conditions;
+    const detail::ConditionTitles titles(detail::titles_in(store.folder() / "titles.json"));
     for (ScenarioFacts& scenario : study.scenarios) {
+        titles.give(scenario.conditions);
         for (ConditionFacts& condition : scenario.conditions)
             conditions[{scenario.name, condition.name()}] = &condition;
     }

@@ -318,6 +318,33 @@ void resolve_parts(TomlReading& reading, StudyConfig& config) {
     }
 }
 
+/// Reads `[titles]`, whose keys are conditions, with and without their factors, and texts that factors give
+/// them. `untouched` are the conditions as the file lists them.
+// NOLINTNEXTLINE(readability-function-size): a table, what its keys may name, and what it fills
+void read_titles(StrictTable& root, const std::vector<experiment::ConditionSpec>& untouched,
+                 const detail::Factors& factors, Extent extent, StudyConfig& config) {
+    const toml::table* const table = root.table("titles");
+    auto reader = root.below("titles");
+    if (!reader) return;
+    std::vector<std::string> known = core::texts_of(config.conditions, &experiment::ConditionSpec::name);
+    for (const experiment::ConditionSpec& condition : untouched)
+        known.push_back(condition.name);
+    for (const detail::Factor& factor : factors.list) {
+        for (const detail::FactorValue& value : factor.values)
+            if (factor.group == "condition") known.push_back(value.text);
+    }
+    std::ranges::sort(known);
+    known.erase(std::unique(known.begin(), known.end()), known.end());
+    for (const auto& [key, node] : *table) {
+        const std::string name(key.str());
+        reader->text(name, config.titles[name]);
+        const bool left_out = extent == Extent::quick && name.find('+') != std::string::npos;
+        if (!left_out && std::ranges::find(known, name) == known.end())
+            reader->problem(name, "is no condition, and no text that a factor gives one", core::listed(known),
+                            core::did_you_mean(name, known));
+    }
+}
+
 std::vector<std::string> metric_names() {
     std::vector<std::string> names;
     core::for_each_field<metrics::RunMetrics>([&](const auto& field) { names.emplace_back(field.name); });
@@ -410,8 +437,10 @@ StudyConfig read_study(const std::filesystem::path& file, Extent extent, std::ui
     check_combinations(factors, reading, config);
     read_scenarios(root, factors, reading, config);
     read_conditions(root, reading, config);
+    const std::vector<experiment::ConditionSpec> untouched = config.conditions;
     read_quick(root, extent, config);
     vary_conditions(factors, reading.problems, config);
+    read_titles(root, untouched, factors, extent, config);
     resolve_parts(reading, config);
     detail::read_plan(root, extent, config);
     root.finish();

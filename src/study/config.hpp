@@ -22,6 +22,7 @@ struct StudyConfig {
     std::vector<scenario::ScenarioConfig> scenarios;
     std::map<std::string, core::Settings> scenario_factors;  ///< By scenario, for scenarios made by factors.
     std::vector<experiment::ConditionSpec> conditions;
+    core::Settings titles = {};  ///< For reports: of conditions, and of texts that factors give them.
     /// Instead of a fixed number of replications; `replications` is then the number of the first round.
     std::optional<results::PrecisionTarget> precision;
     /// What it sets out to show; its seed must not have been used before (fresh_seeds.hpp).
@@ -78,6 +79,10 @@ enum class Extent : std::uint8_t {
 ///     policy = ["dissertation"]
 ///     set = { "dissertation.ahead_m" = 80, "graphsage_corrected.link_threshold" = 0.4 }
 ///     model = "my/net.weights"                    # relative to this file; none: the one in the program
+///
+///     [titles]                                    # in tables and figures, for names and values of factors
+///     b20 = "One report in five"
+///     "b20+lead_s=4" = "Early requests"
 ///
 ///     [plan]                                      # what the study is to show; optional
 ///     metric = "emergency_restricted_travel_time_s"

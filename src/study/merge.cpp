@@ -22,8 +22,8 @@ constexpr std::size_t named_missing = 10;
 
 /// Everything that a merge reads of a run folder is a file or a folder.
 void require_plain(const fs::path& folder) {
-    for (const char* const part :
-         {"manifest.json", ".shard", "command.txt", "scenarios", "training", "runs", "errors", "recordings"})
+    for (const char* const part : {"manifest.json", ".shard", "command.txt", "titles.json", "scenarios",
+                                   "training", "runs", "errors", "recordings"})
         core::require_plain_files(folder / part);
 }
 
@@ -72,9 +72,11 @@ void copy_surroundings(const std::vector<fs::path>& folders, const results::Stor
     }
     const auto is_there = [](const fs::path& path) { return fs::exists(path); };
     core::copy_folder(first_whole(folders, "training", is_there), target.folder() / "training");
-    const fs::path command = first_whole(folders, "command.txt", is_there);
-    if (!command.empty() && !fs::exists(target.folder() / "command.txt"))
-        core::write_atomically(target.folder() / "command.txt", core::read_file(command));
+    for (const char* const name : {"command.txt", "titles.json"}) {
+        const fs::path file = first_whole(folders, name, is_there);
+        if (!file.empty() && !fs::exists(target.folder() / name))
+            core::write_atomically(target.folder() / name, core::read_file(file));
+    }
 }
 
 /// The folder among `folders` that has the run, for messages.

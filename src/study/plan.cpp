@@ -146,6 +146,7 @@ Plan make_plan(const StudyConfig& config, const Versions& versions, const fs::pa
     Plan plan;
     plan.manifest = manifest_of(config, versions);
     plan.scenarios = config.scenarios;
+    plan.titles = config.titles;
     const fs::path output = fs::absolute(folder);
     for (const UnitPlace& place : units_of(plan.manifest)) {
         experiment::RunJob unit;

@@ -33,6 +33,7 @@ std::vector<UnitPlace> units_of(const results::Manifest& manifest);
 struct Plan {
     results::Manifest manifest;
     std::vector<scenario::ScenarioConfig> scenarios;
+    core::Settings titles = {};      ///< StudyConfig::titles; they change no run.
     std::vector<PlannedUnit> units;  ///< In the order of `units_of`; all, or those of a shard.
 
     /// Number of runs in `units`.

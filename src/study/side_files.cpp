@@ -91,6 +91,15 @@ void keep_command(const results::Store& store, const std::string& command, std::
     core::write_atomically(file, command + "\n");
 }
 
+void keep_titles(const results::Store& store, const core::Settings& titles) {
+    const std::filesystem::path file = store.folder() / "titles.json";
+    if (titles.empty()) {
+        std::filesystem::remove(file);
+    } else {
+        core::write_atomically(file, core::to_text(core::Json(titles)));
+    }
+}
+
 void copy_trainings(const std::filesystem::path& source, const results::Store& store) {
     for (const auto& training : std::filesystem::directory_iterator(source)) {
         if (!std::filesystem::exists(training.path() / "losses.csv")) continue;

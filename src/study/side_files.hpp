@@ -18,6 +18,10 @@ void complete_scenarios(const Plan& plan, const results::Store& store);
 /// `before` replications it had.
 void keep_command(const results::Store& store, const std::string& command, std::uint32_t before);
 
+/// Stores titles for the report in place of earlier ones: `titles.json`, a text by name. Without titles there
+/// is no such file.
+void keep_titles(const results::Store& store, const core::Settings& titles);
+
 /// Copies the outputs of trainings, `NAME/{losses.csv,summary.json}` in `source`, for the report's train-test
 /// curves. Throws core::EnvironmentError when it cannot write.
 void copy_trainings(const std::filesystem::path& source, const results::Store& store);

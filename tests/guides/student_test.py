@@ -35,7 +35,7 @@ class StudentTest(FolderCase):
         table = Path(next(name for name in used if name.endswith(".tex"))).read_text(encoding="utf-8")
         rows = [line for line in table.splitlines() if line.endswith(r"\\")]
         self.assertEqual(len({row.count("&") + row.count(r"\multicolumn{2}") for row in rows}), 1, "each row has as many cells")
-        self.assertTrue(any("Green" in row for row in rows))
+        self.assertTrue(any("Ours, B10" in row for row in rows))
         if shutil.which("pdflatex"):
             self.write("paper.tex", latex)
             ended = subprocess.run(["pdflatex", "-halt-on-error", "paper.tex"], capture_output=True, text=True, check=False)

@@ -8,6 +8,7 @@
 #include "core/files.hpp"
 #include "experiment/conditions.hpp"
 #include "report/console.hpp"
+#include "report/detail/condition_titles.hpp"
 #include "report/figure_files.hpp"
 #include "report/page.hpp"
 #include "support/temporary_folder.hpp"
@@ -117,6 +118,48 @@ TEST_F(RunFolder, gives_means_paired_differences_and_outcomes) {
     EXPECT_EQ(helpful.emergency.arrived, 6u);
     EXPECT_FALSE(merge.conditions[0].is_compared());
     EXPECT_FALSE(merge.conditions[3].is_compared());
+}
+
+TEST(Titles, of_conditions_made_by_factors_are_words_or_those_of_the_study_file) {
+    const auto made = [](const std::string& name, std::vector<std::string> policies, core::Settings factors) {
+        ConditionFacts facts;
+        facts.condition = {.name = name, .policies = std::move(policies), .factors = std::move(factors)};
+        return facts;
+    };
+    const auto titles_with = [&](const core::Settings& given) {
+        std::vector<ConditionFacts> conditions = {
+            made("baseline", {}, {}),
+            made("own+failure=perfect+policy=soft.py_Green",
+                 {"/home/soft.py:Green@0123456789abcdef0123456789abcdef"},
+                 {{"condition.failure", "perfect"}, {"condition.policy", "soft.py:Green"}}),
+            made("own+failure=B10+policy=corridor.clear_lane", {"corridor", "clear_lane"},
+                 {{"condition.failure", "B10"}, {"condition.policy", "corridor.clear_lane"}}),
+            made("corridor+lead_s=4", {"corridor"}, {{"preempt_signals.lead_s", "4"}}),
+            made("graph_graphsage+dark_share=0.1", {"corridor"}, {{"failure.dark_share", "0.1"}}),
+            made("one+policy=corridor", {"corridor"}, {{"condition.policy", "corridor"}}),
+            made("two+policy=corridor", {"corridor"}, {{"condition.policy", "corridor"}})};
+        detail::ConditionTitles(given).give(conditions);
+        return core::texts_of(conditions, &ConditionFacts::title);
+    };
+    const std::string net = "no repair";
+    EXPECT_THAT(titles_with({}),
+                ::testing::ElementsAre("Baseline", "Green, perfect sensors", "corridor + clear_lane, B10",
+                                       "corridor, lead 4 s", net + ", dark share 0.1", "one+policy=corridor",
+                                       "two+policy=corridor"));
+    EXPECT_THAT(titles_with({{"baseline", "Today"},
+                             {"B10", "outages"},
+                             {"soft.py:Green", "Ours"},
+                             {"corridor", "Corridor"},
+                             {"two+policy=corridor", "Second"}}),
+                ::testing::ElementsAre("Today", "Ours, perfect sensors", "corridor + clear_lane, outages",
+                                       "Corridor, lead 4 s", net + ", dark share 0.1", "Corridor", "Second"));
+}
+
+TEST_F(RunFolder, takes_titles_from_the_study) {
+    write("titles.json", R"({"graph_simulation": "Helpful"})");
+    EXPECT_EQ(read_facts(study()).scenarios[0].conditions[1].title, "Helpful");
+    write("titles.json", "[1]");
+    EXPECT_THROW(static_cast<void>(read_facts(study())), core::InputError);
 }
 
 TEST(GapClosed, is_a_dash_for_a_condition_that_lost_emergency_vehicles) {

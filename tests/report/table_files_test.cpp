@@ -43,12 +43,21 @@ TEST(TableFiles, AreEscapedForLatex) {
     Table table{"a-b", "50 % of a_b", {{"a_b", "50 %"}, {{"x & {y} \\ ~ ^ # $ < >", "\u22121.0"}}}};
     EXPECT_EQ(
         to_latex(table),
-        "% needs \\usepackage{booktabs,siunitx}\n\\begin{table}\n\\centering\n\\caption{50 \\% of a\\_b}\n"
-        "\\label{tab:a-b}\n\\begin{tabular}{l S[table-format=-1.1]}\n\\toprule\na\\_b & {50 \\%} \\\\\n"
+        "% needs \\usepackage{booktabs,graphicx,siunitx}\n\\begin{table}\n\\centering\n\\caption{50 \\% of "
+        "a\\_b}\n"
+        "\\label{tab:a-b}\n\\resizebox{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}{!}{%\n\\begin{"
+        "tabular}{l S[table-format=-1.1]}\n\\toprule\na\\_b & {50 \\%} \\\\\n"
         "\\midrule\nx \\& \\{y\\} \\textbackslash{} \\textasciitilde{} \\textasciicircum{} \\# \\$ $<$ $>$ & "
-        "-1.0 \\\\\n\\bottomrule\n\\end{tabular}\n\\end{table}\n");
+        "-1.0 \\\\\n\\bottomrule\n\\end{tabular}}\n\\end{table}\n");
     table.data.cells = DataTable::Cells::words;
     EXPECT_THAT(to_latex(table), HasSubstr("{l l}"));
+    // Two bytes a letter: 60 stay on one line, 61 do not.
+    for (const std::size_t letters : {60U, 61U}) {
+        table.data.rows[0][1].clear();
+        for (std::size_t letter = 0; letter < letters; ++letter)
+            table.data.rows[0][1] += "\u00fc";
+        EXPECT_THAT(to_latex(table), HasSubstr(letters == 60 ? "{l l}" : "{l p{0.7\\linewidth}}"));
+    }
 }
 
 TEST(TableFiles, SetNumbersAndIntervalsInColumnsOfSiunitx) {

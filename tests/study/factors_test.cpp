@@ -59,6 +59,24 @@ failure.dark_share = [0.1, 0.25]
     EXPECT_NO_THROW(make_plan(config, {"0.1.0", "1.15.0"}, "/out")) << "the names can be folders";
 }
 
+TEST_F(Factors, AndConditionsHaveTitlesThatChangeNoRun) {
+    const std::string factors = R"([factors]
+condition.failure = ["perfect", "B10"]
+)";
+    const StudyConfig titled = read(factors + R"([titles]
+graph_simulation = "Net"
+B10 = "one report in ten"
+"graph_simulation+failure=perfect" = "All seen"
+)");
+    EXPECT_EQ(titled.titles.at("B10"), "one report in ten");
+    const Plan plan = make_plan(titled, {"0.1.0", "1.15.0"}, "/out");
+    EXPECT_EQ(plan.titles.size(), 3U);
+    EXPECT_EQ(plan.manifest, make_plan(read(factors), {"0.1.0", "1.15.0"}, "/out").manifest);
+    EXPECT_THAT(problems(factors + "[titles]\nB20 = \"x\"\ngraph_simulation = \"\"\n"),
+                AllOf(HasSubstr("titles.B20: is no condition, and no text that a factor gives one"),
+                      HasSubstr("Did you mean 'B10'?"), HasSubstr("titles.graph_simulation")));
+}
+
 TEST_F(Factors, MayBeQuotedAsSettingsAre) {
     const StudyConfig quoted = read("[factors]\n\"failure.dark_share\" = [0.1, 0.25]\n");
     const StudyConfig plain = read("[factors]\nfailure.dark_share = [0.1, 0.25]\n");

@@ -269,7 +269,7 @@ TEST_F(Merge, RefusesByNameWhatIsNeitherFileNorFolderInAShard) {
     core::write_atomically(place("secret"), "of another user");
     std::filesystem::create_directories(place("a") / "training" / "net");
     for (const char* const name :
-         {"command.txt", "runs/alpha/baseline/00000/more.txt", "training/net/losses.csv"}) {
+         {"command.txt", "titles.json", "runs/alpha/baseline/00000/more.txt", "training/net/losses.csv"}) {
         std::filesystem::create_symlink(place("secret"), place("a") / name);
         EXPECT_THAT(refusal_of(name), HasSubstr("is a symbolic link (allowed: files and folders)"));
         std::filesystem::create_directory_symlink("..", place("a") / name);

@@ -64,6 +64,12 @@ RoadMap roads_from(const json& object) {
 
 }  // namespace
 
+std::map<std::string, std::string> titles_in(const std::filesystem::path& file) {
+    return read_json(file, "an object of names and their titles",
+                     [](const json& object) { return object.get<std::map<std::string, std::string>>(); })
+        .value_or(std::map<std::string, std::string>());
+}
+
 std::optional<std::vector<WideEdge>> wide_edges_in(const std::filesystem::path& file) {
     return read_json(file, "a list of objects with edge, street and car_lanes", wide_edges_from);
 }

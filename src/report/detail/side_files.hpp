@@ -19,6 +19,9 @@ std::optional<std::vector<WideEdge>> wide_edges_in(const std::filesystem::path& 
 /// `streets.json`: names by edge; empty if the file is missing.
 std::map<std::string, std::string> streets_in(const std::filesystem::path& file);
 
+/// `titles.json` of the study (StudyConfig::titles); empty if the file is missing.
+std::map<std::string, std::string> titles_in(const std::filesystem::path& file);
+
 /// `roads.json`; nothing for folders of versions that did not write it.
 std::optional<RoadMap> roads_in(const std::filesystem::path& file);
 

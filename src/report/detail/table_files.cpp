@@ -147,6 +147,21 @@ std::vector<Column> columns_of(const DataTable& table) {
     return columns;
 }
 
+/// Shrinks a table that is wider than the text, and no other.
+constexpr const char* as_wide_as_the_text =
+    "\\resizebox{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}{!}";
+/// A column of sentences, in lines; shrunk to the width of the text they would be too small to read.
+constexpr const char* paragraph = "p{0.7\\linewidth}";
+constexpr std::size_t longest_word = 60;  // characters: a line of a usual page holds 80
+
+bool is_long(const DataTable& table, std::size_t column) {
+    return std::ranges::any_of(table.rows, [&](const std::vector<std::string>& row) {
+        const auto letters = std::ranges::count_if(
+            row[column], [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0U) != 0x80U; });
+        return static_cast<std::size_t>(letters) > longest_word;
+    });
+}
+
 template <class Set>
 std::string latex_line(const std::vector<std::string>& cells, const Set& set) {
     std::vector<std::string> typeset;
@@ -217,18 +232,19 @@ std::string to_latex(const Table& table) {
     std::string types;
     for (std::size_t column = 0; column < columns.size(); ++column) {
         const bool words = column == 0 || data.cells == DataTable::Cells::words;
-        types += (column == 0 ? "" : " ") + columns[column].type(words ? "l" : "r");
+        const bool lines = words && is_long(data, column);
+        types += (column == 0 ? "" : " ") + columns[column].type(lines ? paragraph : words ? "l" : "r");
     }
     std::string text = fmt::format(
-        "% needs \\usepackage{{booktabs,siunitx}}\n\\begin{{table}}\n\\centering\n\\caption{{{}}}\n"
-        "\\label{{tab:{}}}\n\\begin{{tabular}}{{{}}}\n\\toprule\n{}\\midrule\n",
-        latex_escaped(table.caption), table.name, types,
+        "% needs \\usepackage{{booktabs,graphicx,siunitx}}\n\\begin{{table}}\n\\centering\n\\caption{{{}}}\n"
+        "\\label{{tab:{}}}\n{}{{%\n\\begin{{tabular}}{{{}}}\n\\toprule\n{}\\midrule\n",
+        latex_escaped(table.caption), table.name, as_wide_as_the_text, types,
         latex_line(data.head,
                    [&](std::size_t at, const std::string& cell) { return columns[at].head(cell); }));
     for (const auto& row : data.rows)
         text +=
             latex_line(row, [&](std::size_t at, const std::string& cell) { return columns[at].body(cell); });
-    return text + "\\bottomrule\n\\end{tabular}\n\\end{table}\n";
+    return text + "\\bottomrule\n\\end{tabular}}\n\\end{table}\n";
 }
 
 }  // namespace clearway::report::detail

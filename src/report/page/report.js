@@ -89,7 +89,7 @@
       const most = of => Math.max(...numbers.map(value => (of(value.replace(/^[+-]/, '').split('.')) ?? '').length));
       const intervals = cells.some(cell => interval(cell));
       if (numbers.length === 0)
-        return {type: at === 0 || words ? 'l' : 'r', head: escaped, body: escaped};
+        return {type: at !== 0 && !words ? 'r' : rows.some(row => [...row[at]].length > 60) ? 'p{0.7\\linewidth}' : 'l', head: escaped, body: escaped};
       const plus = has('+');
       const format = `${plus ? '+' : has('-') ? '-' : ''}${most(parts => parts[0])}.${most(parts => parts[1])}`;
       const end = text => `\\num{${text.replaceAll('\u2212', '-')}}`;
@@ -104,9 +104,10 @@
       };
     });
     const line = (row, part) => row.map((cell, at) => columns[at][part](cell)).join(' & ') + ' \\\\\n';
-    return `% needs \\usepackage{booktabs,siunitx}\n\\begin{table}\n\\centering\n\\caption{${escaped(caption)}}\n\\label{tab:${name}}\n` +
+    return `% needs \\usepackage{booktabs,graphicx,siunitx}\n\\begin{table}\n\\centering\n\\caption{${escaped(caption)}}\n\\label{tab:${name}}\n` +
+      '\\resizebox{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}{!}{%\n' +
       `\\begin{tabular}{${columns.map(column => column.type).join(' ')}}\n\\toprule\n${line(head, 'head')}\\midrule\n` +
-      `${rows.map(row => line(row, 'body')).join('')}\\bottomrule\n\\end{tabular}\n\\end{table}\n`;
+      `${rows.map(row => line(row, 'body')).join('')}\\bottomrule\n\\end{tabular}}\n\\end{table}\n`;
   };
 
   const addButtons = (place, name, ways) => {

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/settings.hpp"
+#include "report/facts.hpp"
+
+namespace clearway::report::detail {
+
+/// What tables and figures call conditions. A title of the study file comes first, then the name in the
+/// dissertation, then that of the predictor which repairs the graph, then the name. A condition that factors
+/// made adds their values: `corridor+failure=B10+lead_s=4` -> `corridor, B10, lead 4 s`.
+class ConditionTitles {
+  public:
+    /// `given` holds the titles of the study file, by condition and by text that a factor gives one.
+    explicit ConditionTitles(core::Settings given) : given_(std::move(given)) {}
+
+    /// Titles the conditions of one scenario. Those that would share a title keep their names.
+    void give(std::vector<ConditionFacts>& conditions) const;
+
+  private:
+    std::string of(const experiment::ConditionSpec& condition) const;
+    /// The policies or the name before the factors.
+    std::string stem_of(const experiment::ConditionSpec& condition) const;
+    std::string value_text(const std::string& factor, const std::string& value) const;
+
+    core::Settings given_;
+};
+
+}  // namespace clearway::report::detail
