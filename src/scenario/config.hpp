@@ -10,6 +10,7 @@
 
 #include "core/fields.hpp"
 #include "core/spellings.hpp"
+#include "scenario/incident.hpp"
 #include "scenario/pedestrians.hpp"
 #include "scenario/road_condition.hpp"
 #include "traffic/privilege.hpp"
@@ -501,6 +502,7 @@ struct ScenarioConfig {
     std::vector<Flow> flows;
     std::vector<EmergencyTrip> emergency_trips;
     std::vector<EmergencySite> emergency_sites;
+    std::vector<Incident> incidents;
     std::optional<Measured> measured;
 
     std::filesystem::path folder;  ///< Relative paths start here. Not part of the configuration.

@@ -72,20 +72,38 @@ void apply_share(const Override&, const Given& given, ScenarioConfig& config, Pr
     config.demand.human = total - config.demand.automated;
 }
 
-/// Weights given as `car=8,truck=2`. Kinds that are not named get none.
-template <class Kinds>
-void set_kinds(const Given& given, Kinds& target, Problems& problems) {
-    core::Settings weights;
-    std::istringstream parts(given.text);
+/// Sets the members that text such as `car=8,truck=2` names.
+template <class Struct>
+void set_members(const std::string& text, const std::string& where, Struct& target, Problems& problems) {
+    core::Settings values;
+    std::istringstream parts(text);
     for (std::string part; std::getline(parts, part, ',');) {
         const std::size_t equals = part.find('=');
-        const std::string kind = part.substr(0, equals);
-        const std::string weight = equals == std::string::npos ? "" : part.substr(equals + 1);
-        if (!weights.emplace(kind, weight).second)
-            problems.push_back({given.where + " " + kind, "is given twice", "each kind once", "Remove one"});
+        const std::string name = part.substr(0, equals);
+        const std::string value = equals == std::string::npos ? "" : part.substr(equals + 1);
+        if (!values.emplace(name, value).second)
+            problems.push_back({where + " " + name, "is given twice", "each once", "Remove one"});
     }
+    std::ranges::move(core::apply_settings(values, where + " ", target), std::back_inserter(problems));
+}
+
+/// Kinds that are not named get no weight.
+template <class Kinds>
+void set_kinds(const Given& given, Kinds& target, Problems& problems) {
     core::for_each_field<Kinds>([&](const auto& field) { target.*field.member = 0.0; });
-    std::ranges::move(core::apply_settings(weights, given.where + " ", target), std::back_inserter(problems));
+    set_members(given.text, given.where, target, problems);
+}
+
+/// Incidents in place of those of the file.
+void apply_incidents(const Override&, const Given& given, ScenarioConfig& config, Problems& problems) {
+    config.incidents.clear();
+    std::erase_if(config.origins, [](const auto& origin) { return origin.first.starts_with("incident["); });
+    if (given.text == "none") return;
+    std::istringstream rows(given.text);
+    for (std::string row; std::getline(rows, row, ';');) {
+        config.origins[fmt::format("incident[{}]", config.incidents.size())] = given.where;
+        set_members(row, given.where, config.incidents.emplace_back(), problems);
+    }
 }
 
 void apply_kinds(const Override& row, const Given& given, ScenarioConfig& config, Problems& problems) {
@@ -153,6 +171,10 @@ std::vector<Override> make_overrides() {
                 apply_kinds),
         of_text("emergency_kinds", "--emergency-kinds", "kinds.emergency",
                 "Weights of the kinds of EVs: ambulance=2,police_car=1", apply_emergency_kinds),
+        of_text("incident", "--incident", "incident",
+                "Incidents in place of the scenario's: edge=ID,from_s=60,to_s=600; more after a semicolon; "
+                "or none",
+                apply_incidents),
         of_key("road_limit_kmh", "--road-limit", "limits.road_kmh"),
         of_key("warm_up_s", "--warm-up", "time.warm_up_s"),
         of_key("horizon_s", "--horizon", "time.horizon_s"),

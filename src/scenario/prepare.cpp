@@ -56,6 +56,7 @@ void refuse_commas(const std::filesystem::path& folder) {
 Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core::StudySeed seed,
                  core::Replication replication, const std::filesystem::path& folder) {
     refuse_commas(std::filesystem::absolute(folder));
+    std::vector<PlacedIncident> incidents = place_incidents(config, network.network);
     const detail::DemandContext context{config, network.network, core::KeyedRandom(seed, replication)};
     detail::PlannedDemand demand =
         config.measured ? detail::read_measured(context) : detail::generate(context);
@@ -88,6 +89,7 @@ Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core
     prepared.human = count(demand.vehicles, traffic::VehicleClass::human);
     prepared.automated = count(demand.vehicles, traffic::VehicleClass::automated);
     prepared.emergency = std::move(demand.emergency);
+    prepared.incidents = std::move(incidents);
     prepared.time = config.time;
     prepared.simulator_seed = simulator_seed(context.random);
     prepared.demand_hash = core::content_hash(types + routes + emergency + persons + pedestrians);

@@ -22,6 +22,7 @@ struct Prepared {
     std::vector<std::filesystem::path> additional_files;
     /// By departure. The run adds them after the warm-up; they are in no route file, but in `emergency.csv`.
     std::vector<traffic::EmergencyDeparture> emergency;
+    std::vector<PlacedIncident> incidents;
     Times time;
     std::vector<std::string> options;  ///< For SUMO, `name=value`.
     std::uint64_t simulator_seed = 1;  ///< For SUMO's own generator, 31 bits, not 0.
@@ -34,8 +35,8 @@ struct Prepared {
 /// returns where they are. A pure function of configuration, network, seed and replication: equal arguments
 /// give equal bytes, and a vehicle keeps its departure, route and driver when others are added. Throws
 /// core::InputError with every unknown edge, unreachable destination and unknown measured type, for persons
-/// who cannot walk as planned, and for pedestrians in a network without crossings; core::EnvironmentError
-/// when `folder` cannot be written.
+/// who cannot walk as planned, for pedestrians in a network without crossings, and as place_incidents does;
+/// core::EnvironmentError when `folder` cannot be written.
 Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core::StudySeed seed,
                  core::Replication replication, const std::filesystem::path& folder);
 

@@ -190,7 +190,7 @@ class EqualRunTest(FolderCase):
         words = {"variant": "dense", "step_length_s": 0.5, "automated_share": 0.5, "density": 0.5, "road_limit_kmh": 50, "horizon_s": 400,
                  "car_following": "idm", "idm": "treiber", "driver_spread": 0.1, "siren_compliance": 0.2, "road_speed_factor": 0.9,
                  "friction": 0.8, "time_to_teleport_s": 200, "traffic_kinds": "car=8,truck=2", "emergency_kinds": "police_car=1",
-                 "pedestrians_per_hour": 10, "warm_up_s": 60}
+                 "pedestrians_per_hour": 10, "warm_up_s": 60, "incident": "none"}
         listed = json.loads(program("list", "scenario-keys", "--json"))
         overrides = {row["name"]: row.get("words", [row.get("minimum")])[0] for row in listed if row["table"] == "Overrides"}
         self.assertLessEqual(words.keys(), overrides.keys())

@@ -21,7 +21,7 @@ const char* const group_name = "Scenario (the defaults are those of the scenario
 std::string value_text(const scenario::Override& override) {
     const core::SettingInfo& value = override.value;
     if (!value.words.empty()) return fmt::format("{} [by scenario]", fmt::join(value.words, "|"));
-    if (!override.is_number()) return "KIND=WEIGHT,... [by scenario]";
+    if (!override.is_number()) return "NAME=VALUE,... [by scenario]";
     return fmt::format("NUMBER, {} [by scenario]", core::range_text(value));
 }
 

@@ -265,6 +265,7 @@ void check(const ScenarioConfig& config, Problems& problems) {
     check_sites(config, problems);
     check_road(config, problems);
     check_drivers(config, problems);
+    check_incidents(config, problems);
 }
 
 }  // namespace clearway::scenario::detail

@@ -13,4 +13,7 @@ void apply(const Options& options, ScenarioConfig& config, std::vector<core::Pro
 /// Checks beyond a single key: keys that contradict or need each other, and files that must exist.
 void check(const ScenarioConfig& config, std::vector<core::Problem>& problems);
 
+/// Of incidents, what needs no network.
+void check_incidents(const ScenarioConfig& config, std::vector<core::Problem>& problems);
+
 }  // namespace clearway::scenario::detail

@@ -46,6 +46,7 @@ constexpr auto tables() {
         Table{"flow", &S::flows, "A share of all vehicles from an edge to another"},
         Table{"emergency_trip", &S::emergency_trips, "An EV with a trip of its own"},
         Table{"emergency_site", &S::emergency_sites, "Where EVs start or arrive"},
+        Table{"incident", &S::incidents, "A road that is blocked for a while"},
         Table{"measured", &S::measured,
               "Measured demand; its lists `routes`, `additional` and `persons` name files"});
 }

@@ -1,0 +1,318 @@
+#include "scenario/incident.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/number.hpp"
+#include "roads/closure.hpp"
+#include "roads/geography.hpp"
+#include "roads/lane_grid.hpp"
+#include "roads/network.hpp"
+#include "scenario/config.hpp"
+#include "scenario/detail/checks.hpp"
+
+namespace clearway::scenario {
+namespace {
+
+using Problems = std::vector<core::Problem>;
+
+std::string place(const ScenarioConfig& config, std::size_t row, const std::string& key) {
+    const std::string table = fmt::format("incident[{}]", row);
+    const auto found = config.origins.find(table + "." + key);
+    return found == config.origins.end() ? config.where(table) + "." + key : found->second;
+}
+
+double end_s(const ScenarioConfig& config, const Incident& incident) {
+    return incident.to_s.value_or(config.time.horizon_s);
+}
+
+/// The lane numbers of the text; words that are none become problems.
+std::vector<std::uint32_t> numbers_in(const std::string& text, const std::string& where, Problems& problems) {
+    std::vector<std::uint32_t> numbers;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        constexpr std::size_t most_digits = 4;
+        if (word.size() <= most_digits && word.find_first_not_of("0123456789") == std::string::npos) {
+            numbers.push_back(static_cast<std::uint32_t>(std::stoul(word)));
+        } else {
+            problems.push_back({where, fmt::format("\"{}\" is no number of a lane", word),
+                                "whole numbers with blanks between, 0 for the outermost lane",
+                                "leave lanes out to close all lanes for cars"});
+        }
+    }
+    std::ranges::sort(numbers);
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    return numbers;
+}
+
+bool overlap(double from_s, double to_s, double other_from_s, double other_to_s) {
+    return from_s < other_to_s && other_from_s < to_s;
+}
+
+/// Puts the incidents of a scenario on its network, and collects what is wrong with them.
+class Placing {
+  public:
+    Placing(const ScenarioConfig& config, const roads::Network& network)
+        : config_(config), network_(network) {}
+
+    std::vector<PlacedIncident> all() {
+        for (row_ = 0; row_ < config_.incidents.size(); ++row_)
+            put(config_.incidents[row_]);
+        for (std::size_t later = 1; later < placed_.size(); ++later) {
+            for (std::size_t earlier = 0; earlier < later; ++earlier)
+                check_overlap(earlier, later);
+        }
+        check_starts();
+        if (!problems_.empty()) throw core::InputError(std::move(problems_));
+        return placed_;
+    }
+
+  private:
+    struct Where {
+        core::EdgeIndex edge;
+        float position_m = 0.0F;
+    };
+
+    void report(const std::string& key, std::string what, std::string allowed, std::string cure) {
+        problems_.push_back(
+            {place(config_, row_, key), std::move(what), std::move(allowed), std::move(cure)});
+    }
+
+    void put(const Incident& incident) {
+        std::optional<Where> where =
+            incident.edge.empty() ? at_coordinates(incident) : on_edge(incident.edge);
+        if (!where) return;
+        const roads::Edge& edge = network_.edge(where->edge);
+        if (incident.position_m) {
+            if (*incident.position_m > edge.length_m)
+                report("position_m",
+                       fmt::format("{} is beyond the end of edge \"{}\"", *incident.position_m, edge.id),
+                       fmt::format("0 to {:.2f} m", edge.length_m), "or leave it out for the middle");
+            where->position_m = static_cast<float>(*incident.position_m);
+        }
+        traffic::Incident placed{
+            .edge = where->edge,
+            .lanes = lanes(incident, where->edge),
+            .position_m = where->position_m,
+            .from = core::Seconds(incident.from_s),
+            .to = core::Seconds(end_s(config_, incident)),
+            .known_after = {},
+            .speed_past_mps = static_cast<float>(core::from_kmh(incident.speed_past_kmh).value),
+            .emergency_passes = incident.emergency_passes == 1};
+        if (incident.known_after_s) placed.known_after = core::Seconds(*incident.known_after_s);
+        if (placed.lanes.empty()) return;
+        placed_.push_back({std::move(placed), incident.reroute_share});
+        rows_.push_back(row_);
+    }
+
+    std::optional<Where> on_edge(const std::string& id) {
+        const auto found = network_.find_edge(id);
+        if (!found || network_.edge(*found).internal) {
+            std::vector<std::string> known;
+            for (const roads::Edge& edge : network_.edges())
+                if (!edge.internal) known.push_back(edge.id);
+            report("edge", fmt::format("the network has no edge \"{}\"", id),
+                   "id of an edge outside junctions",
+                   core::did_you_mean(id, known, "give longitude and latitude instead"));
+            return std::nullopt;
+        }
+        return Where{*found, network_.edge(*found).length_m / 2.0F};
+    }
+
+    std::optional<Where> at_coordinates(const Incident& incident) {
+        const auto geography = roads::Geography::of(network_.location());
+        if (!geography) {
+            report("longitude", "the network has no projection that Clearway knows", "networks from a map",
+                   "give edge instead");
+            return std::nullopt;
+        }
+        constexpr core::Metres reach{100.0};
+        std::vector<roads::LanePlace> places;
+        const roads::Point point = geography->point({*incident.longitude, *incident.latitude});
+        roads::LaneGrid(network_).near(point, reach, places);
+        std::erase_if(places, [&](const roads::LanePlace& each) {
+            const roads::Lane& lane = network_.lane(each.lane);
+            return !lane.allows_cars || network_.edge(lane.edge).internal;
+        });
+        const auto nearest = std::ranges::min_element(places, {}, &roads::LanePlace::distance_m);
+        if (nearest != places.end()) return Where{network_.lane(nearest->lane).edge, nearest->position_m};
+        const roads::Location& box = network_.location();
+        const auto low = geography->coordinates(box.x_minimum_m, box.y_minimum_m);
+        const auto high = geography->coordinates(box.x_maximum_m, box.y_maximum_m);
+        report("longitude",
+               fmt::format("no road open to cars within {:.0f} m of {}, {}", reach.value, *incident.longitude,
+                           *incident.latitude),
+               fmt::format("longitude {:.4f} to {:.4f}, latitude {:.4f} to {:.4f}", low.longitude_deg,
+                           high.longitude_deg, low.latitude_deg, high.latitude_deg),
+               "mind the order: longitude is east, latitude is north");
+        return std::nullopt;
+    }
+
+    /// The lanes that an incident closes; empty after adding a problem.
+    std::vector<std::uint32_t> lanes(const Incident& incident, core::EdgeIndex index) {
+        const roads::Edge& edge = network_.edge(index);
+        const auto lane = [&](std::uint32_t number) -> const roads::Lane& {
+            return network_.lane(network_.lane_of(index, number));
+        };
+        std::vector<std::uint32_t> cars;
+        bool any_emergency = false;
+        for (std::uint32_t number = 0; number < edge.lane_count; ++number) {
+            any_emergency |= lane(number).allows_emergency;
+            if (lane(number).allows_cars) cars.push_back(number);
+        }
+        if (!any_emergency) {
+            report("edge", fmt::format("no emergency vehicle may use edge \"{}\"", edge.id),
+                   "an edge with a lane open to class emergency", "");
+            return {};
+        }
+        if (incident.lanes.empty() && cars.empty())
+            report("lanes", fmt::format("no lane of edge \"{}\" is open to cars", edge.id),
+                   fmt::format("0 to {}", edge.lane_count - 1), "name the lanes");
+        if (incident.lanes.empty()) return cars;
+        Problems none;  // `check` has reported them
+        std::vector<std::uint32_t> numbers = numbers_in(incident.lanes, "", none);
+        for (const std::uint32_t number : numbers) {
+            if (number >= edge.lane_count) {
+                report("lanes", fmt::format("edge \"{}\" has no lane {}", edge.id, number),
+                       fmt::format("0 to {}", edge.lane_count - 1), "");
+                return {};
+            }
+            if (!lane(number).allows_cars && !lane(number).allows_emergency) {
+                report("lanes",
+                       fmt::format("neither cars nor EVs may use lane {} of edge \"{}\"", number, edge.id),
+                       fmt::format("{}", fmt::join(cars, ", ")), "");
+                return {};
+            }
+        }
+        return numbers;
+    }
+
+    void check_overlap(std::size_t earlier, std::size_t later) {
+        const traffic::Incident& one = placed_[earlier].closed;
+        const traffic::Incident& other = placed_[later].closed;
+        if (one.edge != other.edge ||
+            !overlap(one.from.value, one.to.value, other.from.value, other.to.value))
+            return;
+        const auto shared = std::ranges::find_first_of(one.lanes, other.lanes);
+        if (shared == one.lanes.end()) return;
+        problems_.push_back({config_.where(fmt::format("incident[{}]", rows_[later])),
+                             fmt::format("blocks lane {} of edge \"{}\" while incident[{}] does, too",
+                                         *shared, network_.edge(one.edge).id, rows_[earlier]),
+                             "one incident on a lane at a time", "change lanes, from_s or to_s"});
+    }
+
+    /// Where emergency vehicles start, and when.
+    void check_starts() {
+        const Times& time = config_.time;
+        const auto has_station = std::ranges::any_of(config_.emergency_sites, [](const EmergencySite& site) {
+            return site.kind != SiteKind::hospital;
+        });
+        if (config_.demand.emergency > 0) {
+            for (std::size_t row = 0; row < config_.emergency_sites.size(); ++row) {
+                const EmergencySite& site = config_.emergency_sites[row];
+                if (has_station && site.kind == SiteKind::hospital) continue;
+                check_start(fmt::format("emergency_site[{}]", row), site.edge, time.warm_up_s, time.window_s);
+            }
+            for (std::size_t row = 0; row < config_.flows.size(); ++row)
+                check_start(fmt::format("flow[{}]", row), config_.flows[row].from, time.warm_up_s,
+                            time.window_s);
+        }
+        for (std::size_t row = 0; row < config_.emergency_trips.size(); ++row) {
+            const EmergencyTrip& trip = config_.emergency_trips[row];
+            const std::string from =
+                trip.edges.empty() ? trip.from : trip.edges.substr(0, trip.edges.find(' '));
+            check_start(fmt::format("emergency_trip[{}]", row), from, trip.depart_s, trip.depart_s);
+        }
+    }
+
+    /// Follows the way out of a start as long as there is but one.
+    void check_start(const std::string& key, const std::string& id, double first_s, double last_s) {
+        const auto start = network_.find_edge(id);
+        if (!start) return;  // reported with the demand
+        std::vector<core::EdgeIndex> passed;
+        double elapsed_s = 0.0;
+        for (std::optional<core::EdgeIndex> edge = start; edge; edge = only_way_out(*edge)) {
+            if (std::ranges::find(passed, *edge) != passed.end()) return;
+            passed.push_back(*edge);
+            for (std::size_t at = 0; at < placed_.size(); ++at) {
+                const traffic::Incident& incident = placed_[at].closed;
+                // An EV that comes at the very moment counts as well.
+                constexpr double instant_s = 0.01;
+                if (incident.edge != *edge || !roads::closes_to_emergency(network_, incident) ||
+                    !overlap(incident.from.value, incident.to.value, first_s + elapsed_s,
+                             last_s + elapsed_s + instant_s))
+                    continue;
+                problems_.push_back({config_.where(fmt::format("incident[{}]", rows_[at])),
+                                     fmt::format("closes edge \"{}\", the only way out of {} at \"{}\"",
+                                                 network_.edge(*edge).id, key, id),
+                                     "an edge with a way round it, or times when no EV starts there",
+                                     "close another edge, leave a lane open, or set emergency_passes = 1"});
+                return;
+            }
+            const roads::Lane& lane = network_.lane(network_.lane_of(*edge, 0));
+            elapsed_s += lane.length_m / lane.speed_limit_mps;
+        }
+    }
+
+    std::optional<core::EdgeIndex> only_way_out(core::EdgeIndex from) const {
+        std::optional<core::EdgeIndex> only;
+        const roads::Edge& edge = network_.edge(from);
+        for (std::uint32_t number = 0; number < edge.lane_count; ++number) {
+            for (const roads::Connection& way : network_.connections_from(network_.lane_of(from, number))) {
+                if (!way.allows_emergency) continue;
+                const core::EdgeIndex next = network_.lane(way.to).edge;
+                if (only && *only != next) return std::nullopt;
+                only = next;
+            }
+        }
+        return only;
+    }
+
+    const ScenarioConfig& config_;
+    const roads::Network& network_;
+    std::vector<PlacedIncident> placed_;
+    std::vector<std::size_t> rows_;  ///< Of `placed_` in the file.
+    std::size_t row_ = 0;
+    Problems problems_;
+};
+
+/// What needs no network.
+void check_one(const ScenarioConfig& config, std::size_t row, Problems& problems) {
+    const Incident& incident = config.incidents[row];
+    const bool both = incident.longitude && incident.latitude;
+    const bool any = incident.longitude || incident.latitude;
+    if (any != both || any == !incident.edge.empty())
+        problems.push_back({config.where(fmt::format("incident[{}]", row)),
+                            any && !incident.edge.empty() ? "has an edge, and coordinates besides"
+                            : any                         ? "has but one of longitude and latitude"
+                                                          : "has no place",
+                            "edge, or longitude and latitude", "give one of the two"});
+    const double to_s = end_s(config, incident);
+    if (incident.from_s >= config.time.horizon_s)
+        problems.push_back({place(config, row, "from_s"),
+                            fmt::format("{} is not before the end of the run", incident.from_s),
+                            fmt::format("below {} (time.horizon_s)", config.time.horizon_s), ""});
+    else if (incident.from_s >= to_s)
+        problems.push_back({place(config, row, "to_s"),
+                            fmt::format("{} is not after from_s, {}", to_s, incident.from_s),
+                            fmt::format("above {}", incident.from_s), "exchange the two, or leave to_s out"});
+    numbers_in(incident.lanes, place(config, row, "lanes"), problems);
+}
+
+}  // namespace
+
+void detail::check_incidents(const ScenarioConfig& config, Problems& problems) {
+    for (std::size_t row = 0; row < config.incidents.size(); ++row)
+        check_one(config, row, problems);
+}
+
+std::vector<PlacedIncident> place_incidents(const ScenarioConfig& config, const roads::Network& network) {
+    return Placing(config, network).all();
+}
+
+}  // namespace clearway::scenario
