@@ -1,5 +1,6 @@
-// What a search of a way costs where times change while one drives: `route_search_times NETWORK`. Prints the median
-// and the 99th percentile of 1,000 searches, ms, after one to each destination that pays for its backward tree.
+// What a search of a way costs where times change while one drives: `route_search_times NETWORK`. Prints the
+// median and the 99th percentile of 1,000 searches, ms, after one to each destination that pays for its
+// backward tree.
 //     netgenerate --grid --grid.number 60 --grid.length 100 -o grid.net.xml       (14,160 edges)
 #include <algorithm>
 #include <chrono>
@@ -52,8 +53,10 @@ void measure(const char* file) {
         times_ms.push_back(ms_since(start));
     }
     std::ranges::sort(times_ms);
-    std::printf("edges %zu, first search to a destination at most %.2f ms, then median %.3f ms, 99th percentile %.3f ms\n",
-                edges.size(), tree_ms, times_ms[searches / 2], times_ms[searches * 99 / 100]);
+    std::printf(
+        "edges %zu, first search to a destination at most %.2f ms, then median %.3f ms, 99th percentile %.3f "
+        "ms\n",
+        edges.size(), tree_ms, times_ms[searches / 2], times_ms[searches * 99 / 100]);
 }
 
 }  // namespace

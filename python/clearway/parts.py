@@ -27,9 +27,14 @@ class Network:
         self.edge_lane_count = np.array([edge[1] for edge in description["edges"]], dtype=np.uint32)
         #: Whether an edge is inside a junction.
         self.edge_is_internal = np.array([edge[2] for edge in description["edges"]], dtype=bool)
+        #: For each edge, those that an emergency vehicle may turn into.
+        self.onward: list[list[int]] = description["onward"]
         lanes = description["lanes"]
         #: Edge of each lane.
         self.lane_edge = np.array(lanes["edge"], dtype=np.uint32)
+        #: Time along each edge at the limit of its fastest lane, s; permissions are those of ``onward``.
+        self.edge_free_s = np.full(len(self.edge_ids), np.inf)
+        np.minimum.at(self.edge_free_s, self.lane_edge, np.array(lanes["length_m"]) / np.maximum(lanes["speed_limit_mps"], 0.01))
         #: Number of each lane on its edge, 0 the outermost.
         self.lane_number = np.array(lanes["number"], dtype=np.uint32)
         self.lane_length_m = np.array(lanes["length_m"], dtype=np.float32)
@@ -151,6 +156,11 @@ class EmergencyVehicle:
         return np.stack([self._sheet["ahead_usable_lower"][part], self._sheet["ahead_usable_higher"][part]], axis=1)
 
     @property
+    def route(self) -> np.ndarray:
+        """Edges of its way, from the one that it entered last to its destination: what ``Lease.take_route`` changes."""
+        return self._sheet["route"][self._bounds("route_first")]
+
+    @property
     def approaches(self) -> list[Approach]:
         """Signals that it will pass within 600 m, nearest first."""
         part = self._bounds("approach_first")
@@ -179,6 +189,11 @@ class Belief:
     def emergency_vehicles(self) -> list[EmergencyVehicle]:
         """Those on the road, ordered by key."""
         return [EmergencyVehicle(self, number) for number in range(len(self._sheet["emergency_key"]))]
+
+    @property
+    def incidents(self) -> dict[int, bool]:
+        """Edges with incidents that last and are known, and whether the road is closed to emergency vehicles."""
+        return dict(zip(self._sheet["incident_edge"].tolist(), self._sheet["incident_closed"].astype(bool).tolist()))
 
     def signal_state(self, signal: int) -> str:
         """What a signal shows now, SUMO's letter for each link; empty where that is not known."""

@@ -1,5 +1,7 @@
 #include "python/part_process.hpp"
 
+#include <set>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -19,6 +21,22 @@ Json lanes_of(const roads::Network& network) {
     return {{"edge", edge}, {"number", number}, {"length_m", length}, {"speed_limit_mps", limit}};
 }
 
+/// By edge, the edges that an emergency vehicle may turn into.
+Json onward_of(const roads::Network& network) {
+    Json onward = Json::array();
+    for (const roads::Edge& edge : network.edges()) {
+        std::set<std::uint32_t> next;
+        for (std::uint32_t lane = edge.first_lane; lane < edge.first_lane + edge.lane_count; ++lane)
+            for (const roads::Connection& way : network.connections_from(core::LaneIndex{lane})) {
+                const core::EdgeIndex to = network.lane(way.to).edge;
+                if (!edge.internal && way.allows_emergency && !network.edge(to).internal)
+                    next.insert(to.value);
+            }
+        onward.push_back(next);
+    }
+    return onward;
+}
+
 Json network_json(const roads::Network& network) {
     Json edges = Json::array(), lanes = Json::array(), signals = Json::array();
     for (const roads::Edge& edge : network.edges())
@@ -31,7 +49,11 @@ Json network_json(const roads::Network& network) {
             phases.push_back(phase.state);
         signals.push_back({signal.id, phases});
     }
-    return {{"edges", edges}, {"lane_ids", lanes}, {"lanes", lanes_of(network)}, {"signals", signals}};
+    return {{"edges", edges},
+            {"lane_ids", lanes},
+            {"lanes", lanes_of(network)},
+            {"onward", onward_of(network)},
+            {"signals", signals}};
 }
 
 }  // namespace

@@ -30,6 +30,42 @@ class Preempt:
         return leases
 """
 
+# Once, an edge in the middle of the way is left out; the rest is the shortest.
+DETOUR = """
+import heapq
+from clearway import Lease
+class Detour:
+    def __init__(self):
+        self.asked = set()
+    def way(self, start, end, closed):
+        net, best, before, queue = self.network, {start: 0.0}, {}, [(0.0, start)]
+        while queue:
+            now, edge = heapq.heappop(queue)
+            if edge == end:
+                way = [edge]
+                while way[-1] in before:
+                    way.append(before[way[-1]])
+                return way[::-1]
+            for other in net.onward[edge]:
+                then = now + net.edge_free_s[other]
+                if other != closed and then < best.get(other, 1e9):
+                    best[other], before[other] = then, edge
+                    heapq.heappush(queue, (then, other))
+    def act(self, belief):
+        self.network, leases = belief.network, []
+        assert belief.incidents == {}
+        for ev in belief.emergency_vehicles:
+            route = ev.route.tolist()
+            assert all(there in belief.network.onward[here] for here, there in zip(route, route[1:]))
+            if ev.key in self.asked or len(route) < 6:
+                continue
+            self.asked.add(ev.key)
+            way = self.way(route[0], route[-1], route[len(route) // 2])
+            if way:
+                leases.append(Lease.take_route(ev, way, serves=ev, lasting_s=20, reason="a detour"))
+        return leases
+"""
+
 #: Beginnings of columns about messages with signals, which a part in C++ sends besides its leases.
 BY_MESSAGE = ("signal_request", "signal_answers", "signal_told", "signal_granted")
 #: Members of a result of `links evaluate` that differ although two predictors do the same.
@@ -51,6 +87,14 @@ class EqualPartsTest(FolderCase):
         leases = results.leases.where(condition="python")
         self.assertEqual(set(leases["policy"]), {"Preempt"})
         self.assertGreater(right["leases_issued"][0], 0)
+
+    def test_a_policy_in_python_chooses_the_way(self) -> None:
+        self.write("mine.py", DETOUR)
+        results = clearway.run("city", [clearway.Condition("detour", policy="mine.py:Detour")], seeds=1, out="runs")
+        self.assertEqual(results.errors.row_count, 0)
+        ways = results.leases.where(condition="detour", action="take_route")
+        self.assertGreater(ways.where(outcome="acted")["leases"].sum(), 0)
+        self.assertEqual(set(ways["reason"]) & {"route_gap", "route_elsewhere", "no_such_edge"}, set())
 
     def test_a_predictor_in_python_is_the_same_run_as_in_cpp(self) -> None:
         mine = f"{SOURCE / 'examples/python/distance_predictor.py'}:ByDistance"

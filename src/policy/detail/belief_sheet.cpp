@@ -48,6 +48,10 @@ constexpr python::Column belief_sheet_columns[] = {
     {"own_link", "u2", "", "Link of the signal that the emergency vehicle itself may take"},
     {"served_link_first", "u4", "1", "Where the links of each approach begin"},
     {"served_link", "u2", "", "Own links, and those of its approaches that do not conflict with them"},
+    {"route_first", "u4", "1", "Where the way of each emergency vehicle begins"},
+    {"route", "u4", "", "Edge of the network on its way, from the one entered last to its destination"},
+    {"incident_edge", "u4", "", "Edge of each incident that lasts and is known"},
+    {"incident_closed", "u1", "1", "No lane that an emergency vehicle may use is open"},
     {"signal_first", "u4", "1", "Where the letters of each signal begin"},
     {"signal_letters", "u1", "", "SUMO's letter of each link; none where it is not known"},
 };
@@ -162,6 +166,25 @@ void write_approaches(const View& view, const std::vector<Vehicle>& emergency, F
     fill.put("served_link", served);
 }
 
+void write_ways(const View& view, const std::vector<Vehicle>& emergency, Filler& fill) {
+    std::vector<std::uint32_t> first = {0}, edges;
+    for (const Vehicle& vehicle : emergency) {
+        for (const core::EdgeIndex edge : view.route_of(vehicle.key).subspan(vehicle.state.route_edge))
+            edges.push_back(edge.value);
+        first.push_back(static_cast<std::uint32_t>(edges.size()));
+    }
+    fill.put("route_first", first);
+    fill.put("route", edges);
+}
+
+void write_incidents(const std::vector<traffic::KnownIncident>& incidents, Filler& fill) {
+    using Incident = traffic::KnownIncident;
+    fill.put<std::uint32_t>("incident_edge", incidents, [](const Incident& row) { return row.edge.value; });
+    fill.put<std::uint8_t>("incident_closed", incidents, [](const Incident& row) {
+        return static_cast<std::uint8_t>(row.closed_to_emergency ? 1 : 0);
+    });
+}
+
 void write_signals(const traffic::SignalStates& signals, Filler& fill) {
     std::vector<std::uint32_t> first = {0};
     std::vector<std::uint8_t> letters;
@@ -189,6 +212,8 @@ void write_belief(const View& view, const std::vector<traffic::BelievedVehicle>&
     write_emergency(view, emergency, fill);
     write_ahead(view, emergency, fill);
     write_approaches(view, emergency, fill);
+    write_ways(view, emergency, fill);
+    write_incidents(belief.incidents, fill);
     write_signals(belief.signals, fill);
 }
 
