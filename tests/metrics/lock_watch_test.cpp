@@ -111,7 +111,8 @@ class LockWatch : public testing::Test {
     }
     void step(const std::string& signal) {
         truth::Snapshot snapshot;
-        snapshot.time = core::Seconds(time_s_++);
+        snapshot.time = core::Seconds(time_s_);
+        time_s_ += step_s_;
         snapshot.resize(rows_.size());
         std::size_t row = 0;
         for (const auto& [key, vehicle] : rows_) {
@@ -128,6 +129,7 @@ class LockWatch : public testing::Test {
         for (int second = 0; second < seconds; ++second)
             step(signal);
     }
+    void take_steps_of(double step_s) { step_s_ = step_s; }
     RunSummary finish() {
         RunEnd end;
         end.tripinfo_files = {folder_.write("tripinfo.xml", "<tripinfos></tripinfos>")};
@@ -143,6 +145,7 @@ class LockWatch : public testing::Test {
     };
     std::map<core::VehicleKey, Vehicle> rows_;
     double time_s_ = 100.0;
+    double step_s_ = 1.0;
     traffic::Roster roster_;
     Recorder recorder_;
     support::TemporaryFolder folder_;
@@ -218,6 +221,21 @@ TEST_F(LockWatch, a_vehicle_that_moves_up_starts_anew) {
     put("a1", inside_we, 6.0F);
     stand(50);
     EXPECT_EQ(finish().metrics.locks, 0U);
+}
+
+TEST_F(LockWatch, a_vehicle_that_creeps_is_looked_at_once_a_second_whatever_the_step) {
+    // 0.08 m a half second are 0.16 m a second: more than one that stands may drift.
+    take_steps_of(0.5);
+    for (int step = 0; step < 200; ++step) {
+        put("a1", inside_we, 1.0F + 0.08F * static_cast<float>(step % 100));
+        stand(1);
+    }
+    EXPECT_EQ(finish().metrics.locks, 0U);
+    for (int step = 0; step < 200; ++step) {
+        put("a1", inside_we, 1.0F + 0.04F * static_cast<float>(step));
+        stand(1);
+    }
+    EXPECT_EQ(finish().metrics.locks, 1U);
 }
 
 TEST_F(LockWatch, red_and_the_queue_before_it_are_no_lock) {

@@ -306,6 +306,52 @@ TEST_F(TraceHashOfARun, MovesWithEveryNumberOfASnapshot) {
     EXPECT_NE(hash(), faster);
 }
 
+TEST_F(TraceHashOfARun, MovesWithEveryColumnOfASnapshot) {
+    std::set<std::string> hashes{hash()};
+    const auto look = [&](auto& cell, auto value) {
+        cell = value;
+        EXPECT_TRUE(hashes.insert(hash()).second) << hashes.size();
+    };
+    look(snapshot_.time, core::Seconds(0.5));
+    look(snapshot_.key[1], VehicleKey{7});
+    look(snapshot_.vehicle_class[1], VehicleClass::emergency);
+    look(snapshot_.x_m[1], 0.5F);
+    look(snapshot_.y_m[1], 0.5F);
+    look(snapshot_.heading_rad[1], 0.5F);
+    look(snapshot_.speed_mps[1], 0.5F);
+    look(snapshot_.acceleration_mps2[1], 0.5F);
+    look(snapshot_.lane[1], core::LaneIndex{3});
+    look(snapshot_.lane_position_m[1], 0.5F);
+    look(snapshot_.route_edge[1], 2U);
+    look(snapshot_.signals.state, std::vector<std::string>{"G", "r"});
+    look(snapshot_.signals.state, std::vector<std::string>{"Gr", ""});
+}
+
+TEST_F(TraceHashOfARun, MovesWithEveryMemberOfALease) {
+    std::set<std::string> hashes{hash()};
+    traffic::Lease lease;
+    const auto look = [&](auto& member, auto value) {
+        member = value;
+        EXPECT_TRUE(hashes.insert(hash({lease})).second) << hashes.size();
+    };
+    look(lease.target, traffic::Target{VehicleKey{1}});
+    look(lease.priority, 2);
+    look(lease.policy, "a policy");
+    look(lease.reason, "a reason");
+    look(lease.beneficiary, VehicleKey{9});
+    for (const traffic::Action& action :
+         {traffic::Action{traffic::ChangeLane{}}, traffic::Action{traffic::ChangeLane{1}},
+          traffic::Action{traffic::HoldLane{}}, traffic::Action{traffic::PullAside{traffic::Side::right}},
+          traffic::Action{traffic::PullAside{traffic::Side::left}}, traffic::Action{traffic::StopAtLine{}},
+          traffic::Action{traffic::HoldGreen{{1}, {}}}, traffic::Action{traffic::HoldGreen{{1}, {1}}},
+          traffic::Action{traffic::HoldGreen{{}, {1}}}, traffic::Action{traffic::AdjustGreen{{1}}},
+          traffic::Action{traffic::AdjustGreen{{1, 2}}}, traffic::Action{traffic::PassRed{}},
+          traffic::Action{traffic::StandBack{}}, traffic::Action{traffic::TakeRoute{{core::EdgeIndex{1}}}},
+          traffic::Action{traffic::TakeRoute{{core::EdgeIndex{2}}}}})
+        look(lease.action, action);
+    EXPECT_NE(hash({lease}), hash({lease, lease}));
+}
+
 TEST_F(TraceHashOfARun, MovesWithTargetActionAndExpiryOfALease) {
     traffic::Lease lease;
     lease.target = VehicleKey{1};

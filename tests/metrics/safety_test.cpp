@@ -199,11 +199,12 @@ TEST_F(Safety, MeasuresFlowsToTheLastMomentOfDemand) {
 TEST_F(Safety, AveragesQueuesOverApproachesAndTheTimeOfDemand) {
     const Vehicle first{"h1", VehicleClass::human, 0, 99.0F, 0.0F};
     const Vehicle second{"h2", VehicleClass::human, 0, 90.0F, 0.0F};
+    const Vehicle creeps{"h3", VehicleClass::human, 0, 80.0F, 0.1F};
     step(0.0, {});
     EXPECT_FALSE(metrics().signal_queue_vehicles);
     EXPECT_FALSE(metrics().signal_throughput_per_hour);
     step(1.0, {first});
-    step(2.0, {first, second});
+    step(2.0, {first, second, creeps});
     step(100.0, {first});  // Demand is over.
     EXPECT_DOUBLE_EQ(*metrics().signal_queue_vehicles, (1.0 + 2.0) / 2.0 / 2.0);
     EXPECT_DOUBLE_EQ(*metrics().signal_longest_queue_vehicles, 2.0);

@@ -60,6 +60,15 @@ TEST(SignalMeasures, CountAHoldThatLapsesBeforeItsVehicleComes) {
     EXPECT_EQ(signal_measures(events)[0].granted, 0U);
 }
 
+TEST(SignalMeasures, TakeNoRecoveryFromAHoldThatTheNextOneFollows) {
+    const std::vector<SignalEvent> events = {
+        {0.0, "J", 102, 1, "0", "a"},  {0.0, "J", 105, 1, "0", "a"},  {10.0, "J", 111, 1, "0", ""},
+        {12.0, "J", 102, 1, "0", "b"}, {12.0, "J", 105, 1, "0", "b"}, {30.0, "J", 150, 1, "", ""},
+        {40.0, "J", 111, 1, "0", ""},  {47.0, "J", 150, 1, "", ""}};
+    const auto measures = signal_measures(events);
+    EXPECT_THAT(measures[0].recovery_s, Optional(7.0));
+}
+
 TEST(SignalMeasures, OfNoEventsAreNone) {
     EXPECT_THAT(signal_measures({}), IsEmpty());
 }

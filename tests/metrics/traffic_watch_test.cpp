@@ -148,6 +148,20 @@ TEST_F(TrafficWatch, ShowsTheQueueOnTheOtherApproachesAroundAPassage) {
     }
 }
 
+TEST_F(TrafficWatch, TakesTheLastLookBeforeAPassageThatFallsBetweenTwo) {
+    // Looks at 3, 8, 13 s and so on; the EV crosses at 17 s, and one vehicle stands on `side` until 12 s.
+    for (int second = 3; second <= 30; ++second) {
+        if (second <= 12) put("h1", VehicleClass::human, 1, 0.0F);
+        put("ev", VehicleClass::emergency, second < 17 ? 0 : 3, 5.0F, 0.0F, second < 17 ? 0 : 1);
+        step(second);
+    }
+    const TrafficTables found = tables();
+    ASSERT_EQ(found.recovery.size(), 6U) << "from 7 s, which shows the look at 3 s, to 32 s";
+    EXPECT_EQ(found.recovery.front().offset_s, -10.0);
+    for (const RecoveryRow& row : found.recovery)
+        EXPECT_EQ(row.halted_vehicles, row.offset_s <= -5.0 ? 1.0 : 0.0) << row.offset_s;
+}
+
 TEST_F(TrafficWatch, KeepsAJourneyInAsFewPlacesAsItsSpeedNeeds) {
     // 10 m/s for 9 s, halt for 5 s at the stop line, then on over the junction.
     for (int second = 0; second <= 24; ++second) {
