@@ -64,9 +64,14 @@ class Table(Mapping[str, np.ndarray]):
                 raise _program.InputError(f"column {column!r} is compared with {value!r} (allowed: {kind})")
             if column in self._names and value not in self._names[column]:
                 raise _program.InputError(f"the study has no {column} {value!r}; it has {', '.join(self._names[column])}"
-                                          f"{_program.did_you_mean(value, self._names[column])}")
+                                          f"{self._factor_with(value) or _program.did_you_mean(value, self._names[column])}")
             chosen &= array == value
         return Table({name: array[chosen] for name, array in self._columns.items()}, self._names)
+
+    def _factor_with(self, value: str) -> str:
+        """How to choose by the factor that has this value; empty if none has."""
+        factors = (name for name, array in self._columns.items() if "." in name and value in array.tolist())
+        return next((f". where(**{{{name!r}: {value!r}}}) chooses by factor" for name in factors), "")
 
     def to_pandas(self) -> "pandas.DataFrame":
         """The same as a DataFrame. Needs pandas (Debian: python3-pandas)."""

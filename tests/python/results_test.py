@@ -55,6 +55,8 @@ class ResultsTest(FolderCase):
             self.assertEqual(results.errors.row_count, 0)
             for column, (kind, values) in columns.items():
                 self.check_factor(results, column, kind, values)
+        with self.assertRaisesRegex(clearway.InputError, r"\. where\(\*\*\{'condition.failure': 'B10'\}\) chooses by factor"):
+            results.runs.where(condition="B10")
         self.assertEqual(results.runs.where(**{"condition.failure": "B10", "scenario.friction": 0.4}).row_count, 1)
 
     def check_factor(self, results: clearway.Results, column: str, kind: type, values: set[str]) -> None:
