@@ -5,6 +5,7 @@
 
 #include "analysis/detail/condition_summary.hpp"
 #include "analysis/summary.hpp"
+#include "core/counted.hpp"
 #include "core/error.hpp"
 
 namespace clearway::analysis {
@@ -62,8 +63,9 @@ Summary compare_studies(const results::Results& first, const results::Results& s
     add_only_in(second.manifest, first.manifest, "second", summary.unpaired);
     if (first.manifest.replications != second.manifest.replications)
         summary.unpaired.push_back({"", "",
-                                    fmt::format("the first folder has {} replications, the second {}",
-                                                first.manifest.replications, second.manifest.replications)});
+                                    fmt::format("the first folder has {}, the second {}",
+                                                core::counted(first.manifest.replications, "replication"),
+                                                second.manifest.replications)});
     for (const ConditionSpec& condition : second.manifest.conditions) {
         const auto same = std::ranges::find(first.manifest.conditions, condition.name, &ConditionSpec::name);
         if (same == first.manifest.conditions.end()) continue;

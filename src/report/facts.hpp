@@ -156,11 +156,12 @@ using analysis::shown_interval;
 
 /// What is known of a condition, and how a report presents it. Its metrics hold those of every `Measure`.
 struct ConditionFacts : analysis::ConditionSummary {
-    std::string title;         ///< In words: detail::ConditionTitles.
-    std::string recipe;        ///< Failure, predictor and policies, in words.
-    core::Settings factors;    ///< Of the study, with those of the scenario: `failure.dark_share` -> `0.3`.
-    bool knows_truth = false;  ///< Its predictor is no repair: it is given the truth.
-    double least_relevant_s = 0.0;  ///< Smaller mean differences of EV times do not count.
+    std::string title;       ///< In words: detail::ConditionTitles.
+    std::string recipe;      ///< Failure, predictor and policies, in words.
+    core::Settings factors;  ///< Of the study, with those of the scenario: `failure.dark_share` -> `0.3`.
+    core::Settings factor_titles = {};  ///< Of some of their values, for figures.
+    bool knows_truth = false;           ///< Its predictor is no repair: it is given the truth.
+    double least_relevant_s = 0.0;      ///< Smaller mean differences of EV times do not count.
     std::vector<FailedRun> failed;
     Distribution distribution;  ///< Of EV travel times.
     std::optional<WorstTrip> worst_trip;

@@ -33,6 +33,10 @@ std::string lock_words(const analysis::ConditionSummary& condition) {
 std::string locked_pairs_words(const analysis::Comparison& comparison, double half_width, Script script) {
     if (comparison.locked_pairs == 0 || !comparison.difference) return {};
     const NumberStyle style{.decimals = 1, .script = script, .sign = Sign::always};
+    if (comparison.locked_pairs == comparison.complete_pairs)
+        return fmt::format("mean {}, median of pairs {}; no pair is without a lock",
+                           number(comparison.difference->mean, style),
+                           number_or_dash(comparison.median, style));
     return fmt::format(
         "mean {}, median of pairs {}, mean of the {} without a lock {}; replications for "
         "{}{:g}: {}, without locks {}",

@@ -12,8 +12,8 @@ namespace clearway::report {
 std::string lock_words(const analysis::ConditionSummary& condition);
 
 /// What the pairs in which a run locked do to a mean difference: `mean -23.6, median of pairs -19.0, mean of
-/// the 23 pairs without a lock -18.8 [-20.9, -16.7]; replications for +-1: 812, without locks 97`. Empty
-/// where no pair locked. `half_width` is in the metric's unit.
+/// the 23 pairs without a lock -18.8 [-20.9, -16.7]; replications for +-1: 812, without locks 97`; no
+/// second mean where all locked. Empty where no pair locked. `half_width` is in the metric's unit.
 std::string locked_pairs_words(const analysis::Comparison& comparison, double half_width, Script script);
 
 }  // namespace clearway::report

@@ -66,6 +66,11 @@ TEST(Locks, AreToldByConditionAndBesideTheMeanThatTheyDecide) {
                           "    [-19.5, -18.5]; replications for +-1: 18, without locks 10"));
     EXPECT_THAT(comparison_text(summary_with(-20.0), {"emergency_travel_time_s"}),
                 testing::Not(HasSubstr("lock")));
+    analysis::Summary all_locked = locked_summary();
+    for (analysis::MetricSummary& metric : all_locked.scenarios[0].conditions[1].metrics)
+        if (metric.comparison) metric.comparison->locked_pairs = metric.comparison->complete_pairs;
+    EXPECT_THAT(comparison_text(all_locked, {"emergency_travel_time_s"}),
+                HasSubstr("mean -20.0, median of pairs -18.5; no pair is without a lock"));
     const std::string json = comparison_json(locked_summary(), {"emergency_travel_time_s"}, {});
     EXPECT_THAT(json, HasSubstr("\"locked_runs\": 3"));
     EXPECT_THAT(json, HasSubstr("\"difference_without_locks\": -19.0"));

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "report/detail/grid.hpp"
+#include "report/detail/map_canvas.hpp"
+
 namespace clearway::report {
 namespace {
 
@@ -27,6 +30,35 @@ TEST(TimesFrom, TakeTheFastestWayAndCountBothEnds) {
     EXPECT_THAT(times_from(map, {0}, {10.0, 20.0, 5.0, 7.0, 1.0}),
                 ElementsAre(Optional(DoubleEq(10.0)), Optional(DoubleEq(30.0)), Optional(DoubleEq(15.0)),
                             Optional(DoubleEq(22.0)), Eq(std::nullopt)));
+}
+
+/// The number behind `attribute` in the `text` element of a drawing that holds `words`; -1 without one.
+double number_of(const std::string& svg, const std::string& words, const std::string& attribute) {
+    const std::size_t at = svg.find(">" + words);
+    if (at == std::string::npos) return -1.0;
+    const std::size_t found = svg.find(attribute + "=\"", svg.rfind("<text", at));
+    return std::stod(svg.substr(found + attribute.size() + 2));
+}
+
+TEST(MapCanvas, keeps_the_credit_clear_of_what_stands_beside_the_scale_bar) {
+    const RoadMap map = diamond();  // flat: drawn wider across, which a long text beside the bar says
+    detail::MapCanvas canvas("t", map);
+    canvas.scale_bar();
+    canvas.credit("Map data: somebody");
+    const std::string svg = canvas.finish();
+    EXPECT_THAT(svg, ::testing::HasSubstr("times as wide across"));
+    EXPECT_GE(number_of(svg, "Map data", " y") - number_of(svg, "100 m", " y"), 14.0);
+}
+
+TEST(Grid, breaks_long_headings_of_columns_so_that_none_meets_its_neighbour) {
+    const std::vector<std::string> names = {"Green", "corridor", "preempt_signals", "check_in_out",
+                                            "line_of_sight_far_away"};
+    const std::string svg =
+        detail::draw_grids("t", {{"h", names, {{"B10", std::vector<detail::GridCell>(5)}}}}).finish();
+    EXPECT_GT(number_of(svg, "signals<", " y"), number_of(svg, "preempt_<", " y"));
+    EXPECT_EQ(number_of(svg, "Green<", " y"), number_of(svg, "signals<", " y")) << "they stand on the cells";
+    EXPECT_EQ(number_of(svg, "preempt_signals", " y"), -1.0);
+    EXPECT_THAT(svg, ::testing::HasSubstr("line_of_<"));
 }
 
 TEST(TimesFrom, SeveralStartsUseTheNearest) {

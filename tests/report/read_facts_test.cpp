@@ -139,6 +139,8 @@ TEST(Titles, of_conditions_made_by_factors_are_words_or_those_of_the_study_file)
             made("one+policy=corridor", {"corridor"}, {{"condition.policy", "corridor"}}),
             made("two+policy=corridor", {"corridor"}, {{"condition.policy", "corridor"}})};
         detail::ConditionTitles(given).give(conditions);
+        const std::string of_part = given.empty() ? "Green" : "Ours";
+        EXPECT_EQ(conditions[1].factor_titles, (core::Settings{{"condition.policy", of_part}}));
         return core::texts_of(conditions, &ConditionFacts::title);
     };
     const std::string net = "no repair";

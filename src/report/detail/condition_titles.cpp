@@ -51,6 +51,13 @@ void ConditionTitles::give(std::vector<ConditionFacts>& conditions) const {
     std::map<std::string, int> uses;
     for (ConditionFacts& condition : conditions) {
         condition.title = of(condition.condition);
+        for (const auto& [factor, value] : condition.condition.factors) {
+            const auto own = given_.find(value);
+            if (own != given_.end() && factor.starts_with("condition."))
+                condition.factor_titles[factor] = own->second;
+            else if (const auto part = experiment::part_called(value))
+                condition.factor_titles[factor] = *part;
+        }
         ++uses[condition.title];
     }
     for (ConditionFacts& condition : conditions) {

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 
+#include "core/terminal.hpp"
+
 namespace clearway::report::detail {
 namespace {
 
 constexpr double heading_height = 20.0;
 constexpr double columns_height = 18.0;
+constexpr double line_height = 13.0;
 constexpr double row_height = 24.0;
 constexpr double cells_right = 396.0;
 constexpr double gap = 2.0;
@@ -27,10 +30,19 @@ std::string style_of(GridCell::Tone tone) {
     return "cell empty";
 }
 
-/// Units that a grid takes from its top.
-double grid_height(const Grid& grid) {
-    return (grid.heading.empty() ? 0.0 : heading_height) + columns_height +
-           row_height * static_cast<double>(grid.rows.size()) + 8.0;
+/// Letters of a column's heading in one line; one is left free between neighbours.
+std::size_t letters_in(double width) {
+    return static_cast<std::size_t>(std::max(width / letter - 1.0, 1.0));
+}
+
+/// A heading that is too long for one line goes on in a second behind its last separator that fits.
+std::vector<std::string> lines_of(const std::string& heading, std::size_t letters) {
+    if (core::characters_in(heading) <= letters) return {heading};
+    const std::size_t end = heading.find_last_of("_ +.,:-", letters - 1);
+    if (end == std::string::npos || end + 1 == heading.size()) return {shortened(heading, letters - 1)};
+    const std::string rest = heading.substr(end + 1);
+    const bool fits = core::characters_in(rest) <= letters;
+    return {heading.substr(0, end + 1), fits ? rest : shortened(rest, letters - 1)};
 }
 
 /// Room for the labels of the rows.
@@ -41,6 +53,24 @@ double cells_left_of(const Grid& grid) {
     return 7.0 + letter * static_cast<double>(letters);
 }
 
+double column_width(const Grid& grid) {
+    return (cells_right - cells_left_of(grid)) / static_cast<double>(grid.columns.size());
+}
+
+/// Room for the headings of the columns.
+double columns_height_of(const Grid& grid) {
+    const std::size_t letters = letters_in(column_width(grid));
+    const bool is_long = std::ranges::any_of(
+        grid.columns, [&](const std::string& column) { return lines_of(column, letters).size() > 1; });
+    return columns_height + (is_long ? line_height : 0.0);
+}
+
+/// Units that a grid takes from its top.
+double grid_height(const Grid& grid) {
+    return (grid.heading.empty() ? 0.0 : heading_height) + columns_height_of(grid) +
+           row_height * static_cast<double>(grid.rows.size()) + 8.0;
+}
+
 /// Draws a grid with its upper edge at `top`.
 void draw_grid(const Grid& grid, double top, Canvas& canvas) {
     using Anchor = Canvas::Anchor;
@@ -49,12 +79,15 @@ void draw_grid(const Grid& grid, double top, Canvas& canvas) {
         top += heading_height;
     }
     const double cells_left = cells_left_of(grid);
-    const double width = (cells_right - cells_left) / static_cast<double>(grid.columns.size());
-    const auto letters = static_cast<std::size_t>(width / letter);
-    for (std::size_t column = 0; column < grid.columns.size(); ++column)
-        canvas.text(cells_left + (static_cast<double>(column) + 0.5) * width, top + 12.0,
-                    shortened(grid.columns[column], letters), Anchor::middle, "tick");
-    top += columns_height;
+    const double width = column_width(grid);
+    for (std::size_t column = 0; column < grid.columns.size(); ++column) {
+        double bottom = top + columns_height_of(grid) - 6.0;
+        const std::vector<std::string> lines = lines_of(grid.columns[column], letters_in(width));
+        for (auto line = lines.rbegin(); line != lines.rend(); ++line, bottom -= line_height)
+            canvas.text(cells_left + (static_cast<double>(column) + 0.5) * width - gap / 2.0, bottom, *line,
+                        Anchor::middle, "tick");
+    }
+    top += columns_height_of(grid);
     for (const Grid::Row& row : grid.rows) {
         canvas.text(2.0, top + 16.0, shortened(row.label, longest_label), Anchor::start, "label");
         for (std::size_t column = 0; column < row.cells.size(); ++column) {

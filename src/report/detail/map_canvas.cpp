@@ -10,7 +10,7 @@ namespace clearway::report::detail {
 namespace {
 
 constexpr double margin = 12.0;
-constexpr double bar_space = 24.0;
+constexpr double bar_space = 40.0;  // a line for the scale bar, one for the credit
 constexpr double most_height = 330.0;
 constexpr double flattest = 0.22;  // height over width
 constexpr double largest_stretch = 10.0;
@@ -82,7 +82,7 @@ void MapCanvas::scale_bar() {
     for (const double factor : std::array{2.0, 5.0}) {
         if (factor * power <= longest) metres = factor * power;
     }
-    const double y = frame_.height - 10.0;
+    const double y = frame_.height - 26.0;
     path({{margin, y}, {margin + metres * frame_.scale, y}}, "line s0");
     text(margin + metres * frame_.scale + 6.0, y + 4.0,
          fmt::format(

@@ -21,7 +21,7 @@ class MapCanvas : public Canvas {
     /// In figure units.
     std::pair<double, double> place(const MapPlace& place) const;
     void scale_bar();
-    /// What the map's data requires, at the right of the scale bar; nothing where it is empty.
+    /// What the map's data requires, below the scale bar; nothing where it is empty.
     void credit(const std::string& words);
     /// Of the drawing, scale bar included, in figure units.
     double height() const { return frame_.height; }

@@ -35,7 +35,20 @@ std::vector<Made> made_by_factors(const StudyFacts& study) {
 struct Factor {
     std::string name;
     std::vector<std::string> levels;
+    std::vector<std::string> titles;  ///< Of the levels.
 };
+
+/// What the conditions call a level of a factor.
+std::string title_of(const std::vector<Made>& made, const std::string& factor, const std::string& level) {
+    for (const Made& one : made) {
+        const auto value = one.condition->factors.find(factor);
+        const auto title = one.condition->factor_titles.find(factor);
+        if (value != one.condition->factors.end() && value->second == level &&
+            title != one.condition->factor_titles.end())
+            return title->second;
+    }
+    return level;
+}
 
 /// Factors with at least two levels, the one with most levels first.
 std::vector<Factor> varied(const std::vector<Made>& made) {
@@ -48,7 +61,11 @@ std::vector<Factor> varied(const std::vector<Made>& made) {
     }
     std::vector<Factor> factors;
     for (auto& [name, known] : levels) {
-        if (known.size() > 1) factors.push_back({name, std::move(known)});
+        if (known.size() > 1) factors.push_back({name, std::move(known), {}});
+    }
+    for (Factor& factor : factors) {
+        for (const std::string& level : factor.levels)
+            factor.titles.push_back(title_of(made, factor.name, level));
     }
     std::ranges::stable_sort(factors, std::greater{}, [](const Factor& one) { return one.levels.size(); });
     return factors;
@@ -98,16 +115,15 @@ Grid grid_of(const std::string& heading, const std::vector<Made>& panel, const s
     Grid grid;
     grid.heading = heading;
     const Factor& across = factors[0];
-    grid.columns = across.levels;
-    const std::vector<std::string> down =
-        factors.size() > 1 ? factors[1].levels : std::vector<std::string>{""};
-    for (const std::string& level : down) {
-        Grid::Row row{level, std::vector<GridCell>(grid.columns.size())};
+    grid.columns = across.titles;
+    const Factor down = factors.size() > 1 ? factors[1] : Factor{"", {""}, {""}};
+    for (std::size_t level = 0; level < down.levels.size(); ++level) {
+        Grid::Row row{down.titles[level], std::vector<GridCell>(grid.columns.size())};
         for (const Made& one : panel) {
-            if (factors.size() > 1 && level_of(one, factors[1].name) != level) continue;
-            const auto column = std::ranges::find(grid.columns, level_of(one, across.name));
-            if (column != grid.columns.end())
-                row.cells[static_cast<std::size_t>(column - grid.columns.begin())] = cell_of(one, measure);
+            if (factors.size() > 1 && level_of(one, down.name) != down.levels[level]) continue;
+            const auto column = std::ranges::find(across.levels, level_of(one, across.name));
+            if (column != across.levels.end())
+                row.cells[static_cast<std::size_t>(column - across.levels.begin())] = cell_of(one, measure);
         }
         grid.rows.push_back(std::move(row));
     }
