@@ -34,11 +34,12 @@ std::string describe(const traffic::Lease& lease) {
 }
 
 void expect_legal_links(core::SignalIndex signal, const std::vector<std::uint16_t>& links) {
-    EXPECT_FALSE(links.empty());
-    EXPECT_TRUE(std::ranges::is_sorted(links));
-    EXPECT_EQ(std::ranges::adjacent_find(links), links.end()) << "a link twice";
+    EXPECT_FALSE(links.empty()) << "name the links of the signal that are to be green";
+    EXPECT_TRUE(std::ranges::is_sorted(links)) << "sort them";
+    EXPECT_EQ(std::ranges::adjacent_find(links), links.end()) << "a link twice: name each once";
     for (const std::uint16_t link : links)
-        EXPECT_LT(link, two_crossings().signal(signal).links.size());
+        EXPECT_LT(link, two_crossings().signal(signal).links.size())
+            << "the signal has no such link: count from 0, as the network does";
 }
 
 }  // namespace
@@ -90,10 +91,10 @@ std::vector<traffic::Lease> PolicyRun::delivered(const std::vector<traffic::Leas
             all.push_back(lease);
             continue;
         }
-        EXPECT_LT(stretch->lane.value, two_crossings().lanes().size());
-        EXPECT_LT(stretch->from_m, stretch->to_m);
-        EXPECT_GE(stretch->from_m, 0.0F);
-        EXPECT_LE(stretch->to_m, two_crossings().lane(stretch->lane).length_m);
+        EXPECT_LT(stretch->lane.value, two_crossings().lanes().size()) << "take a lane of the belief";
+        EXPECT_LT(stretch->from_m, stretch->to_m) << "leave out a stretch without length";
+        EXPECT_GE(stretch->from_m, 0.0F) << "begin where the lane does";
+        EXPECT_LE(stretch->to_m, two_crossings().lane(stretch->lane).length_m) << "end where the lane does";
         for (const auto& [key, state] : bench_.on_road) {
             if (!stretch->has(bench_.scene.roster().find(key)->vehicle_class, state)) continue;
             all.push_back(lease);
@@ -125,26 +126,28 @@ void PolicyRun::expect_legal(const traffic::Lease& lease) {
     EXPECT_STRNE(lease.reason, "") << "say why in a few words";
     EXPECT_STRNE(lease.policy, "") << "set it to name()";
     if (const auto* signal = std::get_if<core::SignalIndex>(&lease.target)) {
-        ASSERT_LT(signal->value, two_crossings().signals().size());
+        ASSERT_LT(signal->value, two_crossings().signals().size()) << "take a signal of the EV's approaches";
         if (const auto* hold = std::get_if<traffic::HoldGreen>(&lease.action)) {
             expect_legal_links(*signal, hold->links);
-            EXPECT_TRUE(std::ranges::includes(hold->links, hold->own_links));
+            EXPECT_TRUE(std::ranges::includes(hold->links, hold->own_links))
+                << "own_links are those of `links` that the EV takes";
         } else
             expect_legal_links(*signal, std::get<traffic::AdjustGreen>(lease.action).links);
         return;
     }
     const core::VehicleKey vehicle = std::get<core::VehicleKey>(lease.target);
-    ASSERT_TRUE(bench_.on_road.contains(vehicle));
+    ASSERT_TRUE(bench_.on_road.contains(vehicle)) << "ask only vehicles of the belief";
     EXPECT_NE(bench_.scene.roster().find(vehicle)->vehicle_class, VehicleClass::human)
         << "human drivers are asked only with ask_humans=1";
     const roads::Lane& lane = two_crossings().lane(bench_.on_road.at(vehicle).lane);
     if (const auto* drive = std::get_if<traffic::DriveAt>(&lease.action)) {
-        EXPECT_TRUE(std::isfinite(drive->speed.value));
-        EXPECT_GE(drive->speed.value, 0.0);
+        EXPECT_TRUE(std::isfinite(drive->speed.value)) << "look for a division by 0";
+        EXPECT_GE(drive->speed.value, 0.0) << "0 stops a vehicle; none drives backwards";
         EXPECT_LE(drive->speed.value, lane.speed_limit_mps + 1e-6) << "above the limit of its lane";
     }
     if (const auto* change = std::get_if<traffic::ChangeLane>(&lease.action)) {
-        EXPECT_LT(change->lane_number, two_crossings().edge(lane.edge).lane_count);
+        EXPECT_LT(change->lane_number, two_crossings().edge(lane.edge).lane_count)
+            << "its edge has no such lane: 0 is the outermost";
     }
 }
 
@@ -156,11 +159,12 @@ void expect_all_given_back(const std::vector<traffic::Command>& commands) {
     for (const traffic::Command& command : commands) {
         if (const auto* set = std::get_if<traffic::SetSpeed>(&command)) speeds.insert(set->vehicle);
         if (const auto* release = std::get_if<traffic::ReleaseSpeed>(&command)) {
-            EXPECT_EQ(speeds.erase(release->vehicle), 1U) << "released what was not set";
+            EXPECT_EQ(speeds.erase(release->vehicle), 1U)
+                << "released what was not set: leave releases to actuation";
         }
         if (const auto* stop = std::get_if<traffic::StopOnLane>(&command)) aside.insert(stop->vehicle);
         if (const auto* resume = std::get_if<traffic::ResumeFromStop>(&command)) {
-            EXPECT_EQ(aside.erase(resume->vehicle), 1U) << "resumed what did not stop";
+            EXPECT_EQ(aside.erase(resume->vehicle), 1U) << "resumed what did not stop: leave it to actuation";
         }
         if (const auto* freedom = std::get_if<traffic::SetLaneChangeFreedom>(&command))
             odd[freedom->vehicle] = freedom->freedom != traffic::LaneChangeFreedom::normal;
@@ -169,14 +173,15 @@ void expect_all_given_back(const std::vector<traffic::Command>& commands) {
         if (const auto* state = std::get_if<traffic::SetSignalState>(&command))
             signals.insert(state->signal.value);
         if (const auto* restore = std::get_if<traffic::RestoreProgram>(&command)) {
-            EXPECT_EQ(signals.erase(restore->signal.value), 1U) << "restored what was not held";
+            EXPECT_EQ(signals.erase(restore->signal.value), 1U)
+                << "restored what was not held: leave it to actuation";
         }
     }
-    EXPECT_TRUE(speeds.empty()) << "a set speed was left behind";
-    EXPECT_TRUE(aside.empty()) << "a vehicle was left beside the road";
-    EXPECT_TRUE(signals.empty()) << "a signal was left behind";
+    EXPECT_TRUE(speeds.empty()) << "a set speed was left behind: give the lease a shorter life";
+    EXPECT_TRUE(aside.empty()) << "a vehicle was left beside the road: give the lease a shorter life";
+    EXPECT_TRUE(signals.empty()) << "a signal was left behind: give the lease a shorter life";
     for (const auto& [vehicle, is_odd] : odd)
-        EXPECT_FALSE(is_odd) << "a freedom was left behind";
+        EXPECT_FALSE(is_odd) << "a freedom was left behind: give the lease a shorter life";
 }
 
 }  // namespace clearway::testing

@@ -79,7 +79,7 @@ TEST_P(EveryPolicy, does_nothing_for_one_vehicle_that_is_no_emergency_vehicle) {
         bench.add({"only", kind, {"west_A", "A_B"}, 0, 400.0, 10.0});
         PolicyRun run(make(), bench);
         run.run_for(5.0);
-        EXPECT_TRUE(run.leases().empty());
+        EXPECT_TRUE(run.leases().empty()) << "act for EVs only";
     }
 }
 
@@ -114,7 +114,7 @@ TEST_P(EveryPolicy, serves_two_emergency_vehicles_that_cross) {
     bench.add({"a3", VehicleClass::automated, {"north_a_A", "A_south_a"}, 1, 245.0, 8.0});
     PolicyRun run(make(), bench);
     run.run_for(20.0);
-    EXPECT_EQ(run.leases().empty(), is_out_of_place());
+    EXPECT_EQ(run.leases().empty(), is_out_of_place()) << "serve each EV of the belief, not only the first";
     run.remove(emergency_key());
     run.run_for(10.0);
     run.remove(core::vehicle_key("e2"));
@@ -122,7 +122,8 @@ TEST_P(EveryPolicy, serves_two_emergency_vehicles_that_cross) {
     std::vector<traffic::Command> commands;
     bench.actuator.restore_all(commands);
     for (const traffic::Command& command : commands) {
-        EXPECT_FALSE(std::holds_alternative<traffic::RestoreProgram>(command)) << "back long before";
+        EXPECT_FALSE(std::holds_alternative<traffic::RestoreProgram>(command))
+            << "a signal is held 120 s after the last EV has left: let the lease expire";
     }
 }
 
