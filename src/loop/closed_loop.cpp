@@ -27,7 +27,11 @@ void ClosedLoop::begin(const experiment::ConditionSpec& condition, const Control
 }
 
 metrics::StandingReasons ClosedLoop::standing_reasons() const {
-    return {.at_stop = [this](core::VehicleKey vehicle) { return session_.is_stopped(vehicle); },
+    return {.at_stop =
+                [this](core::VehicleKey vehicle) {
+                    return session_.is_stopped(vehicle) ||
+                           (incidents_ && incidents_->holds(vehicle, session_));
+                },
             .pedestrian_on = [this](core::LaneIndex crossing) { return session_.has_pedestrian(crossing); }};
 }
 
@@ -78,6 +82,7 @@ void ClosedLoop::step() {
     session_.step();
     const truth::Snapshot& snapshot = session_.snapshot();
     const bool decided = control(snapshot);
+    if (incidents_) incidents_->step(session_);
     std::span<const traffic::Lease> leases;
     if (controller_) leases = controller_->chain().leases();
     recorder_.step(snapshot, session_.roster(), session_.events(), leases);

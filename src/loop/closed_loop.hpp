@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/units.hpp"
 #include "loop/controller.hpp"
+#include "loop/incidents.hpp"
 #include "loop/way_trials.hpp"
 #include "metrics/recorder.hpp"
 #include "sumo/session.hpp"
@@ -40,6 +42,12 @@ class ClosedLoop {
     /// From the next step on, `trials` look at each step of `run`; they outlive the loop, and may be null.
     void try_ways(WayTrials* trials) { trials_ = trials; }
 
+    /// From the next step on, these incidents block roads.
+    void block(Incidents incidents) { incidents_.emplace(std::move(incidents)); }
+    metrics::IncidentCounts incident_counts() const {
+        return incidents_ ? incidents_->counts() : metrics::IncidentCounts{};
+    }
+
     /// Steps while a step of `step_length` does not go beyond `end`.
     void warm_up(core::Seconds end, core::Seconds step_length);
     /// Steps until no vehicle is left or `horizon` is reached.
@@ -70,6 +78,7 @@ class ClosedLoop {
 
     sumo::Session& session_;
     metrics::Recorder& recorder_;
+    std::optional<Incidents> incidents_;
     std::optional<Controller> controller_;
     trace::StepListener* listener_ = nullptr;
     WayTrials* trials_ = nullptr;

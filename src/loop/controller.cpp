@@ -12,7 +12,8 @@ pipeline::ChainContext chain_context(const ControllerContext& context) {
             .random = context.random,
             .policy_period_s = context.loop.policy_period_s,
             .rules = context.loop.rules(),
-            .guest = context.guest};
+            .guest = context.guest,
+            .incidents = context.incidents};
 }
 
 actuation::ActuatorConfig actuation_of(const experiment::ConditionSpec& condition,

@@ -33,6 +33,7 @@ struct ControllerContext {
     bool has_pedestrians = true;                       ///< Whether there may be pedestrians.
     std::vector<traffic::Preemption> preemption = {};  ///< By signal; empty: none is set.
     policy::GuestMaker guest = {};                     ///< See pipeline::ChainContext.
+    std::vector<traffic::Incident> incidents = {};
 };
 
 /// How far a controller is in a step.

@@ -32,6 +32,12 @@ sumo::SessionConfig session_config(const experiment::RunJob& unit, const scenari
     if (unit.traffic_model == experiment::TrafficModel::sublane) {
         config.extra_arguments = {"--lateral-resolution", scenario::sublane_resolution_m};
     }
+    // A vehicle whose way is closed when it departs waits at the block, instead of being an error.
+    const auto closes_lanes = [](const scenario::PlacedIncident& each) {
+        return each.closed.emergency_passes;
+    };
+    if (std::ranges::any_of(prepared.incidents, closes_lanes))
+        config.extra_arguments.insert(config.extra_arguments.end(), {"--ignore-route-errors", "true"});
     for (const std::string& option : prepared.options)
         config.extra_arguments.push_back("--" + option);
     config.names = names_of(network);
@@ -78,7 +84,9 @@ UnitRun::UnitRun(const experiment::RunJob& unit, const std::filesystem::path& de
                                   core::Replication{unit.replication}, demand_folder)),
       session_(start(session_config(unit, prepared_, network_.network, folder))),
       loop_(*session_, recorder_) {
-    if (unit_.traffic_model != experiment::TrafficModel::free_flow) warm_up();
+    if (unit_.traffic_model == experiment::TrafficModel::free_flow) return;
+    if (!prepared_.incidents.empty()) loop_.block({network_.network, prepared_.incidents, random()});
+    warm_up();
 }
 
 UnitRun::UnitRun(const experiment::Simulation& simulation, const std::filesystem::path& folder)
@@ -91,6 +99,17 @@ core::Seconds UnitRun::first_emergency() const {
         first_s = std::min(first_s, departure.depart.value);
     }
     return core::Seconds(first_s);
+}
+
+core::KeyedRandom UnitRun::random() const {
+    return {core::StudySeed{unit_.study_seed}, core::Replication{unit_.replication}};
+}
+
+std::vector<traffic::Incident> UnitRun::incidents() const {
+    std::vector<traffic::Incident> closed;
+    for (const scenario::PlacedIncident& incident : prepared_.incidents)
+        closed.push_back(incident.closed);
+    return closed;
 }
 
 void UnitRun::warm_up() {
@@ -118,6 +137,7 @@ results::RunRecord UnitRun::finish_here(const experiment::ConditionSpec& conditi
         files.insert(files.end(), prepared_.route_files.begin(), prepared_.route_files.end());
         end.planned = metrics::read_planned(files, prepared_.emergency);
     }
+    end.incidents = loop_.incident_counts();
     end.time = session_->time();
     end.horizon = core::Seconds(prepared_.time.horizon_s);
     session_->close();
@@ -152,14 +172,15 @@ void UnitRun::start_together(const experiment::ConditionSpec& condition, trace::
     add_emergency_vehicles(condition);
     const ControllerContext context{
         .network = network_.network,
-        .random = core::KeyedRandom(core::StudySeed{unit_.study_seed}, core::Replication{unit_.replication}),
+        .random = random(),
         .loop = experiment::loop_config(condition),
         .siren = config_.siren,
         .privilege = static_cast<const traffic::PrivilegeConfig&>(config_.privilege),
         .friction = config_.road.friction,
         .has_pedestrians = config_.has_pedestrians(),
         .preemption = network_.preemption,
-        .guest = guest_};
+        .guest = guest_,
+        .incidents = incidents()};
     start_condition(loop_, recorder_, condition,
                     {.context = context, .layout = layout(), .horizon = horizon(), .listener = listener});
 }
@@ -230,7 +251,8 @@ trace::RecordingInfo UnitRun::recording_info(const experiment::ConditionSpec& co
             .settings = {.step_length_s = prepared_.time.step_length_s,
                          .policy_period_s = loop.policy_period_s,
                          .link_radius_m = loop.link_radius_m,
-                         .network_hash = core::content_hash(core::read_file(network_.file))}};
+                         .network_hash = core::content_hash(core::read_file(network_.file))},
+            .incidents = trace::incidents_text(incidents())};
 }
 
 experiment::Provenance UnitRun::provenance() const {

@@ -58,6 +58,8 @@ class UnitRun {
     const scenario::ScenarioConfig& scenario() const { return config_; }
 
   private:
+    core::KeyedRandom random() const;
+    std::vector<traffic::Incident> incidents() const;
     void warm_up();
     void add_emergency_vehicles(const experiment::ConditionSpec& condition);
     metrics::RoadLayout layout() const;

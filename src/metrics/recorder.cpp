@@ -23,6 +23,7 @@
 #include "metrics/link_comparison.hpp"
 #include "metrics/restricted_time.hpp"
 #include "metrics/signal_measures.hpp"
+#include "traffic/obstacle.hpp"
 
 namespace clearway::metrics {
 namespace {
@@ -71,7 +72,8 @@ class RowTable {
     void read(const std::filesystem::path& tripinfo) {
         try {
             detail::for_each_element(tripinfo, [this](const detail::Element& element) {
-                if (element.name() == "tripinfo") take(element);
+                if (element.name() == "tripinfo" && !element.text("id").starts_with(traffic::obstacle_prefix))
+                    take(element);
                 if (element.name() == "walk") walks_.take(element);
             });
         } catch (const std::runtime_error& error) {
@@ -197,7 +199,8 @@ void average(const std::vector<VehicleRow>& rows, RunMetrics& metrics) {
 }
 
 void count_collision(const truth::Collision& collision, const traffic::Roster& roster, RunMetrics& counted) {
-    if (roster.find(collision.victim) == nullptr) {
+    const bool with_obstacle = collision.place == truth::CollisionPlace::obstacle;
+    if (!with_obstacle && roster.find(collision.victim) == nullptr) {
         ++counted.pedestrian_collisions;
         if (collision.with_emergency_vehicle) ++counted.emergency_pedestrian_collisions;
         return;
@@ -414,6 +417,11 @@ RunSummary Recorder::finish(const RunEnd& end) const {
     metrics.leases_expired = end.leases.expired;
     metrics.commands_skipped = end.leases.commands_skipped;
     metrics.commands_refused = end.leases.commands_refused;
+    metrics.emergency_met_incident = end.incidents.emergency_met;
+    metrics.emergency_turned_round = end.incidents.emergency_turned;
+    metrics.emergency_cut_off = end.incidents.emergency_cut_off;
+    metrics.others_rerouted = end.incidents.others_rerouted;
+    metrics.incident_delay_s = end.incidents.delay_s;
     metrics.way_decisions = end.leases.ways.decisions;
     metrics.way_decisions_best = end.leases.ways.best;
     metrics.ways_tried = end.leases.ways.ways;

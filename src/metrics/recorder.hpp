@@ -67,6 +67,7 @@ struct RunEnd {
     /// must not depend on the condition.
     core::Seconds horizon;
     LeaseTotals leases;
+    IncidentCounts incidents = {};
 };
 
 /// Turns a run into numbers. Call `step` for every simulation step, warm-up included; after a fork the copy

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/fields.hpp"
+#include "metrics/incident_counts.hpp"
 #include "metrics/lease_row.hpp"
 #include "metrics/signal_event.hpp"
 #include "metrics/traffic_tables.hpp"
@@ -122,6 +123,12 @@ struct RunMetrics {
     std::uint64_t way_decisions_best = 0;
     std::uint64_t ways_tried = 0;
     std::optional<double> way_regret_s;
+
+    std::uint64_t emergency_met_incident = 0;
+    std::uint64_t emergency_turned_round = 0;
+    std::uint64_t emergency_cut_off = 0;
+    std::uint64_t others_rerouted = 0;
+    std::optional<double> incident_delay_s;
 
     std::uint64_t requests_sent = 0;
     std::uint64_t requests_heard = 0;
@@ -330,6 +337,22 @@ struct RunMetrics {
                   "Time that EVs lost against the fastest of these ways, mean of the moments",
                   "copies of the run"});
     }
+    static constexpr auto incident_fields() {
+        using M = RunMetrics;
+        using core::Field;
+        constexpr const char* from = "incidents of the scenario";
+        return std::make_tuple(
+            Field{"emergency_met_incident", "1", &M::emergency_met_incident, 0.0, 1e9,
+                  "EVs that came to a road which an incident closed to them", from},
+            Field{"emergency_turned_round", "1", &M::emergency_turned_round, 0.0, 1e9,
+                  "Of these: their crews saw it and took another way", from},
+            Field{"emergency_cut_off", "1", &M::emergency_cut_off, 0.0, 1e9,
+                  "Of these: their crews found no other way", from},
+            Field{"others_rerouted", "1", &M::others_rerouted, 0.0, 1e9,
+                  "Other vehicles that took another way because of an incident", from},
+            Field{"incident_delay_s", "s", &M::incident_delay_s, 0.0, 1e9,
+                  "Longest time from an incident's start until all its lanes were blocked", from});
+    }
     static constexpr auto request_fields() {
         using M = RunMetrics;
         using core::Field;
@@ -422,7 +445,8 @@ struct RunMetrics {
   public:
     static constexpr auto fields() {
         return std::tuple_cat(travel_fields(), safety_fields(), signal_fields(), pedestrian_fields(),
-                              decision_fields(), request_fields(), answer_fields(), link_fields());
+                              decision_fields(), incident_fields(), request_fields(), answer_fields(),
+                              link_fields());
     }
 };
 

@@ -61,6 +61,7 @@ DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const C
       policies_want_(experiment::reads_links(condition) || has_foreign_code(condition, context)
                          ? prediction::Want::links
                          : prediction::Want::places),
+      incidents_(context.network, context.incidents),
       period_s_(context.policy_period_s) {
     assert(period_s_ > 0.0);
     const failures::FailureConfig failure = observed_failure(condition);
@@ -91,6 +92,7 @@ DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const C
 void DecisionChain::observe(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
     assert(std::ranges::is_sorted(snapshot.key));
     sensor_->observe(snapshot, roster, observation_);
+    incidents_.observe(snapshot, observation_);
     if (shown_) *shown_ = snapshot.signals;
     leases_.clear();
     snapshot_ = &snapshot;

@@ -13,6 +13,7 @@
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
 #include "roads/network.hpp"
+#include "sensing/incident_watch.hpp"
 #include "sensing/sensor.hpp"
 #include "traffic/belief.hpp"
 #include "traffic/lease.hpp"
@@ -30,6 +31,7 @@ struct ChainContext {
     policy::GuestMaker guest = {};  ///< A policy that acts after those of the condition; may be empty.
     /// Who reads the belief of a chain: its policies alone, or somebody who may want links, too.
     enum class Readers : std::uint8_t { policies, others } readers = Readers::others;
+    std::vector<traffic::Incident> incidents = {};
 };
 
 /// What the predictor of a condition observes: its failure; for one that knows the truth, sensors without
@@ -84,6 +86,7 @@ class DecisionChain {
 
     prediction::Want policies_want_;
     std::unique_ptr<sensing::SensorModel> sensor_;
+    sensing::IncidentWatch incidents_;
     std::unique_ptr<prediction::Predictor> predictor_;
     std::vector<std::unique_ptr<policy::Policy>> policies_;
     double period_s_;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -25,6 +26,7 @@
 #include "sumo/detail/options.hpp"
 #include "sumo/detail/outputs.hpp"
 #include "sumo/detail/painter.hpp"
+#include "traffic/obstacle.hpp"
 
 namespace clearway::sumo {
 namespace {
@@ -123,6 +125,9 @@ struct Session::State {
     truth::Snapshot snapshot;
     truth::Events events;
     bool is_open = false;
+    int added_obstacles = 0;                                            ///< Less those removed.
+    std::map<std::string, std::vector<std::string>> usual_permissions;  ///< Of closed lanes.
+    std::map<std::string, double> usual_limits_mps;                     ///< Of limited lanes.
 };
 
 std::string Session::State::fault_message(const char* doing, const std::string& what) const {
@@ -251,7 +256,7 @@ const traffic::Roster& Session::roster() const {
 
 int Session::expected_vehicles() const {
     return state_->guarded("SUMO cannot count vehicles",
-                           [this] { return state_->sumo->expected_vehicles(); });
+                           [this] { return state_->sumo->expected_vehicles() - state_->added_obstacles; });
 }
 
 void Session::add(const traffic::EmergencyDeparture& departure) {
@@ -285,6 +290,68 @@ void Session::add(const traffic::EmergencyDeparture& departure) {
                            .depart_lane = departure.depart_lane,
                            .depart_speed = departure.depart_speed});
         state_->observer.declare_emergency(departure.id, departure.kind);
+    });
+}
+
+void Session::add_obstacle(const std::string& id, core::LaneIndex lane, core::Metres position) {
+    assert(id.starts_with(traffic::obstacle_prefix));
+    constexpr double for_ever_s = 1e6;
+    state_->guarded("SUMO cannot block a lane", [&] {
+        const std::string& name = state_->names.names().lanes.at(lane.value);
+        const std::size_t bar = name.rfind('_');
+        // A vehicle has its front at its place, and stands on the lane as a whole where that is possible.
+        const double length_m = state_->sumo->lane_length_m(name);
+        constexpr double vehicle_m = 5.0;
+        state_->sumo->add_obstacle(
+            id, "clearway.incident",
+            {.edge = name.substr(0, bar),
+             .lane_number = std::stoi(name.substr(bar + 1)),
+             .position_m = std::clamp(position.value, std::min(vehicle_m, length_m), length_m),
+             .duration_s = for_ever_s});
+        ++state_->added_obstacles;
+    });
+}
+
+bool Session::has_obstacle(const std::string& id) const {
+    return state_->observer.obstacles().contains(id);
+}
+
+void Session::remove_obstacle(const std::string& id) {
+    state_->guarded("SUMO cannot open a lane", [&] { state_->sumo->remove(id); });
+    state_->observer.obstacles().erase(id);
+    --state_->added_obstacles;
+}
+
+void Session::close_to_others(core::LaneIndex lane) {
+    state_->guarded("SUMO cannot close a lane", [&] {
+        const std::string& name = state_->names.names().lanes.at(lane.value);
+        state_->usual_permissions.try_emplace(name, state_->sumo->allowed(name));
+        state_->sumo->allow(name, {"emergency"});
+    });
+}
+
+void Session::open_again(core::LaneIndex lane) {
+    state_->guarded("SUMO cannot open a lane", [&] {
+        const auto usual = state_->usual_permissions.find(state_->names.names().lanes.at(lane.value));
+        if (usual == state_->usual_permissions.end()) return;
+        state_->sumo->allow(usual->first, usual->second);
+        state_->usual_permissions.erase(usual);
+    });
+}
+
+void Session::limit(core::LaneIndex lane, std::optional<core::MetresPerSecond> limit) {
+    state_->guarded("SUMO cannot limit the speed on a lane", [&] {
+        const std::string& name = state_->names.names().lanes.at(lane.value);
+        const auto usual = state_->usual_limits_mps.find(name);
+        if (limit) {
+            const double own_mps =
+                usual == state_->usual_limits_mps.end() ? state_->sumo->lane_limit_mps(name) : usual->second;
+            state_->usual_limits_mps.try_emplace(name, own_mps);
+            state_->sumo->set_lane_limit(name, std::min(own_mps, limit->value));
+        } else if (usual != state_->usual_limits_mps.end()) {
+            state_->sumo->set_lane_limit(name, usual->second);
+            state_->usual_limits_mps.erase(usual);
+        }
     });
 }
 

@@ -100,6 +100,17 @@ class Session : public truth::SelfKnowledge {
 
     /// Adds an emergency vehicle that departs at `departure.depart` or later.
     void add(const traffic::EmergencyDeparture& departure);
+    /// A vehicle that stands at `position` of a lane until it is removed, put there as soon as there is room.
+    /// It is no traffic: it has no row, no entry in the roster, no trip and no count; contacts with it are
+    /// collisions. Ids begin with traffic::obstacle_prefix.
+    void add_obstacle(const std::string& id, core::LaneIndex lane, core::Metres position);
+    bool has_obstacle(const std::string& id) const;
+    void remove_obstacle(const std::string& id);
+    /// Closes a lane to all but emergency vehicles, or opens it again to those who could use it before.
+    void close_to_others(core::LaneIndex lane);
+    void open_again(core::LaneIndex lane);
+    /// Limits the speed on a lane where it is higher, or gives it its own limit again.
+    void limit(core::LaneIndex lane, std::optional<core::MetresPerSecond> limit);
     /// Carries out commands. Throws std::invalid_argument for what SUMO would ignore silently (a lane that
     /// does not exist, NaN, a state of wrong length or letters); commands for vehicles that have left are
     /// skipped and counted.

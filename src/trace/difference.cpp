@@ -185,6 +185,14 @@ std::optional<std::string> difference(const traffic::Observation& one, const tra
                         comparison.check(place + ".range_sigma_m", left.range_sigma_m, right.range_sigma_m);
                     });
     comparison.values("signals", one.signals.state, other.signals.state);
+    comparison.list("incidents", one.incidents, other.incidents,
+                    [&](const std::string& place, const auto& left, const auto& right) {
+                        comparison.check(place + ".edge", left.edge.value, right.edge.value);
+                        comparison.check(place + ".closed_to_emergency", left.closed_to_emergency,
+                                         right.closed_to_emergency);
+                        comparison.check(place + ".speed_past_mps", left.speed_past_mps,
+                                         right.speed_past_mps);
+                    });
     if (comparison.found()) return comparison.found();
     for (const auto* const list : {&one.vehicles, &one.own_states}) {
         for (const traffic::ObservedVehicle& vehicle : *list)

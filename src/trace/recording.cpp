@@ -34,6 +34,7 @@ core::Json to_json(const RecordingInfo& info) {
     object["condition_spec"] = experiment::to_json(info.condition);
     core::write_fields(object["provenance"], info.provenance);
     core::write_fields(object["settings"], info.settings);
+    if (!info.incidents.empty()) object["incidents"] = info.incidents;
     return object;
 }
 
@@ -53,6 +54,10 @@ RecordingInfo info_from(const core::Json& object, const std::string& where) {
         .read_fields(info.provenance);
     core::ObjectReader(reader.child("settings", Type::object), where + ": settings", problems)
         .read_fields(info.settings);
+    if (object.contains("incidents")) {
+        reader.read("incidents", info.incidents);
+        incidents_from(info.incidents, where);
+    }
     if (!problems.empty()) throw core::InputError(std::move(problems));
     return info;
 }

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "core/fields.hpp"
 #include "core/units.hpp"
@@ -14,6 +15,7 @@
 #include "experiment/run_key.hpp"
 #include "traffic/belief.hpp"
 #include "traffic/command.hpp"
+#include "traffic/incident.hpp"
 #include "traffic/lease.hpp"
 #include "traffic/observation.hpp"
 
@@ -55,9 +57,14 @@ struct RecordingInfo {
     experiment::ConditionSpec condition;
     experiment::Provenance provenance;  ///< Without the trace hash, which is only known at the end.
     RecordingSettings settings;
+    std::string incidents = {};  ///< Text of `incidents_text`; empty: none.
 
     bool operator==(const RecordingInfo&) const = default;
 };
+
+/// Incidents as JSON, and back. Throws core::InputError naming `where` for text that is none.
+std::string incidents_text(std::span<const traffic::Incident> incidents);
+std::vector<traffic::Incident> incidents_from(const std::string& text, const std::string& where);
 
 /// The closed loop of the run: what its condition sets, with the recorded period and radius.
 experiment::LoopConfig loop_of(const RecordingInfo& info);

@@ -65,7 +65,8 @@ class Replay {
                              .random = core::KeyedRandom(core::StudySeed{info.provenance.study_seed},
                                                          core::Replication{info.key.replication}),
                              .policy_period_s = loop.policy_period_s,
-                             .rules = loop.rules()}),
+                             .rules = loop.rules(),
+                             .incidents = incidents_from(info.incidents, "recording")}),
           true_links_(loop.rules()) {}
 
     void step(const RecordedStep& step) {

@@ -7,11 +7,12 @@
 
 namespace clearway::truth {
 
-enum class CollisionPlace : unsigned char { lane, junction };
+/// `obstacle`: on a lane, with an obstacle of an incident, which the roster does not know.
+enum class CollisionPlace : unsigned char { lane, junction, obstacle };
 
 struct Collision {
     core::VehicleKey collider;
-    core::VehicleKey victim;  ///< A pedestrian, if the roster does not know it.
+    core::VehicleKey victim;  ///< A pedestrian, if the roster does not know it and the place is no obstacle.
     CollisionPlace place = CollisionPlace::lane;
     core::LaneIndex lane;
     bool with_emergency_vehicle = false;

@@ -200,6 +200,19 @@ class ApiGateway : public Sumo {
         return call([&] { return !api::Edge::getLastStepPersonIDs(edge).empty(); });
     }
 
+    double lane_limit_mps(const std::string& lane) override { return call(api::Lane::getMaxSpeed, lane); }
+    void set_lane_limit(const std::string& lane, double limit_mps) override {
+        call(api::Lane::setMaxSpeed, lane, limit_mps);
+    }
+    std::vector<std::string> allowed(const std::string& lane) override {
+        return call(api::Lane::getAllowed, lane);
+    }
+    void allow(const std::string& lane, const std::vector<std::string>& classes) override {
+        // SUMO reads an empty list as nobody, although it reports everybody so.
+        const std::vector<std::string> all = {"all"};
+        call([&] { api::Lane::setAllowed(lane, classes.empty() ? all : classes); });
+    }
+
     void set_type_parameter(const std::string& type, const std::string& parameter,
                             const std::string& value) override {
         call(api::VehicleType::setParameter, type, parameter, value);
@@ -225,6 +238,25 @@ class ApiGateway : public Sumo {
                 add_on(route + ":open", way.edges);
             }
         });
+    }
+
+    void add_obstacle(const std::string& vehicle, const std::string& type, const Stop& place) override {
+        call([&] {
+            const std::vector<std::string> known = api::VehicleType::getIDList();
+            if (std::find(known.begin(), known.end(), type) == known.end()) {
+                api::VehicleType::copy("DEFAULT_VEHTYPE", type);
+                api::VehicleType::setVehicleClass(type, "ignoring");
+                api::VehicleType::setMinGap(type, 0.0);
+            }
+            const std::string route = "clearway:" + vehicle;
+            api::Route::add(route, {place.edge});
+            api::Vehicle::add(vehicle, route, type, "now", std::to_string(place.lane_number),
+                              std::to_string(place.position_m), "0");
+            api::Vehicle::setStop(vehicle, place.edge, place.position_m, place.lane_number, place.duration_s);
+        });
+    }
+    void remove(const std::string& vehicle) override {
+        call([&] { api::Vehicle::remove(vehicle); });
     }
 
     bool set_route(const std::string& vehicle, const std::vector<std::string>& edges) override {

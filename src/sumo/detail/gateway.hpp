@@ -139,10 +139,18 @@ class Sumo {
     virtual int lane_count(const std::string& edge) = 0;
     virtual double lane_length_m(const std::string& lane) = 0;
     virtual bool has_person(const std::string& edge) = 0;
+    virtual double lane_limit_mps(const std::string& lane) = 0;
+    virtual void set_lane_limit(const std::string& lane, double limit_mps) = 0;
+    /// vClasses; the list is empty where all may use the lane.
+    virtual std::vector<std::string> allowed(const std::string& lane) = 0;
+    virtual void allow(const std::string& lane, const std::vector<std::string>& classes) = 0;
 
     // --- Commands ---
     /// Where its route is closed, the vehicle takes the fastest open one between the same ends.
     virtual void add(const Insertion& insertion) = 0;
+    /// A vehicle that stands at a place of a lane; SUMO puts it there as soon as there is room.
+    virtual void add_obstacle(const std::string& vehicle, const std::string& type, const Stop& place) = 0;
+    virtual void remove(const std::string& vehicle) = 0;
     /// From the edge where the vehicle is. Returns whether SUMO knows this as a way for it.
     virtual bool set_route(const std::string& vehicle, const std::vector<std::string>& edges) = 0;
     /// Of a vehicle with SUMO's rerouting device; others are left alone.

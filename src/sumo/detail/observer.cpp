@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "traffic/obstacle.hpp"
+
 namespace clearway::sumo::detail {
 namespace {
 
@@ -24,6 +26,10 @@ float heading_rad(double angle_deg) {
 
 bool is_internal(const std::string& lane) {
     return lane.starts_with(':');
+}
+
+bool is_obstacle(const std::string& id) {
+    return id.starts_with(traffic::obstacle_prefix);
 }
 
 /// SUMO tells no lane of a vehicle beside the road: it is the last one known.
@@ -76,6 +82,10 @@ void Observer::observe_signals(truth::Snapshot& snapshot) {
 
 void Observer::take_departures(truth::Events& events) {
     for (const std::string& id : sumo_.departed()) {
+        if (is_obstacle(id)) {
+            obstacles_.insert(id);
+            continue;
+        }
         Vehicle& vehicle = fleet_.insert(id);
         register_vehicle(vehicle);
         fleet_.put_on_road(vehicle);
@@ -124,7 +134,8 @@ void Observer::take_collisions(truth::Events& events) {
         const core::VehicleKey collider = core::vehicle_key(report.collider);
         const core::VehicleKey victim = core::vehicle_key(report.victim);
         const Contact contact = std::minmax(collider, victim);
-        if (roster_.find(victim) == nullptr && stands(report.collider)) continue;
+        const bool with_obstacle = is_obstacle(report.victim) || is_obstacle(report.collider);
+        if (!with_obstacle && roster_.find(victim) == nullptr && stands(report.collider)) continue;
         if (!contacts.insert(contact).second || contacts_.contains(contact)) continue;
         const auto is_emergency = [&](core::VehicleKey key) {
             const traffic::VehicleInfo* info = roster_.find(key);
@@ -133,8 +144,9 @@ void Observer::take_collisions(truth::Events& events) {
         events.collisions.push_back(
             {.collider = collider,
              .victim = victim,
-             .place =
-                 is_internal(report.lane) ? truth::CollisionPlace::junction : truth::CollisionPlace::lane,
+             .place = with_obstacle              ? truth::CollisionPlace::obstacle
+                      : is_internal(report.lane) ? truth::CollisionPlace::junction
+                                                 : truth::CollisionPlace::lane,
              .lane = names_.lane(report.lane),
              .with_emergency_vehicle = is_emergency(collider) || is_emergency(victim)});
     }

@@ -24,6 +24,7 @@ namespace clearway::sumo::detail {
 /// - An emergency braking begins in the step in which the deceleration d first satisfies the criterion of
 ///   SUMO's own warning, (d - usual) / (emergency - usual) >= 1, with the type's usual and emergency
 ///   deceleration.
+/// - Obstacles of incidents are no vehicles: only contacts with them are reported.
 /// - Two vehicles in contact are one collision while SUMO reports the contact in consecutive steps, in
 ///   either order. A pedestrian who walks into a standing vehicle is not a collision: in SUMO, pedestrians
 ///   do not see vehicles that stand on a crossing.
@@ -43,6 +44,9 @@ class Observer {
     void observe(truth::Snapshot& snapshot, truth::Events& events);
     /// Reads only signals and time, before the first step.
     void observe_signals(truth::Snapshot& snapshot);
+
+    /// Obstacles that stand on the road. SUMO does not tell when one is taken away.
+    std::set<std::string>& obstacles() { return obstacles_; }
 
     Fleet& fleet() { return fleet_; }
     TypeTable& types() { return types_; }
@@ -73,6 +77,7 @@ class Observer {
     traffic::Roster roster_;
     std::unordered_map<std::string, traffic::VehicleKind> declared_;
     std::set<Contact> contacts_;
+    std::set<std::string> obstacles_;
     std::map<core::VehicleKey, truth::BesideRoad> parked_;  ///< Off the road until they drive on.
     double routes_checked_s_ = 0.0;
 };

@@ -1,0 +1,136 @@
+#include <map>
+
+#include <gmock/gmock.h>
+
+#include "experiment/conditions.hpp"
+#include "loop/study_folder.hpp"
+#include "loop/unit_run.hpp"
+#include "scenario/prepare.hpp"
+#include "trace/recording.hpp"
+#include "trace/replay.hpp"
+#include "truth/snapshot.hpp"
+
+namespace clearway::loop {
+namespace {
+
+constexpr const char* grid = "grid_signals_v2";
+constexpr double from_s = 40.0;
+constexpr double to_s = 340.0;
+
+/// How many vehicles stand on the blocked edge, at most while it is blocked, and long after.
+class Watcher : public trace::StepListener {
+  public:
+    Watcher(core::EdgeIndex edge, const roads::Network& network) : edge_(edge), network_(network) {}
+    void on_step(const truth::Snapshot& snapshot, const traffic::Roster&) override {
+        int standing = 0;
+        for (std::size_t row = 0; row < snapshot.size(); ++row) {
+            const bool is_here = network_.lane(snapshot.lane[row]).edge == edge_;
+            standing += is_here && snapshot.speed_mps[row] < 0.1F ? 1 : 0;
+            if (is_here && snapshot.time.value > from_s + 60.0 && snapshot.time.value < to_s)
+                farthest_m = std::max(farthest_m, snapshot.lane_position_m[row]);
+        }
+        if (snapshot.time.value < to_s) most = std::max(most, standing);
+        if (snapshot.time.value > to_s + 120.0) late = std::max(late, standing);
+    }
+    int most = 0;
+    int late = 0;
+    float farthest_m = 0.0F;
+
+  private:
+    core::EdgeIndex edge_;
+    const roads::Network& network_;
+};
+
+/// The edge that most cars pass among those in the middle of the way of the first EV.
+std::string blocked_edge(const test::StudyFolder& folder, const scenario::ScenarioConfig& config) {
+    const experiment::RunJob unit = folder.unit(0);
+    const scenario::BuiltNetwork built = scenario::open_network(config, unit.network_folder);
+    const scenario::Prepared prepared = scenario::prepare(config, built, core::StudySeed{unit.study_seed},
+                                                          core::Replication{0}, folder.path() / "look");
+    const std::string routes = core::read_file(folder.path() / "look" / "traffic.rou.xml");
+    const std::vector<std::string>& edges = prepared.emergency.front().edges;
+    std::map<std::size_t, std::string> by_use;
+    for (std::size_t at = 2; at + 1 < edges.size(); ++at) {
+        std::size_t used = 0;
+        for (std::size_t found = routes.find(" " + edges[at] + " "); found != std::string::npos;
+             found = routes.find(" " + edges[at] + " ", found + 1))
+            ++used;
+        by_use[used] = edges[at];
+    }
+    return by_use.rbegin()->second;
+}
+
+struct Outcome {
+    results::RunRecord record;
+    int most = 0;
+    int late = 0;
+    float farthest_m = 0.0F;
+};
+
+Outcome outcome_of(const test::StudyFolder& folder, const std::string& condition, const std::string& edge,
+                   experiment::StepRecording recording = experiment::StepRecording::off) {
+    experiment::RunJob unit = folder.unit(0);
+    unit.recording = recording;
+    const std::filesystem::path files = folder.path() / ("files-" + condition);
+    UnitRun run(unit, files, files);
+    Watcher watcher(*run.network().find_edge(edge), run.network());
+    results::RunTiming timing;
+    Outcome outcome{run.finish_here(experiment::built_in_condition(condition, "test"), timing, &watcher)};
+    outcome.most = watcher.most;
+    outcome.late = watcher.late;
+    outcome.farthest_m = watcher.farthest_m;
+    return outcome;
+}
+
+TEST(IncidentRun, blocks_the_road_until_it_is_over_alike_in_two_conditions) {
+    const std::vector<experiment::ConditionSpec> conditions = {
+        experiment::built_in_condition("baseline", "test"),
+        experiment::built_in_condition("corridor", "test")};
+    scenario::Options options;
+    options.set("density", "3");
+    const test::StudyFolder free(grid, options, conditions);
+    const std::string edge = blocked_edge(free, scenario::load(grid, options));
+    options.set("incident", fmt::format("edge={},from_s={},to_s={},known_after_s=60,reroute_share=0.5", edge,
+                                        from_s, to_s));
+    const test::StudyFolder blocked(grid, options, conditions);
+
+    const Outcome without = outcome_of(free, "baseline", edge);
+    const Outcome baseline = outcome_of(blocked, "baseline", edge, experiment::StepRecording::on);
+    const Outcome corridor = outcome_of(blocked, "corridor", edge, experiment::StepRecording::on);
+
+    EXPECT_EQ(without.record.metrics.emergency_met_incident, 0U);
+    EXPECT_FALSE(without.record.metrics.incident_delay_s);
+    for (const Outcome& outcome : {baseline, corridor}) {
+        const metrics::RunMetrics& metrics = outcome.record.metrics;
+        EXPECT_GE(outcome.most, 3);  // a queue behind the obstacle
+        EXPECT_EQ(outcome.late, 0);
+        EXPECT_GT(without.farthest_m, outcome.farthest_m + 50.0F);  // nobody gets past the middle
+        EXPECT_GE(metrics.emergency_turned_round, 1U);
+        EXPECT_GE(metrics.emergency_met_incident, metrics.emergency_turned_round);
+        EXPECT_EQ(metrics.emergency_cut_off, 0U);
+        EXPECT_EQ(metrics.emergency_arrived, metrics.emergency_count);
+        EXPECT_GE(metrics.others_rerouted, 1U);
+        // The vehicles of the demand, without obstacles.
+        EXPECT_EQ(metrics.vehicle_count, without.record.metrics.vehicle_count);
+        EXPECT_EQ(metrics.arrived, metrics.vehicle_count);
+        EXPECT_LT(metrics.incident_delay_s.value(), 30.0);
+        EXPECT_EQ(metrics.locks, 0U);  // a queue at a block has its reason
+    }
+    // It began before the conditions parted.
+    EXPECT_EQ(baseline.record.metrics.incident_delay_s, corridor.record.metrics.incident_delay_s);
+
+    // A replay decides as the run did, and knows what it knew.
+    const experiment::RunKey key = corridor.record.key;
+    trace::RecordingReader recording(trace::recording_file(blocked.path(), key));
+    EXPECT_FALSE(recording.info().incidents.empty());
+    const experiment::RunJob unit = blocked.unit(0);
+    const scenario::BuiltNetwork built =
+        scenario::open_network(scenario::load(grid, options), unit.network_folder);
+    const trace::ReplayResult replayed = trace::replay(recording, recording.info().condition, built.network);
+    EXPECT_GT(replayed.leases.compared, 0U);
+    EXPECT_EQ(replayed.observations.first_difference, "");
+    EXPECT_EQ(replayed.leases.first_difference, "");
+}
+
+}  // namespace
+}  // namespace clearway::loop
