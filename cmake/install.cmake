@@ -6,7 +6,8 @@ if(TARGET clearway-train)
     install(TARGETS clearway-train DESTINATION lib/clearway COMPONENT train)
 endif()
 install(DIRECTORY scenarios models DESTINATION ${data} COMPONENT clearway)
-install(DIRECTORY studies DESTINATION ${data} COMPONENT clearway FILES_MATCHING PATTERN *.toml PATTERN studies/streets/*/ EXCLUDE)
+install(DIRECTORY studies DESTINATION ${data} COMPONENT clearway FILES_MATCHING PATTERN *.toml PATTERN studies/streets/*/ EXCLUDE
+        PATTERN studies/navigate/*/ EXCLUDE)
 install(DIRECTORY python/clearway DESTINATION ${data}/python COMPONENT python FILES_MATCHING PATTERN *.py PATTERN py.typed
         PATTERN __pycache__ EXCLUDE)
 install(FILES python/install.py python/pyproject.toml DESTINATION ${data}/python COMPONENT python)

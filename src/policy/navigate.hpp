@@ -19,7 +19,7 @@ struct NavigateConfig {
     double gain_s = 10.0;
     double gain_share = 0.07;
     double fade_s = 120.0;
-    double prior_s = 30.0;
+    double prior_s = 10.0;
     double signal_share = 1.0;
     int observes = 1;
     int heeds_incidents = 1;
@@ -44,7 +44,7 @@ struct NavigateConfig {
                 "prior_s", "s", &C::prior_s, 0.1, 1e5,
                 "Weight of what is assumed of an edge before anything is seen there, as time of vehicles on "
                 "it",
-                "assumed: one vehicle for half a minute"},
+                "trials in a blocked city: of 10, 30 and 100 s the best for the emergency vehicle"},
             Field{"signal_share", "1", &C::signal_share, 0.0, 1.0,
                   "Share of the usual delay on an edge before a signal that the emergency vehicle has, too",
                   "1: no priority at signals"},

@@ -61,10 +61,10 @@ TEST(SignalMeasures, CountAHoldThatLapsesBeforeItsVehicleComes) {
 }
 
 TEST(SignalMeasures, TakeNoRecoveryFromAHoldThatTheNextOneFollows) {
-    const std::vector<SignalEvent> events = {
-        {0.0, "J", 102, 1, "0", "a"},  {0.0, "J", 105, 1, "0", "a"},  {10.0, "J", 111, 1, "0", ""},
-        {12.0, "J", 102, 1, "0", "b"}, {12.0, "J", 105, 1, "0", "b"}, {30.0, "J", 150, 1, "", ""},
-        {40.0, "J", 111, 1, "0", ""},  {47.0, "J", 150, 1, "", ""}};
+    const std::vector<SignalEvent> events = {{0.0, "J", 102, 1, "0", "a"},  {0.0, "J", 105, 1, "0", "a"},
+                                             {10.0, "J", 111, 1, "0", ""},  {12.0, "J", 102, 1, "0", "b"},
+                                             {12.0, "J", 105, 1, "0", "b"}, {30.0, "J", 150, 1, "", ""},
+                                             {40.0, "J", 111, 1, "0", ""},  {47.0, "J", 150, 1, "", ""}};
     const auto measures = signal_measures(events);
     EXPECT_THAT(measures[0].recovery_s, Optional(7.0));
 }

@@ -8,7 +8,7 @@ namespace clearway::policy::detail {
 namespace {
 
 /// Slower traffic is believed to move at this speed, m/s: a queue moves up.
-constexpr double least_mps = 0.5;
+constexpr double least_mps = 0.1;
 
 bool is_green(char letter) {
     return letter == 'g' || letter == 'G';
@@ -96,9 +96,10 @@ double EdgeTimes::at(core::EdgeIndex edge, double entered_s, double pace) const 
                              (seen.time_s * share + config_.prior_s);
     const double seen_delay_s = std::max(0.0, length_m / std::max(speed_mps, least_mps) - limit_s);
     const double prior_delay_s = prior_s - limit_s;
-    // What fades faster than time passes would let a later entry leave earlier.
-    const double difference_s = std::min(seen_delay_s - prior_delay_s, config_.fade_s);
-    const double delay_s = prior_delay_s + difference_s * fading(entered_s);
+    const double difference_s = seen_delay_s - prior_delay_s;
+    double delay_s = prior_delay_s + difference_s * fading(entered_s);
+    // Nobody leaves a queue before those who entered it earlier, however fast its memory fades.
+    if (difference_s > 0.0) delay_s = std::max(delay_s, prior_delay_s + difference_s - entered_s);
     return limit_s / pace + delay_s * (signal_[edge.value] ? config_.signal_share : 1.0);
 }
 

@@ -13,7 +13,7 @@ namespace clearway::policy::detail {
 /// How times are believed.
 struct EdgeTimesConfig {
     double fade_s = 120.0;      ///< Time constant with which what was seen fades, > 0.
-    double prior_s = 30.0;      ///< Weight of the prior, as time of vehicles on the edge, > 0.
+    double prior_s = 10.0;      ///< Weight of the prior, as time of vehicles on the edge, > 0.
     double signal_share = 1.0;  ///< Share of the delay before a signal that counts.
 };
 

@@ -250,8 +250,10 @@ class ApiGateway : public Sumo {
             }
             const std::string route = "clearway:" + vehicle;
             api::Route::add(route, {place.edge});
-            api::Vehicle::add(vehicle, route, type, "now", std::to_string(place.lane_number),
-                              std::to_string(place.position_m), "0");
+            // Rounded text must not lie behind the stop.
+            const std::string position_m = std::to_string(std::max(0.0, place.position_m - 0.001));
+            api::Vehicle::add(vehicle, route, type, "now", std::to_string(place.lane_number), position_m,
+                              "0");
             api::Vehicle::setStop(vehicle, place.edge, place.position_m, place.lane_number, place.duration_s);
         });
     }
