@@ -33,10 +33,9 @@ study::Plan plan_of(std::uint32_t replications) {
     return study::make_plan(config, {"0.1.0", "1.15.0"}, "synthetic");
 }
 
-results::RunRecord record_of(const experiment::RunKey& key, const experiment::ConditionSpec& condition) {
+results::RunRecord record_of(const experiment::RunKey& key) {
     results::RunRecord run;
     run.key = key;
-    run.condition = condition;
     run.provenance = {"0.1.0", "1.15.0", std::string(32, 'a'), std::string(32, 'd'),
                       1,       77,       std::string(32, 'f')};
     const double travel_time_s = 40.0 + 0.001 * static_cast<double>(key.replication % 9973);
@@ -62,7 +61,9 @@ void write_run(const results::Store& store, const results::RunRecord& run) {
     std::filesystem::create_directories(folder);
     const std::string vehicles = results::detail::vehicles_to_csv(run.vehicles);
     write(folder / "vehicles.csv", vehicles);
-    write(folder / "run.json", results::detail::run_to_json(run, vehicles));
+    write(folder / "run.json",
+          results::detail::run_to_json(results::synthetic::in_study(run, store.manifest()), vehicles,
+                                       store.manifest().clearway_build));
     write(folder / "timing.json", results::detail::timing_to_json({}));
 }
 
@@ -74,7 +75,7 @@ void write_shard(const study::Plan& plan, const study::Shard& shard, const std::
         if (!study::has_unit(shard, number)) continue;
         const experiment::RunJob& unit = plan.units[number].unit;
         for (const experiment::ConditionSpec& condition : unit.conditions)
-            write_run(store, record_of({unit.scenario, condition.name, unit.replication}, condition));
+            write_run(store, record_of({unit.scenario, condition.name, unit.replication}));
     }
 }
 

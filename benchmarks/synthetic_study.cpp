@@ -90,9 +90,8 @@ int main(int argument_count, char** arguments) {
     for (const experiment::ConditionSpec& condition : manifest.conditions) {
         for (const results::ScenarioEntry& scenario : manifest.scenarios) {
             for (std::uint32_t replication = 0; replication < manifest.replications; ++replication)
-                store.write(
-                    run_of({scenario.name, condition.name, replication}, condition, std::atoi(arguments[3])),
-                    {});
+                results::synthetic::write(store, run_of({scenario.name, condition.name, replication},
+                                                        condition, std::atoi(arguments[3])));
         }
     }
     return 0;

@@ -143,6 +143,16 @@ std::vector<experiment::RunKey> Manifest::runs() const {
     return keys;
 }
 
+experiment::Provenance planned_provenance(const Manifest& manifest, const std::string& scenario) {
+    experiment::Provenance provenance;
+    provenance.clearway_version = manifest.clearway_version;
+    provenance.sumo_version = manifest.sumo_version;
+    provenance.study_seed = manifest.study_seed;
+    const auto entry = std::ranges::find(manifest.scenarios, scenario, &ScenarioEntry::name);
+    if (entry != manifest.scenarios.end()) provenance.configuration_hash = entry->configuration_hash;
+    return provenance;
+}
+
 std::string differences(const Manifest& left, const Manifest& right) {
     std::string list;
     const auto add = [&](bool differs, const std::string& part) {

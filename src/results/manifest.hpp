@@ -69,6 +69,10 @@ struct Manifest {
     void for_each_run(const std::function<void(const experiment::RunKey&)>& visit) const;
 };
 
+/// What a study decides of the provenance of its runs of a scenario; the rest is empty, as are hashes of a
+/// scenario that it does not have.
+experiment::Provenance planned_provenance(const Manifest& manifest, const std::string& scenario);
+
 /// How `differences` names another build of the programs.
 inline constexpr const char* another_build = "build of Clearway";
 

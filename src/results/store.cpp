@@ -18,6 +18,7 @@
 #include "core/number.hpp"
 #include "core/part_folder.hpp"
 #include "core/read_failure.hpp"
+#include "experiment/condition_json.hpp"
 #include "results/detail/record_files.hpp"
 #include "results/detail/signal_event_files.hpp"
 #include "results/detail/traffic_files.hpp"
@@ -46,11 +47,36 @@ void require_same(const fs::path& file, const std::string& content, const experi
                     file.string(), to_text(key)));
 }
 
+constexpr const char* cure_of_foreign = "Repeat the command that made the study (command.txt)";
+
 /// Throws core::InputError when a file holds another run than its place says.
 void require_key(const experiment::RunKey& held, const experiment::RunKey& key, const fs::path& file) {
     if (held == key) return;
-    throw core::InputError({file.string(), "is of run " + to_text(held), to_text(key),
-                            "Repeat the command that made the study (command.txt)"});
+    throw core::InputError({file.string(), "is of run " + to_text(held), to_text(key), cure_of_foreign});
+}
+
+/// Throws core::InputError for a record that was made in another study than its folder's.
+void require_planned(const RunRecord& record, const Manifest& manifest, const std::string& file) {
+    std::vector<core::Problem> problems;
+    const auto require = [&](const char* key, const std::string& held, const std::string& planned) {
+        if (held != planned)
+            problems.push_back({file + ": " + key, fmt::format("is \"{}\", of another study", held),
+                                fmt::format("\"{}\" as in manifest.json", planned), cure_of_foreign});
+    };
+    const experiment::Provenance planned = planned_provenance(manifest, record.key.scenario);
+    require("build", record.build, manifest.clearway_build);
+    require("clearway_version", record.provenance.clearway_version, planned.clearway_version);
+    require("sumo_version", record.provenance.sumo_version, planned.sumo_version);
+    require("configuration_hash", record.provenance.configuration_hash, planned.configuration_hash);
+    require("study_seed", std::to_string(record.provenance.study_seed), std::to_string(planned.study_seed));
+    const auto condition =
+        std::ranges::find(manifest.conditions, record.key.condition, &experiment::ConditionSpec::name);
+    if (condition != manifest.conditions.end() && record.condition != *condition)
+        problems.push_back({file + ": condition_spec",
+                            fmt::format("differs in {}: it is of another study",
+                                        experiment::what_differs(*condition, record.condition)),
+                            "the condition as in manifest.json", cure_of_foreign});
+    if (!problems.empty()) throw core::InputError(std::move(problems));
 }
 
 /// Throws core::InputError, naming what differs, if a folder's study cannot be extended to the wanted one.
@@ -292,6 +318,7 @@ RunRecord Store::read_checked(const experiment::RunKey& key, std::string& vehicl
     vehicles = core::read_file(folder / "vehicles.csv");
     RunRecord record = detail::run_from_json(core::read_file(file), vehicles, file);
     require_key(record.key, key, file);
+    require_planned(record, manifest_, file);
     return record;
 }
 
@@ -306,8 +333,8 @@ std::optional<RunRecord> Store::read(const experiment::RunKey& key, VehicleRows 
     } catch (const core::InputError& error) {
         std::vector<core::Problem> problems = error.problems();
         problems.back().cure =
-            "This record is damaged. Repeat the command that made the study (command.txt): it sets the "
-            "record aside and makes the run again";
+            "This record is damaged or not of this study. Repeat the command that made the study "
+            "(command.txt): it sets the record aside and makes the run again";
         throw core::InputError(std::move(problems));
     }
 }

@@ -82,7 +82,8 @@ class Store {
     /// Whether nothing is left to do for a condition of a unit: it is complete, and recorded if that was
     /// asked for.
     bool done(const experiment::RunJob& unit, const experiment::ConditionSpec& condition) const;
-    /// Nothing if the run is not complete. Throws core::InputError for a damaged record.
+    /// Nothing if the run is not complete. Throws core::InputError for a damaged record and for one of
+    /// another study.
     std::optional<RunRecord> read(const experiment::RunKey& key, VehicleRows rows = VehicleRows::all) const;
     /// All tables of where a run lost time and how its emergency vehicles travelled, also those that `read`
     /// leaves out; empty for runs that are not complete or did not keep them. Throws core::InputError for a
@@ -111,7 +112,7 @@ class Store {
     void for_each_file(const std::filesystem::path& root,
                        const std::function<void(const experiment::RunKey&)>& visit) const;
     /// The record without its vehicles, and their text. Throws core::InputError unless both match their
-    /// hashes.
+    /// hashes and the record was made in the study of the manifest.
     RunRecord read_checked(const experiment::RunKey& key, std::string& vehicles) const;
     void check(const experiment::RunKey& key) const;
     void adopt_recording(const Store& other, const experiment::RunKey& key) const;

@@ -139,8 +139,9 @@ class FakeMachine : public Machine {
 
     void store(const Worker& worker) {
         const RunKey key = key_of(worker);
-        const auto written = results::Store::open(worker.unit.output)
-                                 .write(results::synthetic::record(key, 40.0 + key.replication), {});
+        const auto store = results::Store::open(worker.unit.output);
+        const auto written =
+            results::synthetic::write(store, results::synthetic::record(key, 40.0 + key.replication));
         if (written == results::Store::Written::first) ++firsts_[key];
     }
 

@@ -71,7 +71,7 @@ void work(const results::Store& store, const experiment::RunKey& key) {
     if (name == "hog") hog(600000);
     if (name == "large") hog(500);
     if (name.starts_with("slow")) pause_ms(40);
-    store.write(results::synthetic::record(key, 40.0 + key.replication), {});
+    results::synthetic::write(store, results::synthetic::record(key, 40.0 + key.replication));
 }
 
 }  // namespace

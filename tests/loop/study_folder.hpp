@@ -9,6 +9,7 @@
 #include "core/process.hpp"
 #include "core/temporary_folder.hpp"
 #include "experiment/job.hpp"
+#include "loop/condition_run.hpp"
 #include "results/store.hpp"
 #include "scenario/config.hpp"
 #include "scenario/network.hpp"
@@ -23,8 +24,9 @@ class StudyFolder {
         : config_(scenario::load(scenario, options)), conditions_(std::move(conditions)) {
         results::Manifest manifest;
         manifest.study = "test";
-        manifest.clearway_version = "test";
-        manifest.sumo_version = "test";
+        const experiment::Provenance worker = loop::own_provenance();
+        manifest.clearway_version = worker.clearway_version;
+        manifest.sumo_version = worker.sumo_version;
         manifest.replications = 100;
         manifest.conditions = conditions_;
         manifest.scenarios.push_back({.name = config_.name,

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "metrics/restricted_time.hpp"
-#include "results/store.hpp"
+#include "results/synthetic.hpp"
 
 namespace clearway::report::tests {
 
@@ -175,7 +175,7 @@ class FrozenStudy {
             run.leases = {{"dissertation<i>", traffic::LeaseKind::hold_green, 40, 0, 40, 40, {}}};
         if (condition.traffic_model != experiment::TrafficModel::free_flow && key.scenario == "crossing")
             add_traffic(key, run.traffic);
-        store_.write(run, {});
+        results::synthetic::write(store_, run);
     }
 
     static void write(const std::filesystem::path& file, const std::string& text) {

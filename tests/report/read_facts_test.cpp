@@ -11,6 +11,7 @@
 #include "report/detail/condition_titles.hpp"
 #include "report/figure_files.hpp"
 #include "report/page.hpp"
+#include "results/synthetic.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::report {
@@ -76,9 +77,9 @@ class RunFolder : public ::testing::Test {
         manifest.conditions = {baseline, helpful, broken, solo};
         const results::Store store = results::Store::create(folder.path() / "study", manifest);
         for (std::uint32_t replication = 0; replication < 3; ++replication) {
-            store.write(run(baseline, replication, 100.0 + 2.0 * replication), {});
-            store.write(run(helpful, replication, 80.0 + 1.0 * replication), {});
-            store.write(run(solo, replication, 60.0), {});
+            results::synthetic::write(store, run(baseline, replication, 100.0 + 2.0 * replication));
+            results::synthetic::write(store, run(helpful, replication, 80.0 + 1.0 * replication));
+            results::synthetic::write(store, run(solo, replication, 60.0));
         }
         results::RunError failure;
         failure.key = {"merge", "broken", 1};
@@ -180,11 +181,11 @@ TEST(GapClosed, is_a_dash_for_a_condition_that_lost_emergency_vehicles) {
     {
         const results::Store store = results::Store::create(folder.path() / "study", manifest);
         for (std::uint32_t replication = 0; replication < 3; ++replication) {
-            store.write(run(baseline, replication, 100.0 + replication), {});
+            results::synthetic::write(store, run(baseline, replication, 100.0 + replication));
             results::RunRecord record = run(lossy, replication, 1900.0);
             record.vehicles[0].outcome = metrics::VehicleOutcome::running_at_end;
-            store.write(record, {});
-            store.write(run(solo, replication, 60.0), {});
+            results::synthetic::write(store, record);
+            results::synthetic::write(store, run(solo, replication, 60.0));
         }
     }
     const StudyFacts facts = read_facts(folder.path() / "study");

@@ -135,6 +135,45 @@ TEST_F(StoreOfAStudy, NoticesAnEditedNumberOfTheRunItself) {
     }
 }
 
+TEST_F(StoreOfAStudy, RefusesARecordOfAnotherStudyAndSaysInWhat) {
+    Manifest other = synthetic::manifest();
+    other.clearway_build = "0123456789abcdef";
+    other.sumo_version = "1.16.0";
+    other.study_seed = 9;
+    other.scenarios[0].configuration_hash = std::string(32, 'c');
+    other.conditions[0].settings = {{"policy.period_s", "2"}};
+    const Store elsewhere = Store::create(folder_.path() / "other", other);
+    synthetic::write(elsewhere, record(treated));
+    EXPECT_TRUE(elsewhere.read(treated));
+    core::make_folder(store_.run_folder(treated).parent_path());
+    std::filesystem::copy(elsewhere.run_folder(treated), store_.run_folder(treated));
+    try {
+        store_.read(treated);
+        FAIL();
+    } catch (const core::InputError& error) {
+        EXPECT_EQ(error.problems().size(), 5U);
+        EXPECT_THAT(error.what(),
+                    testing::AllOf(testing::HasSubstr("run.json: configuration_hash: is \"cccc"),
+                                   testing::HasSubstr("\"aaaa"), testing::HasSubstr("study_seed: is \"9\""),
+                                   testing::HasSubstr("sumo_version: is \"1.16.0\""),
+                                   testing::HasSubstr("build: is \"0123456789abcdef\""),
+                                   testing::HasSubstr("condition_spec: differs in settings"),
+                                   testing::HasSubstr("as in manifest.json"),
+                                   testing::HasSubstr("Repeat the command")));
+    }
+    const std::vector<SetAside> aside = store_.set_damaged_aside({treated});
+    ASSERT_EQ(aside.size(), 1U);
+    EXPECT_FALSE(store_.complete(treated));
+}
+
+TEST_F(StoreOfAStudy, RefusesARecordUnderTheNameOfAnotherRun) {
+    store_.write(record(treated), {});
+    const experiment::RunKey other{"alpha", "treated", 1};
+    core::make_folder(store_.run_folder(other).parent_path());
+    std::filesystem::copy(store_.run_folder(treated), store_.run_folder(other));
+    EXPECT_THROW(store_.read(other), core::InputError);
+}
+
 TEST_F(StoreOfAStudy, RefusesARecordThatLacksAMetricAndSaysHowToMakeItAgain) {
     store_.write(record(treated, 50.5), {});
     const std::filesystem::path file = store_.run_folder(treated) / "run.json";

@@ -5,6 +5,7 @@
 
 #include "results/manifest.hpp"
 #include "results/record.hpp"
+#include "results/store.hpp"
 
 namespace clearway::results::synthetic {
 
@@ -72,6 +73,24 @@ inline RunRecord record(const experiment::RunKey& key, double travel_time_s = 50
     result.metrics.collisions = key.replication;
     result.metrics.simulated_s = 600.25;
     return result;
+}
+
+/// A run as the study of `manifest` would have made it.
+inline RunRecord in_study(RunRecord run, const Manifest& manifest) {
+    const std::string trace_hash = run.provenance.trace_hash;
+    const std::string demand_hash = run.provenance.demand_hash;
+    const std::uint64_t simulator_seed = run.provenance.simulator_seed;
+    run.provenance = planned_provenance(manifest, run.key.scenario);
+    run.provenance.trace_hash = trace_hash;
+    run.provenance.demand_hash = demand_hash;
+    run.provenance.simulator_seed = simulator_seed;
+    for (const experiment::ConditionSpec& condition : manifest.conditions)
+        if (condition.name == run.key.condition) run.condition = condition;
+    return run;
+}
+
+inline Store::Written write(const Store& store, const RunRecord& run, const RunTiming& timing = {}) {
+    return store.write(in_study(run, store.manifest()), timing);
 }
 
 inline RunError error(const experiment::RunKey& key) {

@@ -19,7 +19,7 @@ using synthetic::record;
 /// Four runs of a study of eight; one failed, three are missing.
 void fill(const Store& store, std::vector<experiment::RunKey> keys) {
     for (const experiment::RunKey& key : keys)
-        store.write(record(key), {});
+        synthetic::write(store, record(key));
     store.write(synthetic::error({"alpha", "treated", 0}));
 }
 
@@ -153,7 +153,7 @@ TEST(Tables, HaveAColumnForEveryFactorOfTheStudy) {
     const support::TemporaryFolder folder;
     const Store store = Store::create(folder.path(), manifest);
     fill(store, keys);
-    store.write(record({"beta", "treated", 1}), {});
+    synthetic::write(store, record({"beta", "treated", 1}));
     const auto lines = table_lines(store, store.runs_csv());
     EXPECT_THAT(lines[0],
                 testing::HasSubstr(
