@@ -11,7 +11,9 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
+#include "core/open_file.hpp"
 #include "core/read_failure.hpp"
+#include "results/detail/database.hpp"
 #include "results/detail/log_tables.hpp"
 #include "results/detail/record_files.hpp"
 #include "results/detail/sqlite.hpp"
@@ -53,7 +55,9 @@ std::string study_value(const Database& database, const char* key) {
 
 /// Opens `results.sqlite` of a run folder read-only and checks that it is of this version.
 Database open_database(const Store& store) {
-    Database database(store.folder() / database_name, SQLITE_OPEN_READONLY, fail);
+    const std::filesystem::path file = store.folder() / database_name;
+    const core::OpenFile is_a_file(file);  // SQLite waits at a pipe
+    Database database(file, SQLITE_OPEN_READONLY, fail);
     const std::string format = study_value(database, "format");
     if (format != fmt::format("{}", store.manifest().format))
         refuse(database.file(),
@@ -138,6 +142,10 @@ std::vector<std::string> edited_tables(const Store& store) {
     std::vector<std::string> edited;
     if (!std::filesystem::exists(store.folder() / database_name)) return edited;
     const Database database = open_database(store);
+    std::int32_t seal = 0;
+    database.for_each_row("PRAGMA user_version",
+                          [&](sqlite3_stmt* row) { seal = sqlite3_column_int(row, 0); });
+    if (seal != 0 && seal != detail::seal_of(database.file())) edited.emplace_back(database_name);
     for (const char* const table : csv_tables) {
         const std::filesystem::path file = store.folder() / table;
         const std::string hash = study_value(database, table);

@@ -19,8 +19,8 @@ enum class TableFormat : std::uint8_t {
 /// the runs and errors that are there now. Reads every record: 0.03 ms for one of 100 KB.
 /// Throws core::InputError for a database of another version and for a file that is not a database.
 bool tables_are_current(const Store& store);
-/// Names of the tables in CSV that are not as they were written with `results.sqlite`. Empty without it, and
-/// for tables that are missing. Reads them whole. Throws core::InputError as above.
+/// Names of the tables, `results.sqlite` among them, that are not as they were written. Empty without it;
+/// tables in CSV that are missing are left out. Reads them whole. Throws core::InputError as above.
 std::vector<std::string> edited_tables(const Store& store);
 
 /// Names of the tables of a run folder's `results.sqlite` and of those that are read from the runs' event

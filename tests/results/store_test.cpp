@@ -325,16 +325,43 @@ TEST_F(StoreOfAStudy, DoesNotTakeOverAFolderOfSomethingElse) {
     EXPECT_THROW(Store::open(folder_.path()), core::InputError);
 }
 
+/// Files of this process have at most so many bytes while it lives.
+class FileLimit {
+  public:
+    explicit FileLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit tight{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &tight);
+    }
+    ~FileLimit() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+
+  private:
+    rlimit before_{};
+    void (*handler_)(int);
+};
+
+TEST_F(StoreOfAStudy, SaysThatADatabaseIsOverTheLimitOfFilesNotThatTheDiskIsFull) {
+    store_.write(record(treated), {});
+    try {
+        const FileLimit limit(16384);
+        write_tables(store_);
+        FAIL();
+    } catch (const core::EnvironmentError& error) {
+        EXPECT_THAT(error.what(),
+                    testing::AllOf(testing::HasSubstr("results.sqlite"), testing::HasSubstr("File too large"),
+                                   testing::HasSubstr("`ulimit -f`")));
+        EXPECT_THAT(error.what(), testing::Not(testing::HasSubstr("full")));
+    }
+}
+
 TEST_F(StoreOfAStudy, FailsWithoutATraceWhenTheDiskTakesNoMore) {
-    // A limit on file sizes fails writes half-way, as a full disk does.
-    rlimit before{};
-    getrlimit(RLIMIT_FSIZE, &before);
-    const rlimit tight{200, before.rlim_max};
-    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-    setrlimit(RLIMIT_FSIZE, &tight);
-    EXPECT_THROW(store_.write(record(treated), {}), core::EnvironmentError);
-    setrlimit(RLIMIT_FSIZE, &before);
-    std::signal(SIGXFSZ, handler);
+    {  // A limit on file sizes fails writes half-way, as a full disk does.
+        const FileLimit limit(200);
+        EXPECT_THROW(store_.write(record(treated), {}), core::EnvironmentError);
+    }
     EXPECT_FALSE(store_.complete(treated));
     EXPECT_EQ(files_below("runs"), 0U);
     EXPECT_EQ(store_.write(record(treated), {}), Store::Written::first);

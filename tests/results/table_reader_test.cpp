@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 #include <sqlite3.h>
+#include <sys/stat.h>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -125,6 +126,26 @@ TEST_F(TableReader, SeesThatARunWasMadeAnewWithAnotherResult) {
     error.message += " and otherwise";
     store.write(error);
     EXPECT_FALSE(tables_are_current(store));
+}
+
+TEST_F(TableReader, NoticesADatabaseThatWasEdited) {
+    EXPECT_THAT(edited_tables(store), testing::IsEmpty());
+    printed("runs", TableFormat::csv);
+    EXPECT_THAT(edited_tables(store), testing::IsEmpty()) << "reading changes nothing";
+    execute("UPDATE vehicles SET travel_time_s = 50.2 WHERE id = 'h1'");
+    EXPECT_THAT(edited_tables(store), testing::ElementsAre("results.sqlite"));
+    std::ofstream(store.runs_csv(), std::ios::app) << "more\n";
+    EXPECT_THAT(edited_tables(store), testing::ElementsAre("results.sqlite", "runs.csv"));
+    write_tables(store);
+    EXPECT_THAT(edited_tables(store), testing::IsEmpty());
+}
+
+TEST_F(TableReader, RefusesAPipeInPlaceOfTheDatabase) {
+    std::filesystem::remove(folder.path() / "results.sqlite");
+    ASSERT_EQ(mkfifo((folder.path() / "results.sqlite").c_str(), 0600), 0);
+    EXPECT_THAT(error_of("runs"), HasSubstr("results.sqlite: is neither a file nor a folder"));
+    EXPECT_THROW(edited_tables(store), core::InputError);
+    EXPECT_THROW(tables_are_current(store), core::InputError);
 }
 
 TEST_F(TableReader, TakesADatabaseWithoutAHashOfItsRunsAsOutOfDate) {

@@ -1,5 +1,8 @@
 #include "results/detail/database.hpp"
 
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,7 +15,9 @@
 #include "core/fields.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
+#include "core/open_file.hpp"
 #include "core/read_failure.hpp"
+#include "core/running_hash.hpp"
 #include "results/detail/sqlite.hpp"
 #include "results/factor_columns.hpp"
 
@@ -20,8 +25,11 @@ namespace clearway::results::detail {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, int code, int reason, const std::string& words) {
-    throw core::EnvironmentError(fmt::format("{}: {}. {}", file.string(), words,
-                                             core::cure_of(code == SQLITE_FULL ? ENOSPC : reason)));
+    // SQLite calls the disk full, too, where a file is over `ulimit -f`.
+    const bool is_too_large = reason == EFBIG;
+    throw core::EnvironmentError(
+        fmt::format("{}: {}. {}", file.string(), is_too_large ? std::strerror(reason) : words,
+                    core::cure_of(code == SQLITE_FULL && !is_too_large ? ENOSPC : reason)));
 }
 
 /// Inserts row after row; values fill the columns from left to right.
@@ -160,6 +168,19 @@ Database begin_database(const std::filesystem::path& file, const Manifest& manif
 
 }  // namespace
 
+std::int32_t seal_of(const std::filesystem::path& file) {
+    constexpr std::size_t header_bytes = 100;
+    constexpr std::size_t seal_digits = 8;
+    core::RunningHash hash;
+    std::size_t skipped = 0;
+    core::OpenFile(file).read([&](std::string_view piece) {
+        const std::size_t count = std::min(header_bytes - skipped, piece.size());
+        skipped += count;
+        hash.add(piece.substr(count));
+    });
+    return static_cast<std::int32_t>(std::stoul(hash.digest().substr(0, seal_digits), nullptr, 16));
+}
+
 struct DatabaseWriter::Tables {
     Tables(const std::filesystem::path& part, const Manifest& manifest, const std::string& runs_hash)
         : database(begin_database(part, manifest, runs_hash)),
@@ -268,6 +289,7 @@ void DatabaseWriter::note(std::string_view key, std::string_view value) {
 
 void DatabaseWriter::finish() {
     tables_->database.execute("COMMIT");
+    tables_->database.execute(fmt::format("PRAGMA user_version = {}", seal_of(part_)));
     tables_.reset();
     std::error_code error;
     std::filesystem::rename(part_, file_, error);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -8,6 +9,10 @@
 #include "results/store.hpp"
 
 namespace clearway::results::detail {
+
+/// Hash of a closed or committed database but for its header, which `finish` keeps as the user version, a
+/// number that SQLite leaves to whoever writes the file. Throws as core::read_file.
+std::int32_t seal_of(const std::filesystem::path& file);
 
 /// Writes a study into one SQLite file, run by run: tables `study` (key, value), `runs`, `vehicles`,
 /// `errors`, with the columns of the CSV files. The database is a temporary file until `finish` renames it;
