@@ -324,6 +324,13 @@ core::ExitCode run_study(study::StudyConfig config, RunOptions options) {
     }
 }
 
+/// Records stay true when their scenario is edited; what is made from both does not.
+void warn_of_changed_scenarios(const results::Store& store) try {
+    study::require_unchanged(store);
+} catch (const core::InputError& error) {
+    fmt::print(stderr, "clearway: warning: {}\n", error.what());
+}
+
 core::ExitCode publish(const results::Store& store, const PublishOptions& options) {
     const results::Results results = results::read_results(store, results::VehicleRows::emergency);
     const analysis::Summary summary =
@@ -332,6 +339,7 @@ core::ExitCode publish(const results::Store& store, const PublishOptions& option
     fmt::print("{}", options.printing == Printing::json ? report::json_tables(facts)
                                                         : report::console_tables(facts, options.tables));
     name_errors(store, results);
+    warn_of_changed_scenarios(store);
     renew_edited_tables(store);
     if (!results::tables_are_current(store)) results::write_tables(store);
     write_report(facts, replays_of(store, results, options.replays), store.folder() / "report.html");

@@ -8,8 +8,10 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/open_file.hpp"
 #include "core/process.hpp"
 #include "core/read_failure.hpp"
+#include "core/running_hash.hpp"
 #include "core/units.hpp"
 #include "scenario/detail/network_sources.hpp"
 #include "scenario/network_document.hpp"
@@ -20,6 +22,7 @@ namespace clearway::scenario {
 namespace {
 
 constexpr const char* network_name = "network.net.xml";
+constexpr const char* network_hash_name = "network.hash";
 
 /// The key that messages about the network's sources point to.
 std::string source_place(const ScenarioConfig& config) {
@@ -152,9 +155,23 @@ BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::
     document.name_controllers();
     if (config.limits.road_kmh > 0.0) document.limit_speed(core::from_kmh(config.limits.road_kmh));
     if (config.road.changes_limits()) slow_down(config, document);
-    core::write_atomically(folder / network_name, document.text());
+    const std::string text = document.text();
+    core::write_atomically(folder / network_hash_name, core::content_hash(text));
+    core::write_atomically(folder / network_name, text);
     std::filesystem::remove(raw);
     return open_network(config, folder);
+}
+
+void require_unchanged_network(const std::filesystem::path& folder) {
+    const std::filesystem::path made = folder / network_hash_name;
+    const std::filesystem::path file = folder / network_name;
+    if (!std::filesystem::exists(made)) return;
+    core::RunningHash hash;
+    core::OpenFile(file).read([&](std::string_view piece) { hash.add(piece); });
+    if (hash.digest() == core::read_file(made)) return;
+    throw core::InputError(
+        {file.string(), "was changed since it was built", "",
+         fmt::format("Put it back, or remove {}: it is made again", folder.parent_path().string())});
 }
 
 BuiltNetwork open_network(const ScenarioConfig& config, const std::filesystem::path& folder) {

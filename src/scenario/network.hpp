@@ -28,6 +28,9 @@ struct BuiltNetwork {
 /// core::EnvironmentError when netconvert is missing.
 BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::path& folder);
 
+/// Throws core::InputError when the network that `build_network` made in `folder` was changed since.
+void require_unchanged_network(const std::filesystem::path& folder);
+
 /// Opens what `build_network` made in `folder`, for example in another process.
 BuiltNetwork open_network(const ScenarioConfig& config, const std::filesystem::path& folder);
 

@@ -91,17 +91,9 @@ void check(const StudyConfig& config) {
     if (!problems.empty()) throw core::InputError(problems);
 }
 
-/// A continued study never mixes two scenarios. Networks are checked by `verify` alone.
-void require_unchanged(const scenario::ScenarioConfig& config, const fs::path& target) {
-    const fs::path file = target / scenario_file_name;
-    if (scenario::scenario_hash(scenario::load(file.string())) == scenario::scenario_hash(config)) return;
-    throw core::InputError({file.string(), "was changed, or a file beside it, since the study began", "",
-                            fmt::format("Put it back, or remove {}: it is made again", target.string())});
-}
-
 /// Stores a scenario and its network atomically.
 void prepare_scenario(const scenario::ScenarioConfig& config, const fs::path& target) try {
-    if (fs::exists(target)) return require_unchanged(config, target);
+    if (fs::exists(target)) return;
     core::PartFolder part(target);
     scenario::store(config, part.path());
     scenario::build_network(config, part.path() / network_name);
@@ -191,11 +183,25 @@ void check_roads(const Plan& plan) {
     if (!problems.empty()) throw core::InputError(problems);
 }
 
+void require_unchanged(const results::Store& store) {
+    for (const results::ScenarioEntry& entry : store.manifest().scenarios) {
+        const fs::path folder = store.scenario_folder(entry.name);
+        if (!fs::exists(folder)) continue;
+        const fs::path file = folder / scenario_file_name;
+        if (scenario::scenario_hash(scenario::load(file.string())) != entry.configuration_hash)
+            throw core::InputError(
+                {file.string(), "was changed, or a file beside it, since the study began", "",
+                 fmt::format("Put it back, or remove {}: it is made again", folder.string())});
+        scenario::require_unchanged_network(folder / network_name);
+    }
+}
+
 results::Store prepare_folder(const Plan& plan, const fs::path& folder) {
     check_roads(plan);
     if (fs::exists(folder / "manifest.json")) core::require_plain_files(folder);
     const FolderLock lock(folder);
     results::Store store = results::Store::create(folder, plan.manifest);
+    require_unchanged(store);
     for (const scenario::ScenarioConfig& config : plan.scenarios)
         prepare_scenario(config, store.scenario_folder(config.name));
     return store;

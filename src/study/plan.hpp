@@ -57,8 +57,13 @@ Plan make_plan(const StudyConfig& config, const Versions& versions, const std::f
 /// as a shoulder. Builds the networks of which a condition needs something, in some seconds at most.
 void check_roads(const Plan& plan);
 
+/// Throws core::InputError for a scenario that the folder holds and that is not the manifest's any more, or
+/// whose network was changed: a continued study never mixes two scenarios.
+void require_unchanged(const results::Store& store);
+
 /// Creates the run folder with the manifest and each scenario's effective configuration and network. Keeps
-/// what already exists. Throws as check_roads, scenario::build_network and results::Store::create do.
+/// what already exists. Throws as check_roads, require_unchanged, scenario::build_network and
+/// results::Store::create do.
 results::Store prepare_folder(const Plan& plan, const std::filesystem::path& folder);
 
 }  // namespace clearway::study

@@ -325,20 +325,30 @@ TEST_F(ReplayTest, an_edited_table_is_noticed_and_made_anew) {
                                                          {"compare", "out"},
                                                          {"export", "results", "out", "runs"}};
     for (const std::vector<std::string>& words : verbs) {
-        for (const char* const table : {"runs.csv", "vehicles.csv"}) {
-            const std::string file = std::string("out/") + table;
+        for (const std::string table : {"runs.csv", "vehicles.csv", "results.sqlite"}) {
+            const std::string file = "out/" + table;
             const std::string whole = read(file);
-            damage(file, "mine,0,", "mine,7,");
+            damage(file, table.ends_with("csv") ? "mine,0," : "arrived", "another");
             const Ended ended = clearway(words);
             EXPECT_EQ(ended.code, 0) << ended.err;
-            EXPECT_THAT(ended.err, AllOf(HasSubstr("out: " + std::string(table) +
-                                                   " differs from the records of the runs"),
+            EXPECT_THAT(ended.err, AllOf(HasSubstr("out: " + table + " differs from the records of the runs"),
                                          HasSubstr("the tables are made anew")))
                 << words.front();
             EXPECT_EQ(read(file), whole) << words.front();
         }
         EXPECT_THAT(clearway(words).err, Not(HasSubstr("made anew")));
     }
+}
+
+TEST_F(ReplayTest, a_scenario_that_was_edited_after_its_runs_is_noticed) {
+    ASSERT_EQ(run().code, 0);
+    EXPECT_THAT(clearway({"report", "out"}).err, Not(HasSubstr("was changed")));
+    damage("out/scenarios/line/network/network.net.xml", "speed=\"", "speed=\"1");
+    const Ended report = clearway({"report", "out"});
+    EXPECT_EQ(report.code, 0) << "its runs are as they were";
+    EXPECT_THAT(report.err,
+                AllOf(HasSubstr("warning: out/scenarios/line/network/network.net.xml: was changed"),
+                      HasSubstr("remove out/scenarios/line")));
 }
 
 TEST_F(ReplayTest, verify_finds_runs_the_same) {

@@ -74,6 +74,17 @@ TEST_F(ContinuedFolder, IsRefusedWhereItsScenarioWasEdited) {
     EXPECT_EQ(refusal(), "") << "made again";
 }
 
+TEST_F(ContinuedFolder, IsRefusedWhereItsNetworkWasEdited) {
+    prepare_folder(plan(), out_);
+    const auto file = out_ / "scenarios" / "merge" / "network" / "network.net.xml";
+    core::write_atomically(file, core::read_file(file) + "\n");
+    EXPECT_THAT(refusal(),
+                testing::AllOf(testing::HasSubstr("network/network.net.xml: was changed"),
+                               testing::HasSubstr("remove " + (out_ / "scenarios/merge").string())));
+    std::filesystem::remove_all(out_ / "scenarios" / "merge");
+    EXPECT_EQ(refusal(), "") << "made again";
+}
+
 TEST_F(ContinuedFolder, IsRefusedWhereALinkLeadsOutOfIt) {
     prepare_folder(plan(), out_);
     const auto elsewhere = folder_.path() / "elsewhere";
