@@ -60,6 +60,13 @@ std::string mean_time_loss(Import& import, const scenario::Prepared& demand, dou
                                 grace_s);
 }
 
+/// No other mistake is cured by shorter trips.
+bool wants_shorter_trips(const core::InputError& error) {
+    return std::ranges::any_of(error.problems(), [](const core::Problem& problem) {
+        return problem.where.ends_with("minimum_length_m");
+    });
+}
+
 }  // namespace
 
 std::vector<std::string> sumo_arguments(const scenario::Prepared& prepared) {
@@ -97,7 +104,7 @@ Tried make_demand(Import& import, scenario::ScenarioConfig& config) {
             prepared = scenario::prepare(config, network, core::StudySeed{1}, core::Replication{0},
                                          import.work / "demand");
         } catch (const core::InputError& error) {
-            if (row == most_tries) throw;
+            if (row == most_tries || !wants_shorter_trips(error)) throw;
             least_m = std::floor(least_m / 2.0);
             config.trips.minimum_length_m = std::min(config.trips.minimum_length_m, least_m);
         }
