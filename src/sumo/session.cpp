@@ -302,11 +302,13 @@ void Session::add_obstacle(const std::string& id, core::LaneIndex lane, core::Me
         // A vehicle has its front at its place, and stands on the lane as a whole where that is possible.
         const double length_m = state_->sumo->lane_length_m(name);
         constexpr double vehicle_m = 5.0;
+        const double place_m = std::clamp(position.value, std::min(vehicle_m, length_m), length_m);
         state_->sumo->add_obstacle(
             id, "clearway.incident",
             {.edge = name.substr(0, bar),
              .lane_number = std::stoi(name.substr(bar + 1)),
-             .position_m = std::clamp(position.value, std::min(vehicle_m, length_m), length_m),
+             // In centimetres: the vehicle must not be beyond its stop by what rounding adds.
+             .position_m = std::floor(100.0 * place_m) / 100.0,
              .duration_s = for_ever_s});
         ++state_->added_obstacles;
     });

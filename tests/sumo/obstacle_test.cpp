@@ -118,6 +118,7 @@ TEST(Obstacle, a_limit_on_a_lane_holds_until_it_is_taken_back) {
     const Scene scene;
     const SessionConfig config = scene.config(scene.straight_road(), column_of(1));
     Session session(config);
+    step_until(session, 2.0);  // SUMO refuses to let a vehicle enter faster than the limit
     for (const char* const id : {"in_0", "in_1"})
         session.limit(lane_of(config, id), core::MetresPerSecond(5.0));
     step_until(session, 20.0);

@@ -262,12 +262,14 @@ class ApiGateway : public Sumo {
     }
 
     bool set_route(const std::string& vehicle, const std::vector<std::string>& edges) override {
-        try {
-            call([&] { api::Vehicle::setRoute(vehicle, edges); });
-            return true;
-        } catch (const ::libsumo::TraCIException&) {
-            return false;
-        }
+        return call([&] {
+            try {
+                api::Vehicle::setRoute(vehicle, edges);
+                return true;
+            } catch (const ::libsumo::TraCIException&) {
+                return false;
+            }
+        });
     }
     void stop_rerouting(const std::string& vehicle) override {
         call([&] {
