@@ -57,10 +57,6 @@ const RouteSearch::Arc* RouteSearch::arc(core::EdgeIndex from, core::EdgeIndex t
     return found == arcs.end() ? nullptr : &*found;
 }
 
-bool RouteSearch::leads_on(core::EdgeIndex from, core::EdgeIndex to) const {
-    return arc(from, to) != nullptr;
-}
-
 const std::vector<double>& RouteSearch::bounds_to(core::EdgeIndex destination) {
     const auto [entry, is_new] = bounds_.try_emplace(destination);
     std::vector<double>& bounds = entry->second;

@@ -31,7 +31,6 @@ class RouteSearch {
     /// Time along an edge at the limit of its fastest lane that is open to the driver, s; `no_way_s` where
     /// none is.
     double free_s(core::EdgeIndex edge) const { return free_s_[edge.value]; }
-    bool leads_on(core::EdgeIndex from, core::EdgeIndex to) const;
 
     /// The fastest way for somebody who leaves `from` at `leaving_s` from now: `way` gets the edges from
     /// `from` to `to`, both included. Returns when the end of `to` is reached, s from now; `no_way_s`, and an
