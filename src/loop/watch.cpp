@@ -1,5 +1,6 @@
 #include "loop/watch.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -7,6 +8,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,37 +30,47 @@ sigset_t watched_signals() {
     return set;
 }
 
-/// Resident memory of a run and of its parts in Python. These are children of another process; they have the
-/// run's number in their name (python/clearway/_host.py).
+/// Resident memory of a run, of its parts in Python and of all that these started. The parts are children of
+/// another process; they have the run's number in their name (python/clearway/_host.py).
 class RunMemory {
   public:
     explicit RunMemory(pid_t run) : run_(run) {}
 
     long kib() {
-        if (looks_++ % looks_per_search == 0) find_parts();
-        long sum = core::resident_kib(run_).value_or(0);
-        for (const std::string& part : parts_)
-            sum += core::resident_kib(std::atoi(part.c_str())).value_or(0);
+        if (looks_++ % looks_per_search == 0) find_all();
+        long sum = 0;
+        for (const pid_t process : all_)
+            sum += core::resident_kib(process).value_or(0);
         return sum;
     }
 
   private:
     static constexpr int looks_per_search = 10;  // twice a second: a search takes some ms
 
-    void find_parts() {
-        parts_.clear();
+    void find_all() {
+        all_ = {run_};
+        std::multimap<pid_t, pid_t> children;
         std::error_code none;
         for (auto entry = std::filesystem::directory_iterator("/proc", none);
              !none && entry != std::filesystem::directory_iterator(); entry.increment(none)) {
-            std::string name;
-            if (std::ifstream(entry->path() / "comm") >> name && name == fmt::format("part-{}", run_))
-                parts_.push_back(entry->path().filename().string());
+            // `PID (NAME) STATE PARENT ...`; a name may hold blanks and brackets.
+            std::string line;
+            if (!std::getline(std::ifstream(entry->path() / "stat"), line)) continue;
+            const pid_t process = std::atoi(line.c_str());
+            const std::size_t end = line.rfind(')');
+            if (end == std::string::npos || end + 4 > line.size()) continue;
+            if (line.find(fmt::format("(part-{})", run_)) != std::string::npos) all_.push_back(process);
+            children.emplace(std::atoi(line.c_str() + end + 4), process);
+        }
+        for (std::size_t parent = 0; parent < all_.size(); ++parent) {
+            for (auto [child, last] = children.equal_range(all_[parent]); child != last; ++child)
+                if (std::ranges::find(all_, child->second) == all_.end()) all_.push_back(child->second);
         }
     }
 
     pid_t run_;
     int looks_ = 0;
-    std::vector<std::string> parts_;
+    std::vector<pid_t> all_;
 };
 
 bool has_ended(pid_t child, int& status) {

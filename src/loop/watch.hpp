@@ -28,8 +28,8 @@ struct WatchedEnd {
 };
 
 /// Waits for the end of `child`, a child of this process forked just before, and kills it (SIGKILL) when it
-/// exceeds a limit; its parts in Python count towards that of memory. Needs a ChildSignals created before the
-/// fork. Throws core::EnvironmentError when there is no such child.
+/// exceeds a limit; its parts in Python and what they started count towards that of memory. Needs a
+/// ChildSignals created before the fork. Throws core::EnvironmentError when there is no such child.
 WatchedEnd watch(pid_t child, const experiment::RunLimits& limits);
 
 }  // namespace clearway::loop

@@ -52,6 +52,9 @@ class Fills(Policy):
     def act(self, belief):
         self.held = np.ones(600 * 2**20, dtype=np.uint8)
         time.sleep(1000)
+class FillsElsewhere(Policy):
+    def act(self, belief):
+        subprocess.run([sys.executable, "-c", "held = b'x' * (600 * 2**20); import time; time.sleep(30)"])
 class Orphan(Policy):
     def act(self, belief):
         with open(f"/proc/{os.getppid()}/cmdline") as parent:
@@ -351,12 +354,13 @@ class FaultTest(FolderCase):
         program("run", "intersection", "--policy", "bad.py:Orphan", "--no-solo", "--seeds", "1", "--out", "runs")
         self.assertEqual(len(clearway.open("runs").errors), 0)
 
-    def test_the_memory_of_a_part_is_that_of_its_run(self) -> None:
-        subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "bad.py:Fills", "--no-solo", "--seeds", "1",
-                        "--memory-limit", "500", "--out", "runs"], capture_output=True, check=False, timeout=100)
-        errors = clearway.open("runs").errors
-        self.assertEqual(list(errors["cause"]), ["memory"])
-        self.assertIn("500 MiB", errors["message"][0])
+    def test_the_memory_of_a_part_and_of_what_it_starts_is_that_of_its_run(self) -> None:
+        for part in ("Fills", "FillsElsewhere"):
+            subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", f"bad.py:{part}", "--no-solo", "--seeds", "1",
+                            "--memory-limit", "500", "--out", part], capture_output=True, check=False, timeout=100)
+            errors = clearway.open(part).errors
+            self.assertEqual(list(errors["cause"]), ["memory"])
+            self.assertIn("500 MiB", errors["message"][0])
 
     def test_a_part_that_does_not_answer_ends_with_the_time_limit(self) -> None:
         program("run", "intersection", "--policy", "bad.py:Sleeps", "--no-solo", "--seeds", "1", "--out", "runs", "--run-time-limit",
