@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "core/build_stamp.hpp"
@@ -44,6 +45,16 @@ std::optional<std::string> output_of(const std::string& program, const std::vect
         core::run({.program = program, .arguments = arguments, .environment = {}, .output = file.path()});
     if (!exit.ok()) return std::nullopt;
     return core::tail(file.path(), 100);
+}
+
+std::string cure_of_no_start() {
+    rlimit memory{};
+    if (::getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY)
+        return fmt::format(
+            "Its memory is limited to {} KiB, perhaps too few: raise the limit of `ulimit -v` "
+            "and give the same command again",
+            memory.rlim_cur / 1024);
+    return "Give the same command again; `clearway doctor` shows what is missing";
 }
 
 std::string sister_program(const std::string& name) {
@@ -86,9 +97,7 @@ study::Versions installed_versions() {
     const std::string program = sister_program("clearway-run");
     const auto worker = versions_from(output_of(program, {"--version"}).value_or(""));
     if (!worker)
-        throw core::EnvironmentError(fmt::format(
-            "{}: cannot be started. Give the same command again; `clearway doctor` shows what is missing",
-            program));
+        throw core::EnvironmentError(fmt::format("{}: cannot be started. {}", program, cure_of_no_start()));
     if (!is_of_this_build(*worker))
         throw core::EnvironmentError(
             fmt::format("{}: is of another build than this clearway: build {}, not {}. Defaults, models and "

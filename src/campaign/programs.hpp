@@ -15,6 +15,9 @@ std::optional<std::string> output_of(const std::string& program, const std::vect
 /// Exit code of a program that cannot be started, as a shell has it.
 inline constexpr int program_not_started = 127;
 
+/// What to do about it: names the limit that a shell sets on memory (`ulimit -v`), where there is one.
+std::string cure_of_no_start();
+
 /// Path of another of Clearway's programs, in the folder of this one.
 std::string sister_program(const std::string& name);
 

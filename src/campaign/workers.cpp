@@ -247,9 +247,8 @@ class Workers : private core::TaskList {
         const int code = end.exit.code;
         if (end.exit.signal != 0) return;
         if (code == program_not_started)
-            throw core::EnvironmentError(fmt::format(
-                "{} cannot be started. Give the same command again; `clearway doctor` shows what is missing",
-                options_.worker_program.string()));
+            throw core::EnvironmentError(fmt::format("{} cannot be started. {}",
+                                                     options_.worker_program.string(), cure_of_no_start()));
         if (code == static_cast<int>(ExitCode::environment))
             throw core::EnvironmentError(
                 fmt::format("a worker could not continue; completed runs are kept in {}\n{}",
