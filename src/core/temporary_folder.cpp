@@ -79,8 +79,9 @@ TemporaryFolder::TemporaryFolder(std::filesystem::path folder) : path_(std::move
 }
 
 TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
+    std::error_code failed;
+    std::filesystem::remove_all(path_, failed);
+    if (failed) std::filesystem::remove_all(path_, failed);  // a failure of the machine may pass
 }
 
 }  // namespace clearway::core

@@ -26,7 +26,8 @@ ERRORS = ("EIO", "ENOSPC", "EMFILE", "ENOMEM")
 LIMIT_S = 120
 # What two equal commands write differently: times, process numbers.
 CHANGING = re.compile(r"/timing\.json$|^units/|/jobs/|^logs/|^\.lock$|^report\.html$|\.pdf$|/netconvert\.log$")
-LEFT = re.compile(r"\.\d+\.part$")
+# What a killed process leaves under a name that the next one does not take, and the log of a second attempt.
+LEFT = re.compile(r"\.\d+\.part$|^logs/.*\.\d+\.log$")
 # A message ends with what to do.
 CURE = re.compile(r"(again|[Cc]hoose|[Cc]heck|Free|Set|[Ii]nstall|[Rr]emove)\b[^.:]*$|error while loading shared libraries", re.M)
 SILENCED = re.compile(r"write\(2, .*INJECTED")
@@ -151,7 +152,7 @@ class Bench:
 
 
 def files_of(folder):
-    """All but what a killed process left under a name that the next one does not take."""
+    """All but LEFT."""
     names = {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file() or path.is_symlink()}
     return {name for name in names if not LEFT.search(name)}
 
