@@ -26,6 +26,21 @@ core::Problem unknown_name(const std::string& where, const std::string& name,
             core::did_you_mean(name, known, fmt::format("`{}` describes them", listed_by))};
 }
 
+namespace {
+
+/// A part of a condition that is none; a list and a class in Python may have been meant.
+core::Problem unknown_part(const std::string& where, const std::string& name,
+                           const std::vector<std::string>& known) {
+    core::Problem problem = unknown_name(where, name, known);
+    if (name.find(',') != std::string::npos)
+        problem.cure = "Separate several with spaces; in a study file they are a list";
+    else if (name.find_first_of(":.") != std::string::npos)
+        problem.cure = "A class in Python is FILE.py:CLASS";
+    return problem;
+}
+
+}  // namespace
+
 std::vector<std::string> failure_names() {
     return core::texts_of(failures::failure_presets(), &failures::FailurePreset::name);
 }
@@ -86,7 +101,7 @@ void check_names(const std::vector<experiment::ConditionSpec>& conditions) {
     const auto check = [&](const std::string& where, const std::string& name,
                            const std::vector<std::string>& known) {
         if (!python::part_name_from(name) && std::ranges::find(known, name) == known.end()) {
-            problems.push_back(unknown_name(where, name, known));
+            problems.push_back(unknown_part(where, name, known));
         }
     };
     for (const experiment::ConditionSpec& condition : conditions) {

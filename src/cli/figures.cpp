@@ -7,7 +7,9 @@
 
 #include "campaign/programs.hpp"
 #include "cli/verb.hpp"
+#include "core/counted.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/number_range.hpp"
 #include "core/process.hpp"
 #include "core/temporary_folder.hpp"
@@ -54,7 +56,26 @@ void convert(const std::vector<std::filesystem::path>& drawings, const std::stri
     }
 }
 
+/// Of a folder of clearway equip, which is no run folder.
+core::ExitCode write_equipment(const Arguments& arguments) {
+    std::vector<std::filesystem::path> drawings;
+    core::make_folder(arguments.output);
+    for (const char* const name : {"curve.svg", "map.svg"}) {
+        const std::string drawing = core::read_file(arguments.folder / name);
+        if (drawing.empty()) continue;
+        drawings.push_back(arguments.output / name);
+        core::write_output(drawings.back(), drawing);
+    }
+    const bool all = arguments.formats == Formats::all;
+    for (const char* const format : {"pdf", "png"})
+        if (all) convert(drawings, format);
+    fmt::print(stderr, "clearway: written to {}: {} as SVG{}\n", arguments.output.string(),
+               core::counted(drawings.size(), "figure"), all ? ", PDF and PNG" : "");
+    return core::ExitCode::ok;
+}
+
 core::ExitCode write(const Arguments& arguments) {
+    if (std::filesystem::exists(arguments.folder / "equip.json")) return write_equipment(arguments);
     const bool all = arguments.formats == Formats::all;
     const report::StudyFacts facts = report::read_facts(arguments.folder, arguments.least_relevant_s);
     const report::FigureFiles files = report::write_figures(facts, arguments.output);
@@ -77,7 +98,7 @@ core::ExitCode write(const Arguments& arguments) {
 
 Action configure_figures(CLI::App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    app.add_option("folder", arguments->folder, "Run folder of run or study, complete or not")
+    app.add_option("folder", arguments->folder, "Folder of run, study or equip")
         ->required()
         ->option_text("DIR (required)");
     app.add_option("--out", arguments->output, "Folder for the files; made if it does not exist")

@@ -26,7 +26,8 @@ Action configure_init(CLI::App& app) {
         scenario::init(arguments->folder, arguments->from);
         // A bare name could be that of a scenario shipped with Clearway.
         const std::filesystem::path folder = arguments->folder;
-        const std::string scenario = folder.is_absolute() ? folder.string() : "./" + folder.string();
+        const std::string scenario =
+            folder.is_absolute() ? folder.string() : "./" + folder.lexically_normal().string();
         fmt::print("{} written, a copy of {}. Edit it, then:\n  {}\n", (folder / "scenario.toml").string(),
                    arguments->from, core::shell_text({"clearway", "run", scenario}));
         return core::ExitCode::ok;

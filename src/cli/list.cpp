@@ -154,7 +154,8 @@ core::InputError unknown_list(const std::string& word, const std::vector<Referen
     const std::string allowed = core::listed(known);
     if (word.empty()) return core::InputError({"list", "--markdown needs the name of a page", allowed, ""});
     return core::InputError({"list", fmt::format("`{}` cannot be listed alone", word), allowed,
-                             core::did_you_mean(word, known, "Say `clearway list`")});
+                             word == "metrics" ? "Did you mean 'columns'?"
+                                               : core::did_you_mean(word, known, "Say `clearway list`")});
 }
 
 void list_settings(const Arguments& arguments) {

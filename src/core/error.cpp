@@ -96,7 +96,13 @@ SimulatorError SimulatorError::with_context(const std::string& context) const {
 std::string format_problem(const Problem& problem) {
     std::string text = fmt::format("{}: {}", problem.where, problem.what);
     if (!problem.allowed.empty()) text += fmt::format(" (allowed: {})", problem.allowed);
-    if (!problem.cure.empty()) text += fmt::format(". {}", problem.cure);
+    if (problem.cure.empty()) return text;
+    text += text.back() == '?' ? " " : ". ";  // another's message may end with its own question
+    const std::string word = problem.cure.substr(0, problem.cure.find(' '));
+    const bool is_name = word == "clearway" || word.find_first_of("_.=/") != std::string::npos;
+    const std::size_t begin = text.size();
+    text += problem.cure;
+    if (!is_name) text[begin] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[begin])));
     return text;
 }
 

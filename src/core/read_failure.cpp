@@ -49,6 +49,8 @@ const char* cure_of(int reason) {
         case ENOMEM:
         case EAGAIN:
             return "The machine failed: give the same command again";
+        case ENOENT:
+            return "Make its folder first, or choose another place";
         default:
             return "Choose another place, or change its permissions";
     }

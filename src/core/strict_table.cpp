@@ -191,7 +191,8 @@ toml::table parse_toml(const std::string& text, const std::string& file) {
     } catch (const toml::parse_error& error) {
         const toml::source_position place = error.source().begin;
         throw InputError({fmt::format("{}:{}:{}", file, place.line, place.column),
-                          std::string(error.description()), "a TOML file", "Correct this line"});
+                          std::string(error.description()), "a TOML file",
+                          "Correct this line; texts stand in quotes"});
     }
 }
 

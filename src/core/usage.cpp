@@ -92,7 +92,12 @@ std::string usage_message(const CLI::App& command, const std::string& name, cons
         const std::string word = unknown.front().substr(0, unknown.front().find('='));
         std::vector<std::string> known = option_names(command);
         known.insert(known.end(), words.begin(), words.end());
-        const std::string hint = did_you_mean(word, known);
+        const bool takes_policy = std::ranges::find(known, "--policy") != known.end();
+        const std::string hint =
+            did_you_mean(word, known,
+                         takes_policy && !word.starts_with('-')
+                             ? fmt::format("Values follow their option: did you mean '--policy {}'?", word)
+                             : "");
         text = fmt::format("{}: {} is not known here{}{}", name, word, hint.empty() ? "" : ". ", hint);
     }
     return fmt::format("{}\n`{} --help` says more.\n", text, name);

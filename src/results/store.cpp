@@ -162,7 +162,10 @@ Store Store::open(const fs::path& folder) {
     const fs::path file = folder / manifest_name;
     if (!fs::exists(file))
         throw core::InputError({folder.string(), "is not a run folder: it has no manifest.json",
-                                "a folder written with --out", run_folders_in(folder)});
+                                "a folder written with --out",
+                                folder.extension() == ".toml"
+                                    ? fmt::format("clearway study {} runs a study file", folder.string())
+                                    : run_folders_in(folder)});
     return {folder, manifest_from_json(core::read_file(file), file.string())};
 }
 

@@ -420,6 +420,12 @@ StudyConfig read_study(const std::filesystem::path& file, Extent extent, std::ui
     if (!std::filesystem::exists(file))
         if (const auto own = core::shipped(file); own && std::filesystem::is_regular_file(*own))
             return read_study(*own, extent, most_runs);
+    if (std::filesystem::is_directory(file))
+        throw core::InputError(
+            {file.string(), "is a folder", "a study file (.toml)",
+             std::filesystem::exists(file / "manifest.json")
+                 ? fmt::format("clearway report {0} shows its runs; {0}/command.txt made them", file.string())
+                 : "Name a file in it"});
     TomlReading reading{file.string(), {}, {}};
     const toml::table table = core::parse_toml(core::read_file(file), reading.file);
     StrictTable root(table, "", reading);

@@ -61,6 +61,26 @@ TEST_F(BadInputTest, a_map_is_sent_to_the_import_and_a_misspelt_folder_to_its_ne
     EXPECT_THAT(clearway({"run", "./linne"}).err, HasSubstr("Did you mean './line'?"));
 }
 
+TEST_F(BadInputTest, words_at_the_wrong_place_are_sent_to_the_right_one) {
+    write_line_scenario();
+    const auto told = [&](const std::vector<std::string>& words, const std::string& text) {
+        EXPECT_THAT(clearway(words).err, HasSubstr(text));
+    };
+    told({"run", "line", "corridor"}, "Values follow their option: did you mean '--policy corridor'?");
+    told({"run", "line", "--policy", "corridor,clear_lane"}, "Separate several with spaces");
+    told({"run", "line", "--policy", "mine.Green"}, "A class in Python is FILE.py:CLASS");
+    told({"run", "line", "--policy", "baseline"},
+         "--policy: `baseline` is a condition and no policy. Say --condition baseline; a baseline is always");
+    std::filesystem::create_directory(folder() / "empty");
+    told({"list", "metrics"}, "Did you mean 'columns'?");
+    told({"scenario", "signals", "intersection", "--out", "nowhere/x.csv"}, "Make its folder first");
+    write("word.toml", "scenarios = [line]\n");
+    told({"study", "word.toml"}, "texts stand in quotes");
+    told({"study", "empty"}, "empty: is a folder (allowed: a study file (.toml)). Name a file in it");
+    write("mine.toml", "");
+    told({"report", "mine.toml"}, "clearway study mine.toml runs a study file");
+}
+
 TEST_F(BadInputTest, an_unknown_scenario_names_the_nearest) {
     const Ended ended = clearway({"run", "mergee"});
     EXPECT_EQ(ended.code, 3);

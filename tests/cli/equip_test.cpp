@@ -64,6 +64,9 @@ TEST_F(EquipTest, ranks_signals_and_continues_in_its_folder_without_new_runs) {
     EXPECT_THAT(read("out/pairs.csv"), HasSubstr("\n1,2,")) << "A and B follow each other";
     EXPECT_THAT(read("out/curve.svg"), HasSubstr("<svg"));
     EXPECT_THAT(read("out/map.svg"), HasSubstr("Two crossings: signals to equip first"));
+    EXPECT_EQ(clearway({"export", "figures", "out", "--out", "figures", "--svg-only"}).err,
+              "clearway: written to figures: 2 figures as SVG\n");
+    EXPECT_EQ(read("figures/map.svg"), read("out/map.svg"));
     EXPECT_THAT(read("out/report.html"), HasSubstr("<section id=\"equipment\">"));
     const std::string none = "out/round-01/runs/crossings/preempt_signals_none_equipped/00000/run.json";
     const auto made = std::filesystem::last_write_time(folder() / none);

@@ -8,6 +8,10 @@ namespace {
 TEST(Problem, PrintsWhereWhatAllowedAndCure) {
     EXPECT_EQ(format_problem({"city.toml:3", "-3 is negative", "0 to 100", "Use a count"}),
               "city.toml:3: -3 is negative (allowed: 0 to 100). Use a count");
+    EXPECT_EQ(format_problem({"a.py", "no B. Did you mean 'C'?", "", "correct it"}),
+              "a.py: no B. Did you mean 'C'? Correct it");
+    EXPECT_EQ(format_problem({"a", "is b", "", "a.csv has it"}), "a: is b. a.csv has it");
+    EXPECT_EQ(format_problem({"a", "is b", "", "clearway list has it"}), "a: is b. clearway list has it");
     EXPECT_EQ(format_problem({"city.toml:3", "-3 is negative", "", ""}), "city.toml:3: -3 is negative");
     EXPECT_EQ(format_problem({"--seed", "\"x\" is no number", "a number", ""}),
               "--seed: \"x\" is no number (allowed: a number)");

@@ -128,9 +128,9 @@ TEST(FailureText, RefusesPresetsThatDoNotCombine) {
 }
 
 TEST(FailureConfig, RefusesPartsOfAnErrorThatIsNotThere) {
-    EXPECT_THAT(refusal("B10,position_correlation_s=5"), HasSubstr("give position_sigma_m"));
-    EXPECT_THAT(refusal("B10,speed_correlation_s=5"), HasSubstr("give speed_sigma_mps"));
-    EXPECT_THAT(refusal("C.link,range_sigma_m=1"), HasSubstr("give detection=range"));
+    EXPECT_THAT(refusal("B10,position_correlation_s=5"), HasSubstr("Give position_sigma_m"));
+    EXPECT_THAT(refusal("B10,speed_correlation_s=5"), HasSubstr("Give speed_sigma_mps"));
+    EXPECT_THAT(refusal("C.link,range_sigma_m=1"), HasSubstr("Give detection=range"));
     EXPECT_THAT(refusal("perfect,roadside_range_m=50"), HasSubstr("drawn for each report"));
     EXPECT_THAT(refusal("perfect,onboard_range_m=50"), HasSubstr("drawn for each report"));
     EXPECT_EQ(refusal("D3,position_correlation_s=5"), "accepted");

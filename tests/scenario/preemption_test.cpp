@@ -102,7 +102,7 @@ TEST_F(PreemptionFile, with_an_exit_phase_that_is_no_green_of_the_program_is_ref
 TEST_F(PreemptionFile, with_two_rows_for_one_signal_is_refused) {
     EXPECT_THAT(refusal("A,,,,,,,,,,,\nA,,,,,,,,,,,\n"),
                 AllOf(HasSubstr("preemption.csv:3: signal: \"A\" is in line 2 already"),
-                      HasSubstr("remove one of the rows")));
+                      HasSubstr("Remove one of the rows")));
 }
 
 TEST_F(PreemptionFile, without_a_column_is_refused) {

@@ -130,7 +130,12 @@ std::vector<experiment::ConditionSpec> chosen_conditions(const ConditionWords& w
     }
     experiment::ConditionSpec own = own_condition(words, chosen);
     if (has_own_condition(own)) {
-        if (own.name.empty()) own.name = experiment::described_name(own);
+        const bool is_named = !own.name.empty();
+        if (!is_named) own.name = experiment::described_name(own);
+        if (!is_named && experiment::takes_built_in_name(own))
+            throw core::InputError({"--policy", fmt::format("`{}` is a condition and no policy", own.name),
+                                    "",
+                                    fmt::format("Say --condition {}; a baseline is always added", own.name)});
         if (experiment::takes_built_in_name(own))
             throw core::InputError(
                 {"--name", fmt::format("`{}` is a built-in condition", own.name), "", "Choose another name"});
