@@ -43,13 +43,13 @@ void measure(const char* file) {
     double tree_ms = 0.0;
     for (std::uint64_t to = 0; to < destinations; ++to) {
         const auto start = Clock::now();
-        search.search(draw(0, 0), draw(to, 1), 0.0, edge_s, way);
+        search.search({draw(0, 0), draw(to, 1)}, edge_s, way);
         tree_ms = std::max(tree_ms, ms_since(start));
     }
     std::vector<double> times_ms;
     for (std::uint64_t number = 0; number < searches; ++number) {
         const auto start = Clock::now();
-        search.search(draw(number, 0), draw(number % destinations, 1), 0.0, edge_s, way);
+        search.search({draw(number, 0), draw(number % destinations, 1)}, edge_s, way);
         times_ms.push_back(ms_since(start));
     }
     std::ranges::sort(times_ms);

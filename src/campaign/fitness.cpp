@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <sstream>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "campaign/detail/abort_cure.hpp"
+#include "campaign/detail/way_findings.hpp"
 #include "core/counted.hpp"
 #include "core/files.hpp"
 #include "core/terminal.hpp"
@@ -107,16 +109,20 @@ Finding routes_finding(const std::filesystem::path& demand) {
 Finding jams_finding(const metrics::RunMetrics& run, const RoadUse& use, const Checked& checked) {
     constexpr const char* words[] = {"fits", "too empty", "too full", "gridlock"};
     const bool is_full = use.state == TrafficState::too_full || use.state == TrafficState::gridlock;
+    const bool is_blocked = !checked.config.incidents.empty();
     return {
         "jams",
-        is_full                                ? Grade::falls_short
+        is_full && !is_blocked                 ? Grade::falls_short
+        : is_full                              ? Grade::note
         : use.state == TrafficState::too_empty ? Grade::note
                                                : Grade::ok,
         fmt::format("{}: {}, {} still on the road at {:.0f} s, {:.1f} s mean time loss, {:.1f} "
                     "vehicles per km of lane",
                     words[static_cast<std::size_t>(use.state)], core::counted(run.teleports, "teleport"),
                     run.unfinished, run.simulated_s, run.others_time_loss_s.value_or(0.0), use.per_lane_km),
-        use.state == TrafficState::fits ? "" : density_advice(checked, use.factor)};
+        use.state == TrafficState::fits ? ""
+        : is_full && is_blocked         ? "the incidents make queues: check it without them, --incident none"
+                                        : density_advice(checked, use.factor)};
 }
 
 Finding signals_finding(const roads::Network& network) {
@@ -219,15 +225,19 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
     const metrics::RunMetrics& run = record.metrics;
     const RoadUse use = road_use(run, checked.config.time, lane_km(checked.network));
     const std::string less = density_advice(checked, use.factor < 1.0 ? use.factor : 0.8);
-    return {{"loads", Grade::ok, "SUMO loads the network and the demand"},
-            insertion_finding(run, less),
-            emergency_finding(record, less),
-            routes_finding(checked.demand),
-            jams_finding(run, use, checked),
-            signals_finding(checked.network),
-            {"collisions", run.collisions > 0 ? Grade::note : Grade::ok,
-             fmt::format("{} in the baseline, {} of them at junctions", run.collisions,
-                         run.junction_collisions)}};
+    std::vector<Finding> findings = {{"loads", Grade::ok, "SUMO loads the network and the demand"},
+                                     insertion_finding(run, less),
+                                     emergency_finding(record, less),
+                                     routes_finding(checked.demand),
+                                     jams_finding(run, use, checked),
+                                     signals_finding(checked.network)};
+    std::ranges::move(detail::way_findings(checked.config, checked.network,
+                                           core::read_file(checked.demand / "emergency.csv")),
+                      std::back_inserter(findings));
+    findings.push_back({"collisions", run.collisions > 0 ? Grade::note : Grade::ok,
+                        fmt::format("{} in the baseline, {} of them at junctions", run.collisions,
+                                    run.junction_collisions)});
+    return findings;
 }
 
 Finding error_finding(const results::RunError& error, const std::filesystem::path& folder) {

@@ -10,6 +10,7 @@
 #include "core/counted.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/leftovers.hpp"
 #include "core/number_range.hpp"
 #include "core/process.hpp"
 #include "core/temporary_folder.hpp"

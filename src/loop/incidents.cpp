@@ -229,7 +229,7 @@ bool Incidents::send_round(std::size_t row, core::VehicleIndex vehicle, sumo::Se
         return is_closed(edge, row, driver) ? roads::no_way_s : search.free_s(edge);
     };
     traffic::SetRoute command{key, {}};
-    search.search(network_->lane(snapshot.lane[vehicle]).edge, route.back(), 0.0, edge_s, command.edges);
+    search.search({network_->lane(snapshot.lane[vehicle]).edge, route.back()}, edge_s, command.edges);
     if (command.edges.empty()) return false;
     const std::uint64_t refused = session.refused_commands();
     const traffic::Command sent = std::move(command);

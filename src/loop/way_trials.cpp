@@ -81,8 +81,7 @@ void WayTrials::try_ways(ClosedLoop& loop, std::uint32_t row, core::Seconds hori
     const std::size_t fork = turns_here ? at : at + 1;
     if (fork + 1 >= route.size()) return;
     const auto free = [&](core::EdgeIndex edge, double) { return search_.free_s(edge); };
-    auto ways =
-        search_.ways(route[fork], route.back(), 0.0, free, static_cast<std::size_t>(config_.ways_tried));
+    auto ways = search_.ways({route[fork], route.back()}, free, static_cast<std::size_t>(config_.ways_tried));
     if (ways.empty()) return;
     const double least_s = search_.time_of(ways.front(), 0.0, free);
     std::erase_if(ways, [&](const auto& way) {

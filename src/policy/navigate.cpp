@@ -74,7 +74,7 @@ void Navigate::plan(const detail::View& view, const traffic::BelievedVehicle& em
         if (is_known_closed(known_, edge)) return roads::no_way_s;
         return times_.at(edge, entered_s, pace);
     };
-    const double found_s = search_.search(here, route.back(), fork.leaving_s, edge_s, way_, pace);
+    const double found_s = search_.search({here, route.back(), fork.leaving_s, pace}, edge_s, way_);
     if (found_s == roads::no_way_s) return;
     const double present_s = search_.time_of(route.subspan(at), fork.leaving_s, edge_s);
     const double least_gain_s = std::max(config_.gain_s, config_.gain_share * present_s);

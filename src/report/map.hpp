@@ -35,11 +35,19 @@ struct MapStation {
     std::string name;  ///< Text from a file; may be empty.
 };
 
+/// A road that is blocked for a while.
+struct MapIncident {
+    std::string edge;
+    double from_s = 0.0;
+    double to_s = 0.0;
+};
+
 /// The roads of a scenario that emergency vehicles may drive.
 struct RoadMap {
     std::vector<MapEdge> edges;
     std::vector<MapSignal> signals;
     std::vector<MapStation> stations;
+    std::vector<MapIncident> incidents;
 
     std::optional<std::size_t> find_edge(const std::string& id) const;
 };

@@ -16,6 +16,15 @@ namespace clearway::roads {
 /// Whose permissions count.
 enum class Driver : std::uint8_t { car, emergency };
 
+/// A trip that is to be found a way for: by somebody who leaves the end of `from` at `leaving_s` from now,
+/// and drives up to `pace` times the limit.
+struct Trip {
+    core::EdgeIndex from;
+    core::EdgeIndex to;
+    double leaving_s = 0.0;
+    double pace = 1.0;  ///< At least 1.
+};
+
 /// What a search answers that found no way.
 inline constexpr double no_way_s = std::numeric_limits<double>::infinity();
 
@@ -32,14 +41,12 @@ class RouteSearch {
     /// none is.
     double free_s(core::EdgeIndex edge) const { return free_s_[edge.value]; }
 
-    /// The fastest way for somebody who leaves `from` at `leaving_s` from now: `way` gets the edges from
-    /// `from` to `to`, both included. Returns when the end of `to` is reached, s from now; `no_way_s`, and an
-    /// empty way, if it cannot be. `edge_s(edge, entered_s)` is the time along an edge that is entered then,
-    /// at least `free_s` / `pace`, `no_way_s` for a closed one. `pace` >= 1: how many times the limit is
-    /// driven.
+    /// The fastest way of a trip: `way` gets the edges from its first to its last one. Returns when the end
+    /// of the last one is reached, s from now; `no_way_s`, and an empty way, if it cannot be. `edge_s(edge,
+    /// entered_s)` is the time along an edge that is entered then, at least `free_s` / pace, `no_way_s` for a
+    /// closed one.
     template <class EdgeTime>
-    double search(core::EdgeIndex from, core::EdgeIndex to, double leaving_s, const EdgeTime& edge_s,
-                  std::vector<core::EdgeIndex>& way, double pace = 1.0);
+    double search(const Trip& trip, const EdgeTime& edge_s, std::vector<core::EdgeIndex>& way);
 
     /// When the end of a way is reached, s from now, by somebody who leaves its first edge at `leaving_s`;
     /// `no_way_s` if its edges do not follow each other.
@@ -49,9 +56,8 @@ class RouteSearch {
     /// Up to `count` different ways, the fastest first, each found where edges of those before it take
     /// `again` times as long: the penalty method (de la Barra and others 1993). `edge_s` as in `search`.
     template <class EdgeTime>
-    std::vector<std::vector<core::EdgeIndex>> ways(core::EdgeIndex from, core::EdgeIndex to, double leaving_s,
-                                                   const EdgeTime& edge_s, std::size_t count,
-                                                   double again = 1.4);
+    std::vector<std::vector<core::EdgeIndex>> ways(const Trip& trip, const EdgeTime& edge_s,
+                                                   std::size_t count, double again = 1.4);
 
   private:
     struct Arc {
@@ -88,20 +94,19 @@ class RouteSearch {
 };
 
 template <class EdgeTime>
-double RouteSearch::search(core::EdgeIndex from, core::EdgeIndex to, double leaving_s, const EdgeTime& edge_s,
-                           std::vector<core::EdgeIndex>& way, double pace) {
+double RouteSearch::search(const Trip& trip, const EdgeTime& edge_s, std::vector<core::EdgeIndex>& way) {
     way.clear();
-    const std::vector<double>& bounds = bounds_to(to);
-    if (bounds[from.value] == no_way_s) return no_way_s;
+    const std::vector<double>& bounds = bounds_to(trip.to);
+    if (bounds[trip.from.value] == no_way_s) return no_way_s;
     begin();
-    label(from).leaves_s = leaving_s;
-    push(leaving_s + bounds[from.value] / pace, from);
+    label(trip.from).leaves_s = trip.leaving_s;
+    push(trip.leaving_s + bounds[trip.from.value] / trip.pace, trip.from);
     while (!queue_.empty()) {
         const auto [at_least_s, row] = pop();
         const core::EdgeIndex edge{row};
         const double leaves_s = label(edge).leaves_s;
-        if (at_least_s > leaves_s + bounds[row] / pace) continue;  // a better one was there before
-        if (edge == to) return finish(to, way);
+        if (at_least_s > leaves_s + bounds[row] / trip.pace) continue;  // a better one was there before
+        if (edge == trip.to) return finish(trip.to, way);
         for (const Arc& arc : arcs_from(edge)) {
             if (bounds[arc.to.value] == no_way_s) continue;
             const double entered_s = leaves_s + arc.inner_s;
@@ -110,7 +115,7 @@ double RouteSearch::search(core::EdgeIndex from, core::EdgeIndex to, double leav
             if (left_s >= known.leaves_s) continue;
             known.leaves_s = left_s;
             known.before = edge;
-            push(left_s + bounds[arc.to.value] / pace, arc.to);
+            push(left_s + bounds[arc.to.value] / trip.pace, arc.to);
         }
     }
     return no_way_s;
@@ -130,8 +135,7 @@ double RouteSearch::time_of(std::span<const core::EdgeIndex> way, double leaving
 }
 
 template <class EdgeTime>
-std::vector<std::vector<core::EdgeIndex>> RouteSearch::ways(core::EdgeIndex from, core::EdgeIndex to,
-                                                            double leaving_s, const EdgeTime& edge_s,
+std::vector<std::vector<core::EdgeIndex>> RouteSearch::ways(const Trip& trip, const EdgeTime& edge_s,
                                                             std::size_t count, double again) {
     std::vector<std::vector<core::EdgeIndex>> found;
     std::map<core::EdgeIndex, double> penalty;
@@ -142,7 +146,7 @@ std::vector<std::vector<core::EdgeIndex>> RouteSearch::ways(core::EdgeIndex from
     std::vector<core::EdgeIndex> way;
     const std::size_t most_searches = 3 * count;
     for (std::size_t tries = 0; tries < most_searches && found.size() < count; ++tries) {
-        if (search(from, to, leaving_s, penalised, way) == no_way_s) break;
+        if (search(trip, penalised, way) == no_way_s) break;
         if (std::ranges::find(found, way) == found.end()) found.push_back(way);
         for (const core::EdgeIndex edge : way)
             penalty.try_emplace(edge, 1.0).first->second *= again;

@@ -11,7 +11,7 @@ import clearway
 from support import FolderCase, PROGRAMS, program
 
 FAULTS = """
-import os, sys, time
+import os, subprocess, sys, time
 import numpy as np
 from clearway import Lease, Policy
 class Raises(Policy):
@@ -54,7 +54,7 @@ class Fills(Policy):
         time.sleep(1000)
 class FillsElsewhere(Policy):
     def act(self, belief):
-        subprocess.run([sys.executable, "-c", "held = b'x' * (600 * 2**20); import time; time.sleep(30)"])
+        subprocess.run([sys.executable, "-c", "held = b'x' * (600 * 2**20); import time; time.sleep(20)"])
 class Orphan(Policy):
     def act(self, belief):
         with open(f"/proc/{os.getppid()}/cmdline") as parent:

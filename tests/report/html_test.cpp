@@ -66,6 +66,16 @@ TEST(Page, marks_locks_on_the_map_with_crosses) {
     EXPECT_THAT(page, HasSubstr("vehicles locked each other"));
 }
 
+TEST(Page, marks_blocked_roads_on_the_map) {
+    StudyFacts study = tests::study({"merge"});
+    EXPECT_THAT(page_of(study), Not(HasSubstr("road blocked for a while")));
+    report::RoadMap& roads = *study.scenarios[0].roads;
+    roads.incidents = {{roads.edges[0].id, 60.0, 900.0}, {"not-there", 0.0, 1.0}};
+    const std::string page = page_of(study);
+    EXPECT_EQ(count_of(page, "<path class=\"block\""), 2u);  // One on the map, one in its legend.
+    EXPECT_THAT(page, HasSubstr("road blocked for a while"));
+}
+
 TEST(Page, tells_all_that_is_known_of_a_paired_difference) {
     const std::string page = page_of(tests::study({"merge"}));
     EXPECT_THAT(page, HasSubstr("Statistics of the paired differences"));

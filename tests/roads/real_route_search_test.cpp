@@ -52,13 +52,9 @@ double dijkstra_s(const Network& network, const RouteSearch& search, core::EdgeI
     return leaves_s[to.value];
 }
 
-struct Pair {
-    core::EdgeIndex from, to;
-};
-
-std::vector<Pair> pairs_of(const Network& network, int count) {
+std::vector<Trip> pairs_of(const Network& network, int count) {
     const std::vector<core::EdgeIndex> edges = largest_car_component(network);
-    std::vector<Pair> pairs;
+    std::vector<Trip> pairs;
     for (std::uint32_t i = 0; static_cast<int>(pairs.size()) < count; ++i)
         pairs.push_back({edges[(i * 7901U) % edges.size()], edges[(i * 4513U + 17U) % edges.size()]});
     return pairs;
@@ -69,8 +65,8 @@ TEST(RealRouteSearch, FindsTheFastestRouteOfDijkstra) {
     RouteSearch search(network, Driver::car);
     const auto free = [&](core::EdgeIndex edge, double) { return search.free_s(edge); };
     std::vector<core::EdgeIndex> way;
-    for (const Pair& pair : pairs_of(network, 100)) {
-        const double found_s = search.search(pair.from, pair.to, 0.0, free, way);
+    for (const Trip& pair : pairs_of(network, 100)) {
+        const double found_s = search.search(pair, free, way);
         const auto oracle = fastest_route(network, pair.from, pair.to);
         ASSERT_TRUE(oracle && way.front() == pair.from && way.back() == pair.to);
         EXPECT_NEAR(found_s, search.time_of(*oracle, 0.0, free), 1e-6);
@@ -84,8 +80,8 @@ TEST(RealRouteSearch, IsExactWhereTimesChangeOnTheWay) {
     const Fading fading{search};
     std::vector<core::EdgeIndex> way;
     int changed = 0;
-    for (const Pair& pair : pairs_of(network, 100)) {
-        const double found_s = search.search(pair.from, pair.to, 0.0, fading, way);
+    for (const Trip& pair : pairs_of(network, 100)) {
+        const double found_s = search.search(pair, fading, way);
         EXPECT_NEAR(found_s, dijkstra_s(network, search, pair.from, pair.to, fading), 1e-6);
         changed += fastest_route(network, pair.from, pair.to) != way ? 1 : 0;
     }
@@ -96,15 +92,15 @@ TEST(RealRouteSearch, AllocatesNothingAfterTheFirstSearch) {
     const Network network = berlin();
     RouteSearch search(network, Driver::car);
     const Fading fading{search};
-    const std::vector<Pair> pairs = pairs_of(network, 20);
+    const std::vector<Trip> pairs = pairs_of(network, 20);
     const core::EdgeIndex to = pairs.front().to;
     std::vector<core::EdgeIndex> way;
     way.reserve(network.edges().size());
-    for (const Pair& pair : pairs)
-        search.search(pair.from, to, 0.0, fading, way);
+    for (const Trip& pair : pairs)
+        search.search({pair.from, to}, fading, way);
     const std::size_t before = support::allocation_count();
-    for (const Pair& pair : pairs)
-        search.search(pair.from, to, 0.0, fading, way);
+    for (const Trip& pair : pairs)
+        search.search({pair.from, to}, fading, way);
     EXPECT_EQ(support::allocation_count(), before);
 }
 
@@ -113,8 +109,8 @@ TEST(RealRouteSearch, WaysAreDifferentAndTheFirstIsTheFastest) {
     RouteSearch search(network, Driver::car);
     const auto free = [&](core::EdgeIndex edge, double) { return search.free_s(edge); };
     std::size_t found = 0;
-    for (const Pair& pair : pairs_of(network, 20)) {
-        auto ways = search.ways(pair.from, pair.to, 0.0, free, 8);
+    for (const Trip& pair : pairs_of(network, 20)) {
+        auto ways = search.ways(pair, free, 8);
         ASSERT_FALSE(ways.empty());
         found += ways.size();
         for (const auto& way : ways)

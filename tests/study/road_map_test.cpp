@@ -68,5 +68,14 @@ TEST_F(RoadMap, HospitalsAreTheStationsWhereThereAreNoOthers) {
               json::parse(R"([{"edge": "east", "kind": "hospital", "name": "Hospital"}])"));
 }
 
+TEST_F(RoadMap, NamesRoadsThatAreBlocked) {
+    scenario::ScenarioConfig config;
+    config.time.horizon_s = 900.0;
+    config.incidents.push_back({.edge = "east", .from_s = 60.0});
+    EXPECT_EQ(map(config).at("incidents"),
+              json::parse(R"([{"edge": "east", "from_s": 60.0, "to_s": 900.0}])"));
+    EXPECT_TRUE(map().at("incidents").empty());
+}
+
 }  // namespace
 }  // namespace clearway::study::detail

@@ -84,6 +84,20 @@ void draw_locks(MapCanvas& canvas, const RoadMap& roads, const ScenarioMap& map)
     }
 }
 
+/// A bar across the middle of the edge.
+void draw_incidents(MapCanvas& canvas, const RoadMap& roads) {
+    for (const MapIncident& one : roads.incidents) {
+        const auto edge = roads.find_edge(one.edge);
+        if (!edge || roads.edges[*edge].shape.empty()) continue;
+        const std::vector<MapPlace>& shape = roads.edges[*edge].shape;
+        canvas.edge(roads.edges[*edge], "blocked");
+        const MapPlace& a = shape[(shape.size() - 1) / 2];
+        const MapPlace& b = shape[shape.size() / 2];
+        const auto [x, y] = canvas.place({(a.first + b.first) / 2.0, (a.second + b.second) / 2.0});
+        canvas.add(fmt::format("<path class=\"block\" d=\"M{:.1f} {:.1f}h12v4h-12z\"/>\n", x - 6.0, y - 2.0));
+    }
+}
+
 DataTable data_of(const RoadMap& roads, const ScenarioMap& map,
                   const std::vector<const analysis::ApproachCost*>& losing) {
     DataTable table{{"What", "id", "passages or holds", "baseline, s", "condition, s", "gain, s"}, {}};
@@ -94,6 +108,9 @@ DataTable data_of(const RoadMap& roads, const ScenarioMap& map,
     for (const SignalHolds& one : map.holds)
         table.rows.push_back({"signal held, per run", roads.signals[one.signal].id,
                               number(one.holds, typeset(2)), "", number(one.held_s, typeset(1)), ""});
+    for (const MapIncident& one : roads.incidents)
+        table.rows.push_back({"blocked, from and to, s", one.edge, "", number(one.from_s, typeset(0)),
+                              number(one.to_s, typeset(0)), ""});
     for (const MapLocks& one : map.locks)
         table.rows.push_back({"locks, all runs", roads.edges[one.edge].id, "", grouped(one.baseline),
                               grouped(one.condition), ""});
@@ -104,7 +121,7 @@ DataTable data_of(const RoadMap& roads, const ScenarioMap& map,
     return table;
 }
 
-std::vector<LegendEntry> entries_of(const ScenarioMap& map, bool losing) {
+std::vector<LegendEntry> entries_of(const RoadMap& roads, const ScenarioMap& map, bool losing) {
     std::vector<LegendEntry> entries;
     for (const Band& band : bands) {
         const bool used = std::ranges::any_of(
@@ -115,6 +132,8 @@ std::vector<LegendEntry> entries_of(const ScenarioMap& map, bool losing) {
     if (!map.locks.empty())
         entries.push_back({"<path class=\"lock\" d=\"M17 3l6 6m0 -6l-6 6\"/>",
                            "vehicles locked each other (pale: baseline)"});
+    if (!roads.incidents.empty())
+        entries.push_back({"<path class=\"block\" d=\"M14 4h12v4h-12z\"/>", "road blocked for a while"});
     if (losing)
         entries.push_back({"<path class=\"losing\" d=\"M20 10l5 -9h-10z\"/>", "others lose time here"});
     return entries;
@@ -133,13 +152,14 @@ Figure gain_map_figure(const ScenarioFacts& scenario) {
     draw_ways(canvas, roads, map);
     draw_holds(canvas, roads, map);
     draw_locks(canvas, roads, map);
+    draw_incidents(canvas, roads);
     const std::vector<const analysis::ApproachCost*> losing = losing_approaches(condition);
     for (std::size_t row = 0; row < std::min(losing.size(), drawn_losses); ++row) {
         if (const auto edge = roads.find_edge(losing[row]->edge)) draw_loss(canvas, roads.edges[*edge]);
     }
     canvas.scale_bar();
     canvas.credit(scenario.attribution);
-    canvas.legend(entries_of(map, !losing.empty()));
+    canvas.legend(entries_of(roads, map, !losing.empty()));
     std::string note = fmt::format(
         "Seconds that an emergency vehicle gains on an edge and the junction behind it under {}: means over "
         "all passages that it shares with the baseline. Single edges have no interval; the sum over a trip "

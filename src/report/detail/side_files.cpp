@@ -59,6 +59,9 @@ RoadMap roads_from(const json& object) {
     for (const json& row : object.at("stations"))
         map.stations.push_back({row.at("edge").get<std::string>(), row.at("kind").get<std::string>(),
                                 row.at("name").get<std::string>()});
+    for (const json& row : object.value("incidents", json::array()))
+        map.incidents.push_back({row.at("edge").get<std::string>(), row.at("from_s").get<double>(),
+                                 row.at("to_s").get<double>()});
     return map;
 }
 

@@ -79,6 +79,17 @@ core::Json stations_json(const scenario::ScenarioConfig& config) {
     return stations;
 }
 
+core::Json incidents_json(const roads::Network& network, const scenario::ScenarioConfig& config) {
+    core::Json incidents = core::Json::array();
+    for (const scenario::PlacedIncident& placed : scenario::place_incidents(config, network)) {
+        const traffic::Incident& incident = placed.closed;
+        incidents.push_back({{"edge", network.edge(incident.edge).id},
+                             {"from_s", tenths(incident.from.value)},
+                             {"to_s", tenths(incident.to.value)}});
+    }
+    return incidents;
+}
+
 }  // namespace
 
 std::string road_map_json(const roads::Network& network, const scenario::ScenarioConfig& config) {
@@ -110,8 +121,10 @@ std::string road_map_json(const roads::Network& network, const scenario::Scenari
                          {"limit_mps", std::round(100.0 * lane.speed_limit_mps) / 100.0},
                          {"shape_m", std::move(shape)}});
     }
-    const core::Json map = {
-        {"edges", std::move(edges)}, {"signals", signals_json(network)}, {"stations", stations_json(config)}};
+    const core::Json map = {{"edges", std::move(edges)},
+                            {"signals", signals_json(network)},
+                            {"stations", stations_json(config)},
+                            {"incidents", incidents_json(network, config)}};
     return map.dump(-1, ' ', false, core::Json::error_handler_t::replace) + "\n";
 }
 

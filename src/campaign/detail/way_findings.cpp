@@ -1,0 +1,101 @@
+#include "campaign/detail/way_findings.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "core/counted.hpp"
+#include "roads/closure.hpp"
+#include "roads/route_search.hpp"
+
+namespace clearway::campaign::detail {
+namespace {
+
+/// The ends of a trip, and who drives it.
+struct Trip {
+    std::string id;
+    core::EdgeIndex from, to;
+};
+
+/// The id is the first column, the edges are the last one.
+std::vector<Trip> trips_of(const roads::Network& network, const std::string& csv) {
+    std::vector<Trip> trips;
+    std::istringstream lines(csv);
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+        const std::string edges = line.substr(line.rfind(',') + 1);
+        const auto from = network.find_edge(edges.substr(0, edges.find(' ')));
+        const auto to = network.find_edge(edges.substr(edges.rfind(' ') + 1));
+        if (from && to) trips.push_back({line.substr(0, line.find(',')), *from, *to});
+    }
+    return trips;
+}
+
+Finding choice_finding(roads::RouteSearch& search, const std::vector<Trip>& trips) {
+    constexpr double within = 1.2;
+    constexpr std::size_t most_ways = 8;
+    const auto free_s = [&](core::EdgeIndex edge, double) { return search.free_s(edge); };
+    std::size_t choosing = 0;
+    for (const Trip& trip : trips) {
+        const auto ways = search.ways({trip.from, trip.to}, free_s, most_ways);
+        if (ways.empty()) continue;
+        const double best_s = search.time_of(ways.front(), 0.0, free_s);
+        choosing += std::ranges::any_of(ways.begin() + 1, ways.end(), [&](const auto& way) {
+            return search.time_of(way, 0.0, free_s) <= within * best_s;
+        });
+    }
+    return {"ways", choosing > 0 ? Grade::ok : Grade::note,
+            fmt::format("{} of {} can choose: two ways or more within 20 % of the fastest at free flow",
+                        choosing, core::counted(trips.size(), "EV"))};
+}
+
+Finding incident_finding(roads::RouteSearch& search, const std::vector<Trip>& trips,
+                         const std::vector<scenario::PlacedIncident>& incidents,
+                         const roads::Network& network) {
+    std::vector<core::EdgeIndex> closed;
+    for (const scenario::PlacedIncident& incident : incidents)
+        if (roads::closes_to_emergency(network, incident.closed)) closed.push_back(incident.closed.edge);
+    const auto open_s = [&](core::EdgeIndex edge, double) {
+        return std::ranges::find(closed, edge) != closed.end() ? roads::no_way_s : search.free_s(edge);
+    };
+    std::vector<std::string> cut_off;
+    std::vector<core::EdgeIndex> way;
+    for (const Trip& trip : trips)
+        if (search.search({trip.from, trip.to}, open_s, way) == roads::no_way_s) cut_off.push_back(trip.id);
+    const std::string count = core::counted(incidents.size(), "incident");
+    if (cut_off.empty()) return {"incidents", Grade::ok, count + ", with a way round for every EV"};
+    return {"incidents", Grade::falls_short,
+            fmt::format("{}: no way round while all last for {}", count, core::listed(cut_off)),
+            "another edge, other lanes, or emergency_passes = 1; else these EVs wait until it is over"};
+}
+
+/// SUMO takes a vehicle past the jam in which it has stood for long.
+Finding teleport_finding(const scenario::ScenarioConfig& config,
+                         const std::vector<scenario::PlacedIncident>& incidents) {
+    const double patience_s = config.time.time_to_teleport_s.value_or(300.0);
+    const auto is_long = [&](const scenario::PlacedIncident& incident) {
+        return patience_s >= 0.0 && (incident.closed.to - incident.closed.from).value > patience_s;
+    };
+    if (std::ranges::none_of(incidents, is_long)) return {"teleports", Grade::ok, "none past an incident"};
+    return {"teleports", Grade::note,
+            fmt::format("SUMO takes vehicles past an incident that have stood there for {:g} s", patience_s),
+            "time.time_to_teleport_s = -1 in scenario.toml"};
+}
+
+}  // namespace
+
+std::vector<Finding> way_findings(const scenario::ScenarioConfig& config, const roads::Network& network,
+                                  const std::string& emergency_csv) {
+    const std::vector<Trip> trips = trips_of(network, emergency_csv);
+    roads::RouteSearch search(network, roads::Driver::emergency);
+    std::vector<Finding> findings = {choice_finding(search, trips)};
+    const std::vector<scenario::PlacedIncident> incidents = scenario::place_incidents(config, network);
+    if (incidents.empty()) return findings;
+    findings.push_back(incident_finding(search, trips, incidents, network));
+    findings.push_back(teleport_finding(config, incidents));
+    return findings;
+}
+
+}  // namespace clearway::campaign::detail

@@ -1,0 +1,68 @@
+#include "campaign/detail/way_findings.hpp"
+
+#include <gmock/gmock.h>
+
+#include "scenario/network.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace clearway::campaign::detail {
+namespace {
+
+using testing::HasSubstr;
+
+/// From `gate` to `goal` on `main` or a little farther on `up` and `down`; `far` can be reached by `main`
+/// alone.
+class WayFindings : public testing::Test {
+  protected:
+    std::vector<Finding> findings(const std::string& incidents) const {
+        folder_.write("way.nod.xml",
+                      "<nodes><node id=\"s\" x=\"-200\" y=\"0\"/><node id=\"a\" x=\"0\" y=\"0\"/>"
+                      "<node id=\"b\" x=\"400\" y=\"0\"/><node id=\"c\" x=\"800\" y=\"0\"/>"
+                      "<node id=\"d\" x=\"200\" y=\"60\"/><node id=\"e\" x=\"400\" y=\"-300\"/></nodes>");
+        folder_.write("way.edg.xml",
+                      "<edges><edge id=\"gate\" from=\"s\" to=\"a\" speed=\"20\"/>"
+                      "<edge id=\"main\" from=\"a\" to=\"b\" speed=\"20\"/>"
+                      "<edge id=\"up\" from=\"a\" to=\"d\" speed=\"20\"/>"
+                      "<edge id=\"down\" from=\"d\" to=\"b\" speed=\"20\"/>"
+                      "<edge id=\"goal\" from=\"b\" to=\"c\" speed=\"20\"/>"
+                      "<edge id=\"far\" from=\"a\" to=\"e\" speed=\"20\"/></edges>");
+        const auto file =
+            folder_.write("scenario.toml",
+                          "name = \"way\"\nversion = \"test\"\n[network]\nnodes = \"way.nod.xml\"\n"
+                          "edges = \"way.edg.xml\"\n[time]\nhorizon_s = 900.0\n" +
+                              incidents);
+        const scenario::ScenarioConfig config = scenario::load(file.string());
+        const scenario::BuiltNetwork built = scenario::build_network(config, folder_.path() / "net");
+        return way_findings(config, built.network,
+                            "id,type,kind,depart_s,depart_lane,depart_speed,edges\n"
+                            "one,t,ambulance,60.00,best,max,gate main goal\n"
+                            "two,t,ambulance,60.00,best,max,gate far\n");
+    }
+
+  private:
+    support::TemporaryFolder folder_;
+};
+
+TEST_F(WayFindings, count_those_who_can_choose) {
+    const auto found = findings("");
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].text,
+              "1 of 2 EVs can choose: two ways or more within 20 % of the fastest at free flow");
+}
+
+TEST_F(WayFindings, name_those_whom_an_incident_cuts_off) {
+    const auto round = findings("[[incident]]\nedge = \"main\"\nto_s = 200.0\n");
+    ASSERT_EQ(round.size(), 3U);
+    EXPECT_EQ(round[1].grade, Grade::ok);
+    EXPECT_EQ(round[2].grade, Grade::ok);
+    const auto off = findings("[[incident]]\nedge = \"far\"\n");
+    EXPECT_EQ(off[1].grade, Grade::falls_short);
+    EXPECT_EQ(off[1].text, "1 incident: no way round while all last for two");
+    // It lasts for 900 s, and SUMO waits for 300.
+    EXPECT_EQ(off[2].grade, Grade::note);
+    EXPECT_THAT(off[2].advice, HasSubstr("time_to_teleport_s = -1"));
+    EXPECT_EQ(findings("[[incident]]\nedge = \"far\"\nemergency_passes = 1\n")[1].grade, Grade::ok);
+}
+
+}  // namespace
+}  // namespace clearway::campaign::detail
