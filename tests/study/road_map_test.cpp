@@ -71,7 +71,9 @@ TEST_F(RoadMap, HospitalsAreTheStationsWhereThereAreNoOthers) {
 TEST_F(RoadMap, NamesRoadsThatAreBlocked) {
     scenario::ScenarioConfig config;
     config.time.horizon_s = 900.0;
-    config.incidents.push_back({.edge = "east", .from_s = 60.0});
+    scenario::Incident& incident = config.incidents.emplace_back();
+    incident.edge = "east";
+    incident.from_s = 60.0;
     EXPECT_EQ(map(config).at("incidents"),
               json::parse(R"([{"edge": "east", "from_s": 60.0, "to_s": 900.0}])"));
     EXPECT_TRUE(map().at("incidents").empty());
