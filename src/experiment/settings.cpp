@@ -179,10 +179,10 @@ void check_ways(const ConditionSpec& condition, const std::string& where,
     const bool has_code = std::ranges::any_of(
         parts, [](const std::string& part) { return python::part_name_from(part).has_value(); });
     if (has_code && loop_config(condition).ways_tried > 0)
-        problems.push_back({where,
-                            "loop.ways_tried=" + condition.settings.at("loop.ways_tried") +
-                                " copies runs, and a part in Python cannot be copied",
-                            "0 with parts in Python", ""});
+        problems.push_back({where + "loop.ways_tried",
+                            condition.settings.at("loop.ways_tried") +
+                                " copies of a run are to be made, and a part in Python cannot be copied",
+                            "0 with parts in Python", "Leave it out, or write the part in C++."});
 }
 
 /// A lease that is not renewed must outlive two decisions. The policies lengthen their usual lease when the

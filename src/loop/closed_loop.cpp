@@ -57,7 +57,9 @@ core::Seconds ClosedLoop::arrival_on(const traffic::SetRoute& way, core::Seconds
     trials_ = nullptr;
     if (controller_) controller_->keep_way(way.vehicle);
     session_.stop_rerouting(way.vehicle);
+    const std::uint64_t refused = session_.refused_commands();
     session_.apply(std::vector<traffic::Command>{way});
+    if (session_.refused_commands() != refused) return horizon;
     while (session_.time().value < horizon.value - core::clock_tolerance_s) {
         step();
         const auto& arrived = session_.events().arrived;

@@ -53,7 +53,8 @@ class ClosedLoop {
     /// Steps until no vehicle is left or `horizon` is reached.
     void run(core::Seconds horizon);
     /// In a forked child: the vehicle drives this way, which nothing changes any more, and all else goes on.
-    /// Returns when it has arrived, or `horizon`. Outputs go to `folder`.
+    /// Returns when it has arrived, or `horizon`, also where SUMO does not know the way. Outputs go to
+    /// `folder`.
     core::Seconds arrival_on(const traffic::SetRoute& way, core::Seconds horizon,
                              const std::filesystem::path& folder);
     /// Releases everything that the controller holds. Returns what became of its leases.

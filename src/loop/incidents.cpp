@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -110,6 +111,7 @@ void Incidents::begin(std::size_t row, sumo::Session& session) {
 }
 
 void Incidents::end(std::size_t row, sumo::Session& session) {
+    waiting_.clear();
     const traffic::Incident& incident = states_[row].placed.closed;
     states_[row].phase = Phase::over;
     const std::vector<std::string> ids = obstacles(row);
@@ -173,12 +175,20 @@ void Incidents::look_ahead(std::size_t row, core::VehicleIndex vehicle, sumo::Se
     const std::size_t next = snapshot.route_edge[vehicle] + 1;
     const float position_m = snapshot.lane_position_m[vehicle];
     if (lane.edge == incident.edge && position_m <= incident.position_m) met_.insert(key);
-    const bool sees = next < route.size() && route[next] == incident.edge && route[next - 1] == lane.edge &&
-                      lane.length_m - position_m <= crew_sight_m;
-    if (!sees) return;
+    if (next >= route.size() || route[next - 1] != lane.edge || lane.length_m - position_m > crew_sight_m)
+        return;
+    const auto ahead = route.begin() + static_cast<std::ptrdiff_t>(next);
+    const auto block = std::find(ahead, route.end(), incident.edge);
+    const auto leads_on_only = [&](core::EdgeIndex edge) { return emergency_.exits(edge) < 2; };
+    if (block == route.end() || !std::all_of(ahead, block, leads_on_only)) return;
     met_.insert(key);
-    if (cut_off_.contains(key)) return;
-    (send_round(row, vehicle, session) ? turned_ : cut_off_).insert(key);
+    if (waiting_.contains(key)) return;
+    if (send_round(row, vehicle, session)) {
+        turned_.insert(key);
+    } else {
+        cut_off_.insert(key);
+        waiting_.insert(key);
+    }
 }
 
 void Incidents::turn_others(std::size_t row, sumo::Session& session) {
@@ -228,6 +238,7 @@ bool Incidents::send_round(std::size_t row, core::VehicleIndex vehicle, sumo::Se
     const auto edge_s = [&](core::EdgeIndex edge, double) {
         return is_closed(edge, row, driver) ? roads::no_way_s : search.free_s(edge);
     };
+    if (roads::passes_its_end(std::span(route).subspan(snapshot.route_edge[vehicle]))) return false;
     traffic::SetRoute command{key, {}};
     search.search({network_->lane(snapshot.lane[vehicle]).edge, route.back()}, edge_s, command.edges);
     if (command.edges.empty()) return false;

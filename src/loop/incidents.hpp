@@ -22,8 +22,8 @@ namespace clearway::loop {
 /// - A share of the other drivers, drawn by vehicle, takes the fastest way by free flow round an incident
 ///   that is known: at the time that the scenario sets or, without one, once an automated or emergency
 ///   vehicle was within sight of it, whatever its sensor. Whom it cuts off stays.
-/// - The crew of an emergency vehicle sees a block from 100 m before the end of the edge that leads into it,
-///   and takes the fastest way by free flow round it.
+/// - The crew of an emergency vehicle sees a block from 100 m before the end of the last edge from which
+///   another way leads, and takes the fastest one by free flow.
 ///
 /// A value: a forked child continues with its copy. The network outlives it. One thread.
 class Incidents {
@@ -74,6 +74,7 @@ class Incidents {
     roads::RouteSearch cars_, emergency_;
     double others_looked_at_s_ = -1.0;
     std::set<core::VehicleKey> met_, turned_, cut_off_, rerouted_;
+    std::set<core::VehicleKey> waiting_;  ///< Those cut off who look again when an incident is over.
     std::uint32_t searches_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <exception>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -79,7 +80,7 @@ void WayTrials::try_ways(ClosedLoop& loop, std::uint32_t row, core::Seconds hori
         snapshot.speed_mps[row] * snapshot.speed_mps[row] / (2.0 * info.deceleration_mps2);
     const bool turns_here = lane.length_m - snapshot.lane_position_m[row] > braking_m + turn_room_m;
     const std::size_t fork = turns_here ? at : at + 1;
-    if (fork + 1 >= route.size()) return;
+    if (fork + 1 >= route.size() || roads::passes_its_end(std::span(route).subspan(at))) return;
     const auto free = [&](core::EdgeIndex edge, double) { return search_.free_s(edge); };
     auto ways = search_.ways({route[fork], route.back()}, free, static_cast<std::size_t>(config_.ways_tried));
     if (ways.empty()) return;
@@ -104,9 +105,12 @@ double WayTrials::arrival_s(ClosedLoop& loop, core::VehicleKey vehicle,
             fmt::format("cannot try another way: {}. {}", std::strerror(errno), core::cure_of(errno)));
     std::fflush(nullptr);
     const pid_t child = fork();
-    if (child < 0)
+    if (child < 0) {
+        ::close(ends[0]);
+        ::close(ends[1]);
         throw core::EnvironmentError(fmt::format("cannot fork to try another way: {}. {}",
                                                  std::strerror(errno), core::cure_of(errno)));
+    }
     if (child == 0) {
         prctl(PR_SET_PDEATHSIG, SIGKILL);
         be_way(loop, {vehicle, way}, horizon, folder_, ends[1]);

@@ -54,6 +54,8 @@ Navigate::Fork Navigate::fork_of(const detail::View& view, const traffic::Believ
     if (is_inside || left_m < braking_m + turn_room_m) {
         if (state.route_edge + 1 < route.size()) {
             const core::EdgeIndex next = route[state.route_edge + 1];
+            // Before a closed road a turn is tried even late: who stands at the line can still make it.
+            if (!is_inside && is_known_closed(known_, next)) return fork;
             fork.before.push_back(next);
             fork.leaving_s += times_.at(next, fork.leaving_s, pace);
         }
@@ -69,7 +71,7 @@ void Navigate::plan(const detail::View& view, const traffic::BelievedVehicle& em
     const Fork fork = fork_of(view, emergency, pace);
     const std::size_t at = emergency.state.route_edge + fork.before.size() - 1;
     const core::EdgeIndex here = fork.before.back();
-    if (at + 1 >= route.size()) return;
+    if (at + 1 >= route.size() || roads::passes_its_end(route.subspan(at))) return;
     const auto edge_s = [&](core::EdgeIndex edge, double entered_s) {
         if (is_known_closed(known_, edge)) return roads::no_way_s;
         return times_.at(edge, entered_s, pace);

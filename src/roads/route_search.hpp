@@ -25,6 +25,11 @@ struct Trip {
     double pace = 1.0;  ///< At least 1.
 };
 
+/// Whether a way passes its last edge before it ends there, so that a search to that edge would cut it short.
+inline bool passes_its_end(std::span<const core::EdgeIndex> way) {
+    return std::ranges::count(way, way.back()) > 1;
+}
+
 /// What a search answers that found no way.
 inline constexpr double no_way_s = std::numeric_limits<double>::infinity();
 
@@ -40,6 +45,8 @@ class RouteSearch {
     /// Time along an edge at the limit of its fastest lane that is open to the driver, s; `no_way_s` where
     /// none is.
     double free_s(core::EdgeIndex edge) const { return free_s_[edge.value]; }
+    /// Number of edges that the driver may turn into.
+    std::size_t exits(core::EdgeIndex edge) const { return arcs_from(edge).size(); }
 
     /// The fastest way of a trip: `way` gets the edges from its first to its last one. Returns when the end
     /// of the last one is reached, s from now; `no_way_s`, and an empty way, if it cannot be. `edge_s(edge,

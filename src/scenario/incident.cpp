@@ -89,12 +89,16 @@ class Placing {
         if (!where) return;
         const roads::Edge& edge = network_.edge(where->edge);
         if (incident.position_m) {
-            if (*incident.position_m > edge.length_m)
+            constexpr double rounding_m = 0.05;  // lengths are shown with two decimals
+            if (*incident.position_m > edge.length_m + rounding_m)
                 report("position_m",
                        fmt::format("{} is beyond the end of edge \"{}\"", *incident.position_m, edge.id),
                        fmt::format("0 to {:.2f} m", edge.length_m), "or leave it out for the middle");
-            where->position_m = static_cast<float>(*incident.position_m);
+            where->position_m = std::min(static_cast<float>(*incident.position_m), edge.length_m);
         }
+        if (incident.speed_past_kmh > 0.0 && incident.speed_past_kmh < 1.0)
+            report("speed_past_kmh", fmt::format("{} km/h is a standstill", incident.speed_past_kmh),
+                   "0 for no limit, or 1 to 400 km/h", "close the lane instead: lanes");
         traffic::Incident placed{
             .edge = where->edge,
             .lanes = lanes(incident, where->edge),

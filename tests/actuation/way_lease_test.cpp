@@ -79,6 +79,14 @@ TEST_F(WayLease, from_elsewhere_or_to_elsewhere_is_refused) {
     EXPECT_EQ(refused(Refusal::route_elsewhere), 2U);
 }
 
+TEST_F(WayLease, of_a_vehicle_that_passes_its_destination_before_it_ends_there_is_refused) {
+    bench.scene = CrossingScene(100.0, short_square());
+    const core::VehicleKey vehicle =
+        bench.add({"e", VehicleClass::emergency, {"A0B0", "B0B1", "B1A1", "A1A0", "A0B0"}, 0, 5.0, 1.0});
+    EXPECT_TRUE(ask(vehicle, edges({"A0B0"})).empty());
+    EXPECT_EQ(refused(Refusal::route_elsewhere), 1U);
+}
+
 TEST_F(WayLease, is_for_emergency_vehicles) {
     bench.scene = CrossingScene(100.0, short_square());
     const core::VehicleKey vehicle = add(VehicleClass::automated);

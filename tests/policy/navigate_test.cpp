@@ -93,6 +93,23 @@ TEST_F(Navigation, leaves_a_way_that_is_known_to_be_closed_at_once) {
               edges({"left0A0", "A0A1", "A1B1", "B1right1"}));
 }
 
+TEST_F(Navigation, leaves_a_round_alone_that_passes_its_end) {
+    scene.remove(ev);
+    ev = scene.add({"r", VehicleClass::emergency, {"A0B0", "B0B1", "B1A1", "A1A0", "A0B0"}, 0, 5.0, 8.0});
+    policy::Navigate navigate({short_square()}, {.gain_s = 0.0, .gain_share = 0.0});
+    EXPECT_TRUE(act_for(navigate, 30.0).empty());
+}
+
+TEST_F(Navigation, turns_at_the_line_where_the_next_road_is_closed) {
+    scene.belief().own_states.front().state.lane_position_m = 185.0F;
+    scene.belief().own_states.front().state.speed_mps = 0.0F;
+    policy::Navigate navigate({short_square()}, NavigateConfig{});
+    scene.belief().incidents = {{edge("A0B0"), true, 0.0F}};
+    const auto leases = act_for(navigate, 0.5);
+    ASSERT_EQ(leases.size(), 1U);
+    EXPECT_EQ(std::get<traffic::TakeRoute>(leases.front().action).edges[1], edge("A0A1"));
+}
+
 TEST_F(Navigation, does_not_hear_of_incidents_without_heeds_incidents) {
     policy::Navigate navigate({short_square()}, {.heeds_incidents = 0});
     scene.belief().incidents = {{edge("B0B1"), true, 0.0F}};

@@ -153,6 +153,12 @@ TEST_F(IncidentTest, places_that_the_network_does_not_have_are_refused) {
     EXPECT_THAT(problems[0].cure, HasSubstr("'main'"));
 }
 
+TEST_F(IncidentTest, a_limit_at_which_nobody_moves_is_refused) {
+    EXPECT_THAT(wrong("[[incident]]\nedge = \"on\"\nspeed_past_kmh = 0.5\n"),
+                ElementsAre("12:1: incident[0].speed_past_kmh 0.5 km/h is a standstill"));
+    EXPECT_THAT(placed("[[incident]]\nedge = \"on\"\nspeed_past_kmh = 1\n"), SizeIs(1));
+}
+
 TEST_F(IncidentTest, two_on_one_lane_at_a_time_are_refused) {
     const std::string first = "[[incident]]\nedge = \"main\"\nlanes = \"1\"\nfrom_s = 20.0\nto_s = 90.0\n";
     EXPECT_THAT(wrong(first + "[[incident]]\nedge = \"main\"\nfrom_s = 89.0\n"),

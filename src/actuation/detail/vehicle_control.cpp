@@ -221,9 +221,12 @@ void VehicleControl::judge_way(const VehicleContext& around, const Place& place,
     const auto& route = around.roster.route(place.info.route);
     const auto from = std::ranges::find(asked, lane.edge);
     const std::uint32_t at = around.snapshot.route_edge[place.row];
-    if (from == asked.end() || at >= route.size() || asked.back() != route.back())
+    if (from != asked.end() && at < route.size() &&
+        std::equal(from, asked.end(), route.begin() + at, route.end()))
+        return LeaseQueue::act(*held, ledger);
+    if (from == asked.end() || at >= route.size() || asked.back() != route.back() ||
+        std::count(route.begin() + at, route.end(), route.back()) > 1)
         return LeaseQueue::refuse(*held, Refusal::route_elsewhere, ledger);
-    if (std::equal(from, asked.end(), route.begin() + at, route.end())) return LeaseQueue::act(*held, ledger);
     const bool goes_on = std::next(from) != asked.end();
     const bool turns_here = goes_on && (at + 1 >= route.size() || *std::next(from) != route[at + 1]);
     if (turns_here && !can_turn(around, place.row, place.info, *std::next(from)))

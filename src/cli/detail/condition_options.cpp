@@ -9,6 +9,7 @@
 
 #include "cli/detail/common_options.hpp"
 #include "core/error.hpp"
+#include "core/number_range.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/settings.hpp"
@@ -179,7 +180,7 @@ void add_own_condition_options(CLI::App& app, DescribedCondition& described) {
     app.add_option("--rerouting", own.rerouting_s,
                    "SUMO's device.rerouting on every emergency vehicle, with this period and true times, for "
                    "comparison")
-        ->check(CLI::Range(0.0, 3600.0))
+        ->check(core::NumberRange{0.0, 3600.0})
         ->option_text("S [0: none]");
     static const std::map<std::string, experiment::TrafficModel> models = {
         {"standard", experiment::TrafficModel::standard}, {"sublane", experiment::TrafficModel::sublane}};
