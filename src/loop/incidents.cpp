@@ -17,8 +17,10 @@ namespace {
 
 using traffic::VehicleClass;
 
-/// From where a crew sees that the road ahead is blocked, m before the end of the edge that leads there.
+/// A crew decides within this distance of the end of its edge, m.
 constexpr float crew_sight_m = 100.0F;
+/// It sees a block up to this far behind the end of its edge, by the queue, m.
+constexpr float crew_outlook_m = 300.0F;
 /// Other drivers look for another way so often, s.
 constexpr double look_period_s = 1.0;
 /// Nearer to the end of an edge, m, other drivers are past the turn unless the block is next.
@@ -179,8 +181,15 @@ void Incidents::look_ahead(std::size_t row, core::VehicleIndex vehicle, sumo::Se
         return;
     const auto ahead = route.begin() + static_cast<std::ptrdiff_t>(next);
     const auto block = std::find(ahead, route.end(), incident.edge);
-    const auto leads_on_only = [&](core::EdgeIndex edge) { return emergency_.exits(edge) < 2; };
-    if (block == route.end() || !std::all_of(ahead, block, leads_on_only)) return;
+    if (block == route.end()) return;
+    float between_m = 0.0F;
+    for (auto edge = ahead; edge != block; ++edge)
+        between_m += network_->edge(*edge).length_m;
+    if (between_m > crew_outlook_m) return;
+    std::vector<core::EdgeIndex> later;
+    if (block != ahead &&
+        round_s(row, roads::Driver::emergency, {*ahead, route.back()}, later) != roads::no_way_s)
+        return;  // it can turn at a later junction
     met_.insert(key);
     if (waiting_.contains(key)) return;
     if (send_round(row, vehicle, session)) {
@@ -231,6 +240,20 @@ bool Incidents::send_round(std::size_t row, core::VehicleIndex vehicle, sumo::Se
     const bool is_emergency = snapshot.vehicle_class[vehicle] == VehicleClass::emergency;
     const roads::Driver driver = is_emergency ? roads::Driver::emergency : roads::Driver::car;
     const std::vector<core::EdgeIndex>& route = session.roster().route(session.roster().find(key)->route);
+    traffic::SetRoute command{key, {}};
+    const roads::Trip trip{network_->lane(snapshot.lane[vehicle]).edge, route.back()};
+    if (roads::passes_its_end(std::span(route).subspan(snapshot.route_edge[vehicle])) ||
+        round_s(row, driver, trip, command.edges) == roads::no_way_s)
+        return false;
+    const std::uint64_t refused = session.refused_commands();
+    const traffic::Command sent = std::move(command);
+    session.apply({&sent, 1});
+    return session.refused_commands() == refused;
+}
+
+double Incidents::round_s(std::size_t row, roads::Driver driver, const roads::Trip& trip,
+                          std::vector<core::EdgeIndex>& way) {
+    const bool is_emergency = driver == roads::Driver::emergency;
     // A search keeps a tree for each destination; other drivers have many.
     constexpr std::uint32_t most_trees = 64;
     if (!is_emergency && ++searches_ % most_trees == 0) cars_ = roads::RouteSearch(*network_, driver);
@@ -238,14 +261,7 @@ bool Incidents::send_round(std::size_t row, core::VehicleIndex vehicle, sumo::Se
     const auto edge_s = [&](core::EdgeIndex edge, double) {
         return is_closed(edge, row, driver) ? roads::no_way_s : search.free_s(edge);
     };
-    if (roads::passes_its_end(std::span(route).subspan(snapshot.route_edge[vehicle]))) return false;
-    traffic::SetRoute command{key, {}};
-    search.search({network_->lane(snapshot.lane[vehicle]).edge, route.back()}, edge_s, command.edges);
-    if (command.edges.empty()) return false;
-    const std::uint64_t refused = session.refused_commands();
-    const traffic::Command sent = std::move(command);
-    session.apply({&sent, 1});
-    return session.refused_commands() == refused;
+    return search.search(trip, edge_s, way);
 }
 
 bool Incidents::passes(State& state, core::RouteIndex route, const traffic::Roster& roster) const {

@@ -22,8 +22,9 @@ namespace clearway::loop {
 /// - A share of the other drivers, drawn by vehicle, takes the fastest way by free flow round an incident
 ///   that is known: at the time that the scenario sets or, without one, once an automated or emergency
 ///   vehicle was within sight of it, whatever its sensor. Whom it cuts off stays.
-/// - The crew of an emergency vehicle sees a block from 100 m before the end of the last edge from which
-///   another way leads, and takes the fastest one by free flow.
+/// - The crew of an emergency vehicle sees a block up to 300 m behind the end of its edge. Within 100 m of
+/// the
+///   last junction from which another way leads, it takes the fastest one by free flow.
 ///
 /// A value: a forked child continues with its copy. The network outlives it. One thread.
 class Incidents {
@@ -59,6 +60,9 @@ class Incidents {
     bool is_seen(const State& state, const truth::Snapshot& snapshot) const;
     void turn_emergency(sumo::Session& session);
     void look_ahead(std::size_t row, core::VehicleIndex vehicle, sumo::Session& session);
+    /// The fastest way by free flow from an edge to another round an incident and those that are known.
+    double round_s(std::size_t row, roads::Driver driver, const roads::Trip& trip,
+                   std::vector<core::EdgeIndex>& way);
     void turn_others(std::size_t row, sumo::Session& session);
     /// Whether a driver would take another way, and has not been asked before, at a place where it can.
     bool turns(std::size_t row, core::VehicleIndex vehicle, const sumo::Session& session);

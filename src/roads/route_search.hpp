@@ -45,8 +45,6 @@ class RouteSearch {
     /// Time along an edge at the limit of its fastest lane that is open to the driver, s; `no_way_s` where
     /// none is.
     double free_s(core::EdgeIndex edge) const { return free_s_[edge.value]; }
-    /// Number of edges that the driver may turn into.
-    std::size_t exits(core::EdgeIndex edge) const { return arcs_from(edge).size(); }
 
     /// The fastest way of a trip: `way` gets the edges from its first to its last one. Returns when the end
     /// of the last one is reached, s from now; `no_way_s`, and an empty way, if it cannot be. `edge_s(edge,

@@ -57,10 +57,7 @@ TEST_F(Search, TimesFollowTheMomentOfEntry) {
     EXPECT_DOUBLE_EQ(search_.search({edge("south"), edge("east"), 9.5}, slow_later, way_), 10.5 + 40.0);
 }
 
-TEST_F(Search, CountsExitsAndKnowsAWayThatPassesItsEnd) {
-    EXPECT_EQ(search_.exits(edge("south")), 2U);
-    EXPECT_EQ(search_.exits(edge("west")), 1U) << "lane 1 is closed to cars";
-    EXPECT_EQ(search_.exits(edge("north")), 0U);
+TEST_F(Search, KnowsAWayThatPassesItsEnd) {
     EXPECT_FALSE(passes_its_end(std::vector{edge("south"), edge("east")}));
     EXPECT_TRUE(passes_its_end(std::vector{edge("east"), edge("back"), edge("west"), edge("east")}));
 }
