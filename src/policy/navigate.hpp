@@ -61,7 +61,7 @@ struct NavigateConfig {
 /// the new one until the vehicle drives it.
 class Navigate : public ConfiguredPolicy<NavigateConfig> {
   public:
-    Navigate(const PolicyContext& context, const NavigateConfig& config = {});
+    explicit Navigate(const PolicyContext& context, const NavigateConfig& config = {});
 
     std::string_view name() const override { return "navigate"; }
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;

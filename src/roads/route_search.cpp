@@ -81,12 +81,12 @@ const std::vector<double>& RouteSearch::bounds_to(core::EdgeIndex destination) {
         const auto [rest_s, row] = queue.back();
         queue.pop_back();
         if (rest_s > bounds[row]) continue;
-        const auto arcs = std::ranges::equal_range(backward, row, {}, &Back::to);
-        for (const Back& arc : arcs) {
-            const double whole_s = rest_s + free_s_[row] + arc.inner_s;
-            if (whole_s >= bounds[arc.from]) continue;
-            bounds[arc.from] = whole_s;
-            queue.emplace_back(whole_s, arc.from);
+        for (auto arc = std::ranges::lower_bound(backward, row, {}, &Back::to);
+             arc != backward.end() && arc->to == row; ++arc) {
+            const double whole_s = rest_s + free_s_[row] + arc->inner_s;
+            if (whole_s >= bounds[arc->from]) continue;
+            bounds[arc->from] = whole_s;
+            queue.emplace_back(whole_s, arc->from);
             std::ranges::push_heap(queue, std::greater{});
         }
     }

@@ -40,7 +40,7 @@ class EdgeTimes {
         double at_s = 0.0;  ///< When they were last brought up to date.
     };
     double fading(double lasting_s) const;
-    double mean_wait_s(core::EdgeIndex edge) const;
+    double mean_wait_s(core::EdgeIndex index) const;
 
     const roads::Network& network_;
     const roads::RouteSearch& search_;
