@@ -151,7 +151,7 @@ std::string other_way(const std::string& message) {
             return "Progress goes to standard error, which 2>/dev/null hides\n";
     if (message.starts_with("clearway study: --seeds ") ||
         message.starts_with("clearway study: --replications "))
-        return "The key `replications` of the study file is the number of seeds\n";
+        return "The key `replications` of the study file is the number of seeds: replications = 30\n";
     return "";
 }
 

@@ -38,7 +38,7 @@ class StudyFolder {
         const results::Store store = results::Store::create(folder_.path(), manifest);
         const std::filesystem::path home = store.scenario_folder(config_.name);
         scenario::store(config_, home);
-        scenario::build_network(config_, home);
+        scenario::build_network(config_, home / "network");
     }
 
     results::Store store() const { return results::Store::open(folder_.path()); }
@@ -49,7 +49,7 @@ class StudyFolder {
         experiment::RunJob unit;
         unit.scenario = config_.name;
         unit.scenario_file = store().scenario_folder(config_.name) / "scenario.toml";
-        unit.network_folder = store().scenario_folder(config_.name);
+        unit.network_folder = store().scenario_folder(config_.name) / "network";
         unit.replication = replication;
         unit.traffic_model = traffic_model;
         unit.output = folder_.path();

@@ -399,7 +399,8 @@ TEST(Worker, SkipsWhatIsCompleteAndChangesNothing) {
 TEST(Worker, RecordsAFailureOfTheSimulatorWithItsLog) {
     const test::StudyFolder folder("intersection", {}, {baseline});
     // A vehicle class of newer networks: our reader skips it, SUMO 1.15 refuses the file.
-    const std::filesystem::path network = folder.store().scenario_folder("intersection") / "network.net.xml";
+    const std::filesystem::path network =
+        folder.store().scenario_folder("intersection") / "network/network.net.xml";
     std::string text = core::read_file(network);
     const std::string lane = "<lane ";
     text.replace(text.find(lane), lane.size(), "<lane disallow=\"cable_car\" ");

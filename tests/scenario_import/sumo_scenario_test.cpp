@@ -133,7 +133,7 @@ TEST_F(SumoScenario, a_missing_file_is_named_with_the_nearest_there_is) {
                                      "<configuration><net-file value='line.net.xml'/>"
                                      "<route-files value='line_cars.rou.xml'/></configuration>");
     EXPECT_THAT(refusal(request({configuration})), AllOf(HasSubstr("no file"), HasSubstr("line_cars.rou.xml"),
-                                                         HasSubstr("there is line_cars.add.xml")));
+                                                         HasSubstr("There is line_cars.add.xml")));
 }
 
 TEST_F(SumoScenario, in_place_of_a_missing_network_no_route_file_is_proposed) {
@@ -145,7 +145,7 @@ TEST_F(SumoScenario, in_place_of_a_missing_network_no_route_file_is_proposed) {
                                               "'/><route-files value='town.rou.xml'/></configuration>")}));
     };
     EXPECT_THAT(missing("town.net.xml"), Not(HasSubstr("town.rou.xml")));
-    EXPECT_THAT(missing("lime.net.xml"), HasSubstr("there is line.net.xml"));
+    EXPECT_THAT(missing("lime.net.xml"), HasSubstr("There is line.net.xml"));
 }
 
 TEST_F(SumoScenario, rails_of_several_tracks_on_which_trains_come_from_both_sides_are_parted) {

@@ -178,9 +178,9 @@ TEST_F(Recording, SaysThatAFileIsMissingOrSomethingElse) {
 TEST_F(Recording, RefusesAnotherVersion) {
     const std::filesystem::path file = record("later", 3);
     std::string bytes = core::read_file(file);
-    bytes[bytes.find("format 4") + 7] = '9';
+    bytes[bytes.find("format 5") + 7] = '9';
     core::write_atomically(file, bytes);
-    EXPECT_THAT(problem_of(file), testing::AllOf(HasSubstr("of format 9"), HasSubstr("allowed: 4")));
+    EXPECT_THAT(problem_of(file), testing::AllOf(HasSubstr("of format 9"), HasSubstr("allowed: 5")));
 }
 
 TEST_F(Recording, RefusesHdf5ThatItDidNotSeal) {
