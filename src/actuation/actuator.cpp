@@ -10,6 +10,7 @@
 #include "actuation/detail/signal_control.hpp"
 #include "actuation/detail/stop_line.hpp"
 #include "actuation/detail/vehicle_control.hpp"
+#include "roads/exits.hpp"
 
 namespace clearway::actuation {
 namespace {
@@ -21,21 +22,14 @@ constexpr double reaction_s = 0.5;
 /// Farther away than this, every vehicle can stop, m: 140 km/h and 4.5 m/s2 take 168 m.
 constexpr double farthest_stop_m = 200.0;
 
-bool leads_on(const roads::Network& network, core::EdgeIndex from, core::EdgeIndex to) {
-    const roads::Edge& edge = network.edge(from);
-    for (std::uint32_t lane = edge.first_lane; lane < edge.first_lane + edge.lane_count; ++lane) {
-        for (const roads::Connection& way : network.connections_from(core::LaneIndex{lane}))
-            if (way.allows_emergency && network.lane(way.to).edge == to) return true;
-    }
-    return false;
-}
-
 std::optional<Refusal> check_way(const roads::Network& network, const std::vector<core::EdgeIndex>& edges) {
     const bool all_exist =
         std::ranges::all_of(edges, [&](core::EdgeIndex edge) { return edge.value < network.edges().size(); });
     if (edges.empty() || !all_exist) return Refusal::no_such_edge;
-    for (std::size_t i = 0; i + 1 < edges.size(); ++i)
-        if (!leads_on(network, edges[i], edges[i + 1])) return Refusal::route_gap;
+    for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+        const auto exits = roads::exits(network, edges[i], roads::Driver::emergency);
+        if (!std::ranges::binary_search(exits, edges[i + 1])) return Refusal::route_gap;
+    }
     return std::nullopt;
 }
 

@@ -23,8 +23,6 @@ constexpr float crew_sight_m = 100.0F;
 constexpr float crew_outlook_m = 300.0F;
 /// Other drivers look for another way so often, s.
 constexpr double look_period_s = 1.0;
-/// Nearer to the end of an edge, m, other drivers are past the turn unless the block is next.
-constexpr float driver_turn_room_m = 60.0F;
 /// Draws of a driver: after the counters of drivers, one for each incident.
 constexpr std::uint64_t first_draw = 64;
 
@@ -228,7 +226,7 @@ bool Incidents::turns(std::size_t row, core::VehicleIndex vehicle, const sumo::S
     }
     const roads::Lane& lane = network_->lane(snapshot.lane[vehicle]);
     const float left_m = lane.length_m - snapshot.lane_position_m[vehicle];
-    if (lane.edge != *here || (left_m < driver_turn_room_m && block != here + 1))
+    if (lane.edge != *here || (left_m < roads::turn_room_m && block != here + 1))
         return false;  // on the next edge
     state.decided.insert(key);
     return true;

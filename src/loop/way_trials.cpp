@@ -23,8 +23,6 @@
 namespace clearway::loop {
 namespace {
 
-/// A turn needs this much room beyond the way to a stop, m.
-constexpr double turn_room_m = 60.0;
 /// Ways that are longer than the fastest by more than this, by free flow, are not tried.
 constexpr double longest_share = 2.0;
 constexpr double longest_extra_s = 60.0;
@@ -78,7 +76,7 @@ void WayTrials::try_ways(ClosedLoop& loop, std::uint32_t row, core::Seconds hori
     const roads::Lane& lane = network_.lane(snapshot.lane[row]);
     const double braking_m =
         snapshot.speed_mps[row] * snapshot.speed_mps[row] / (2.0 * info.deceleration_mps2);
-    const bool turns_here = lane.length_m - snapshot.lane_position_m[row] > braking_m + turn_room_m;
+    const bool turns_here = lane.length_m - snapshot.lane_position_m[row] > braking_m + roads::turn_room_m;
     const std::size_t fork = turns_here ? at : at + 1;
     if (fork + 1 >= route.size() || roads::passes_its_end(std::span(route).subspan(at))) return;
     const auto free = [&](core::EdgeIndex edge, double) { return search_.free_s(edge); };

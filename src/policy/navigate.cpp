@@ -8,9 +8,6 @@
 namespace clearway::policy {
 namespace {
 
-/// Room that a turn needs beyond the way to a stop, m: changes of lane at the usual speed in towns.
-constexpr double turn_room_m = 60.0;
-
 bool is_known_closed(const std::vector<traffic::KnownIncident>& incidents, core::EdgeIndex edge) {
     return std::ranges::any_of(incidents, [&](const traffic::KnownIncident& incident) {
         return incident.edge == edge && incident.closed_to_emergency;
@@ -51,7 +48,7 @@ Navigate::Fork Navigate::fork_of(const detail::View& view, const traffic::Believ
     const bool is_inside = context_.network.edge(lane.edge).internal;
     const double pace_mps = std::max(0.1, static_cast<double>(lane.speed_limit_mps) * pace);
     Fork fork{{route[state.route_edge]}, left_m / pace_mps};
-    if (is_inside || left_m < braking_m + turn_room_m) {
+    if (is_inside || left_m < braking_m + roads::turn_room_m) {
         if (state.route_edge + 1 < route.size()) {
             const core::EdgeIndex next = route[state.route_edge + 1];
             // Before a closed road a turn is tried even late: who stands at the line can still make it.
@@ -72,9 +69,15 @@ void Navigate::plan(const detail::View& view, const traffic::BelievedVehicle& em
     const std::size_t at = emergency.state.route_edge + fork.before.size() - 1;
     const core::EdgeIndex here = fork.before.back();
     if (at + 1 >= route.size() || roads::passes_its_end(route.subspan(at))) return;
+    // Past an incident that leaves a lane open, no faster than its limit.
+    const auto limited_s = [&](core::EdgeIndex edge) {
+        const auto found = std::ranges::find(known_, edge, &traffic::KnownIncident::edge);
+        const bool is_limited = found != known_.end() && found->speed_past_mps > 0.0F;
+        return is_limited ? context_.network.edge(edge).length_m / found->speed_past_mps : 0.0;
+    };
     const auto edge_s = [&](core::EdgeIndex edge, double entered_s) {
         if (is_known_closed(known_, edge)) return roads::no_way_s;
-        return times_.at(edge, entered_s, pace);
+        return std::max(times_.at(edge, entered_s, pace), limited_s(edge));
     };
     const double found_s = search_.search({here, route.back(), fork.leaving_s, pace}, edge_s, way_);
     if (found_s == roads::no_way_s) return;

@@ -1,9 +1,9 @@
 #include "python/part_process.hpp"
 
-#include <set>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "roads/exits.hpp"
 
 namespace clearway::python {
 namespace {
@@ -24,15 +24,11 @@ Json lanes_of(const roads::Network& network) {
 /// By edge, the edges that an emergency vehicle may turn into.
 Json onward_of(const roads::Network& network) {
     Json onward = Json::array();
-    for (const roads::Edge& edge : network.edges()) {
-        std::set<std::uint32_t> next;
-        for (std::uint32_t lane = edge.first_lane; lane < edge.first_lane + edge.lane_count; ++lane)
-            for (const roads::Connection& way : network.connections_from(core::LaneIndex{lane})) {
-                const core::EdgeIndex to = network.lane(way.to).edge;
-                if (!edge.internal && way.allows_emergency && !network.edge(to).internal)
-                    next.insert(to.value);
-            }
-        onward.push_back(next);
+    for (std::uint32_t row = 0; row < network.edges().size(); ++row) {
+        Json& next = onward.emplace_back(Json::array());
+        if (network.edge(core::EdgeIndex{row}).internal) continue;
+        for (const core::EdgeIndex to : roads::exits(network, core::EdgeIndex{row}, roads::Driver::emergency))
+            next.push_back(to.value);
     }
     return onward;
 }

@@ -9,12 +9,10 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "roads/exits.hpp"
 #include "roads/network.hpp"
 
 namespace clearway::roads {
-
-/// Whose permissions count.
-enum class Driver : std::uint8_t { car, emergency };
 
 /// A trip that is to be found a way for: by somebody who leaves the end of `from` at `leaving_s` from now,
 /// and drives up to `pace` times the limit.

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/number.hpp"
 #include "roads/closure.hpp"
+#include "roads/exits.hpp"
 #include "roads/geography.hpp"
 #include "roads/lane_grid.hpp"
 #include "roads/network.hpp"
@@ -264,17 +265,8 @@ class Placing {
     }
 
     std::optional<core::EdgeIndex> only_way_out(core::EdgeIndex from) const {
-        std::optional<core::EdgeIndex> only;
-        const roads::Edge& edge = network_.edge(from);
-        for (std::uint32_t number = 0; number < edge.lane_count; ++number) {
-            for (const roads::Connection& way : network_.connections_from(network_.lane_of(from, number))) {
-                if (!way.allows_emergency) continue;
-                const core::EdgeIndex next = network_.lane(way.to).edge;
-                if (only && *only != next) return std::nullopt;
-                only = next;
-            }
-        }
-        return only;
+        const auto exits = roads::exits(network_, from, roads::Driver::emergency);
+        return exits.size() == 1 ? std::optional(exits.front()) : std::nullopt;
     }
 
     const ScenarioConfig& config_;

@@ -15,7 +15,7 @@ IncidentWatch::IncidentWatch(const roads::Network& network, const std::vector<tr
 
 void IncidentWatch::observe(const truth::Snapshot& snapshot, traffic::Observation& observation) {
     observation.incidents.clear();
-    const double now_s = snapshot.time.value;
+    const double now_s = snapshot.time.value + core::clock_tolerance_s;
     for (Watched& watched : watched_) {
         const traffic::Incident& incident = watched.incident;
         if (now_s < incident.from.value || now_s >= incident.to.value) continue;

@@ -110,6 +110,16 @@ TEST_F(Navigation, turns_at_the_line_where_the_next_road_is_closed) {
     EXPECT_EQ(std::get<traffic::TakeRoute>(leases.front().action).edges[1], edge("A0A1"));
 }
 
+TEST_F(Navigation, counts_the_limit_past_an_incident_that_leaves_a_lane_open) {
+    policy::Navigate navigate({short_square()}, NavigateConfig{});
+    scene.belief().incidents = {{edge("B0B1"), false, 10.0F}};
+    EXPECT_TRUE(act_for(navigate, 2.0).empty()) << "nearly the usual limit";
+    scene.belief().incidents = {{edge("B0B1"), false, 1.0F}};
+    const auto leases = act_for(navigate, 0.5);
+    ASSERT_EQ(leases.size(), 1U);
+    EXPECT_STREQ(leases.front().reason, "another way is faster");
+}
+
 TEST_F(Navigation, does_not_hear_of_incidents_without_heeds_incidents) {
     policy::Navigate navigate({short_square()}, {.heeds_incidents = 0});
     scene.belief().incidents = {{edge("B0B1"), true, 0.0F}};

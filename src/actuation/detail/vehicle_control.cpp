@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 #include "actuation/detail/stop_line.hpp"
+#include "roads/exits.hpp"
 #include "roads/route.hpp"
+#include "roads/route_search.hpp"
 
 namespace clearway::actuation::detail {
 namespace {
@@ -45,10 +48,8 @@ bool can_turn(const VehicleContext& around, core::VehicleIndex row, const traffi
     const roads::Edge& edge = around.network.edge(own.edge);
     std::optional<std::uint32_t> fewest;
     for (std::uint32_t lane = edge.first_lane; lane < edge.first_lane + edge.lane_count; ++lane) {
-        const bool leads = std::ranges::any_of(
-            around.network.connections_from(core::LaneIndex{lane}), [&](const roads::Connection& way) {
-                return way.allows_emergency && around.network.lane(way.to).edge == next;
-            });
+        const auto exits = roads::exits(around.network, core::LaneIndex{lane}, roads::Driver::emergency);
+        const bool leads = std::ranges::binary_search(exits, next);
         const std::uint32_t number = lane - edge.first_lane;
         const std::uint32_t changes = number > own.number ? number - own.number : own.number - number;
         if (leads) fewest = std::min(fewest.value_or(changes), changes);
@@ -225,7 +226,7 @@ void VehicleControl::judge_way(const VehicleContext& around, const Place& place,
         std::equal(from, asked.end(), route.begin() + at, route.end()))
         return LeaseQueue::act(*held, ledger);
     if (from == asked.end() || at >= route.size() || asked.back() != route.back() ||
-        std::count(route.begin() + at, route.end(), route.back()) > 1)
+        roads::passes_its_end(std::span(route).subspan(at)))
         return LeaseQueue::refuse(*held, Refusal::route_elsewhere, ledger);
     const bool goes_on = std::next(from) != asked.end();
     const bool turns_here = goes_on && (at + 1 >= route.size() || *std::next(from) != route[at + 1]);
