@@ -17,6 +17,6 @@ inline constexpr double turn_room_m = 60.0;
 /// Edges outside junctions that the driver may turn into from a lane, or from any lane of an edge; each once,
 /// ascending. Allocates.
 std::vector<core::EdgeIndex> exits(const Network& network, core::LaneIndex lane, Driver driver);
-std::vector<core::EdgeIndex> exits(const Network& network, core::EdgeIndex edge, Driver driver);
+std::vector<core::EdgeIndex> exits(const Network& network, core::EdgeIndex index, Driver driver);
 
 }  // namespace clearway::roads
