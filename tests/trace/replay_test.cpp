@@ -40,7 +40,7 @@ class RecordedRun {
     ReplayResult replay(const ConditionSpec& condition) const {
         RecordingReader reader(file());
         const roads::Network network =
-            roads::Network::read(folder_.path() / "scenarios" / "intersection" / "network.net.xml");
+            roads::Network::read(folder_.path() / "scenarios/intersection/network/network.net.xml");
         return trace::replay(reader, condition, network);
     }
     ReplayResult replay() const { return replay(condition_); }
