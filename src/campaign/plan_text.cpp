@@ -105,6 +105,8 @@ std::string policy_of(const experiment::ConditionSpec& condition) {
     if (condition.bluelight == traffic::BlueLight::on) means.emplace_back("bluelight");
     if (condition.rerouting_s > 0.0)
         means.push_back(fmt::format("rerouting every {:g} s", condition.rerouting_s));
+    if (condition.dispatch != experiment::Dispatch::free_flow)
+        means.push_back(fmt::format("dispatch {}", experiment::name(condition.dispatch)));
     const bool is_checked = condition.safety_checks == traffic::SafetyChecks::on;
     const std::string settings = experiment::settings_text(condition);
     return (means.empty() ? "-" : fmt::format("{}", fmt::join(means, "+"))) +

@@ -104,7 +104,7 @@ class StrictTable {
             text_or_empty(field.name, target);
         } else if constexpr (std::is_enum_v<Member>) {
             word<Member>(field.name, target);
-        } else if constexpr (std::is_integral_v<Member>) {
+        } else if constexpr (std::is_integral_v<Member> || std::is_same_v<Member, std::optional<int>>) {
             integer(field.name, static_cast<std::int64_t>(field.minimum),
                     static_cast<std::int64_t>(field.maximum), target);
         } else {

@@ -27,6 +27,16 @@ constexpr core::Spellings<TrafficModel, 3> spellings(TrafficModel) {
 }
 using core::name;
 
+/// Which station answers a call: the nearest one in a straight line, by free flow, by the times that the
+/// condition's sensors and predictor let believe, or by the same of true vehicles.
+enum class Dispatch : std::uint8_t { free_flow, straight_line, believed, true_times };
+constexpr core::Spellings<Dispatch, 4> spellings(Dispatch) {
+    return {{{Dispatch::free_flow, "free_flow"},
+             {Dispatch::straight_line, "straight_line"},
+             {Dispatch::believed, "believed"},
+             {Dispatch::true_times, "true_times"}}};
+}
+
 /// A named combination of failure, predictor and policies, and the settings that differ from their defaults.
 struct ConditionSpec {
     std::string name;
@@ -46,10 +56,12 @@ struct ConditionSpec {
     traffic::BlueLight bluelight = traffic::BlueLight::off;
     /// Period of SUMO's rerouting device on true times, s; 0: none.
     double rerouting_s = 0.0;
+    Dispatch dispatch = Dispatch::free_flow;  ///< Where the scenario has calls.
 
     /// Whether anything is done for emergency vehicles. Otherwise the condition can be a baseline.
     bool acts() const {
-        return !policies.empty() || bluelight == traffic::BlueLight::on || rerouting_s > 0.0;
+        return !policies.empty() || bluelight == traffic::BlueLight::on || rerouting_s > 0.0 ||
+               dispatch != Dispatch::free_flow;
     }
 
     bool operator==(const ConditionSpec& other) const;  ///< Equal after `without_folders`.
@@ -67,7 +79,8 @@ struct ConditionSpec {
                   "SUMO's own checks of commanded speeds and lane changes", "on"},
             Field{"bluelight", "", &S::bluelight, 0, 0, "SUMO's device.bluelight on every EV", "off"},
             Field{"rerouting_s", "s", &S::rerouting_s, 0.0, 3600.0,
-                  "Period of SUMO's device.rerouting on every EV, which knows the true times; 0: none", "0"});
+                  "Period of SUMO's device.rerouting on every EV, which knows the true times; 0: none", "0"},
+            Field{"dispatch", "", &S::dispatch, 0, 0, "Which station answers a call", "free_flow"});
     }
 };
 

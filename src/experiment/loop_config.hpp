@@ -38,6 +38,7 @@ struct LoopConfig : LinkSettings {
     double policy_period_s = 0.5;  ///< Time between two decisions of the policy.
     int ways_tried = 0;
     double ways_every_s = 120.0;
+    int units_tried = 0;
 
     static constexpr auto fields() {
         return std::tuple_cat(
@@ -49,7 +50,11 @@ struct LoopConfig : LinkSettings {
                             "which gives the regret of the chosen one; 0: none",
                             "0: each costs the rest of a run"},
                 core::Field{"ways_every_s", "s", &LoopConfig::ways_every_s, 1.0, 86400.0,
-                            "Time between two such moments of an EV, from its departure on", "assumed"}),
+                            "Time between two such moments of an EV, from its departure on", "assumed"},
+                core::Field{"units_tried", "1", &LoopConfig::units_tried, 0, 16,
+                            "Stations, the nearest first, whose unit is driven to each call in a copy of the "
+                            "run, which gives the regret of the one that was sent; 0: none",
+                            "0: each costs the rest of a run"}),
             LinkSettings::fields_of<LoopConfig>());
     }
 };

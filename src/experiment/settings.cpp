@@ -445,6 +445,7 @@ std::string described_name(const ConditionSpec& condition) {
         condition.policies, [](const std::string& policy) { return python::short_name(policy); });
     if (condition.bluelight == traffic::BlueLight::on) words.emplace_back("bluelight");
     if (condition.rerouting_s > 0.0) words.push_back(fmt::format("rerouting_{:g}s", condition.rerouting_s));
+    if (condition.dispatch != usual.dispatch) words.emplace_back(name(condition.dispatch));
     if (words.empty()) words.emplace_back("no_policy");
     if (condition.failure != usual.failure) words.push_back(condition.failure);
     if (condition.predictor != usual.predictor) words.push_back(python::short_name(condition.predictor));

@@ -23,6 +23,7 @@ void ClosedLoop::begin(const experiment::ConditionSpec& condition, const Control
     assert(!controller_ && "one condition a run");
     controller_.emplace(condition, context);
     true_links_ = metrics::TrueLinks(context.loop.rules());
+    policy_period_ = core::Seconds(context.loop.policy_period_s);
     timing_ = {};
 }
 
@@ -43,29 +44,40 @@ void ClosedLoop::warm_up(core::Seconds end, core::Seconds step_length) {
 
 void ClosedLoop::run(core::Seconds horizon) {
     assert(std::isfinite(horizon.value));
-    while (session_.expected_vehicles() > 0 &&
+    while ((session_.expected_vehicles() > 0 || (dispatcher_ != nullptr && dispatcher_->is_waiting())) &&
            session_.time().value < horizon.value - core::clock_tolerance_s) {
         step();
+        if (dispatcher_ != nullptr) dispatcher_->step(*this, horizon);
         if (trials_ != nullptr) trials_->look(*this, horizon);
     }
 }
 
-core::Seconds ClosedLoop::arrival_on(const traffic::SetRoute& way, core::Seconds horizon,
-                                     const std::filesystem::path& folder) {
+void ClosedLoop::send(const traffic::EmergencyDeparture& departure, bool before_incident) {
+    session_.add(departure);
+    if (before_incident && incidents_) incidents_->expect(core::vehicle_key(departure.id));
+}
+
+core::Seconds ClosedLoop::arrival_after(const std::function<bool()>& change, core::VehicleKey vehicle,
+                                        core::Seconds horizon, const std::filesystem::path& folder) {
     session_.continue_in(folder);
     listener_ = nullptr;
     trials_ = nullptr;
+    if (!change()) return horizon;
+    while (session_.time().value < horizon.value - core::clock_tolerance_s) {
+        step();
+        if (dispatcher_ != nullptr) dispatcher_->step(*this, horizon);
+        const auto& arrived = session_.events().arrived;
+        if (std::ranges::find(arrived, vehicle) != arrived.end()) return session_.time();
+    }
+    return horizon;
+}
+
+bool ClosedLoop::keep_to(const traffic::SetRoute& way) {
     if (controller_) controller_->keep_way(way.vehicle);
     session_.stop_rerouting(way.vehicle);
     const std::uint64_t refused = session_.refused_commands();
     session_.apply(std::vector<traffic::Command>{way});
-    if (session_.refused_commands() != refused) return horizon;
-    while (session_.time().value < horizon.value - core::clock_tolerance_s) {
-        step();
-        const auto& arrived = session_.events().arrived;
-        if (std::ranges::find(arrived, way.vehicle) != arrived.end()) return session_.time();
-    }
-    return horizon;
+    return session_.refused_commands() == refused;
 }
 
 metrics::LeaseTotals ClosedLoop::finish() {
@@ -114,6 +126,7 @@ bool ClosedLoop::control(const truth::Snapshot& snapshot) {
     auto decided = controller_->decide(
         std::move(observed), others_read_links ? prediction::Want::links : prediction::Want::places);
     const bool has_decision = decided.has_decision();
+    if (has_decision && dispatcher_ != nullptr) dispatcher_->see(chain.belief(), policy_period_);
     if (has_decision && chain.observation().is_report) {
         true_links_.look(snapshot);
         recorder_.links(snapshot, true_links_, chain.belief());

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/units.hpp"
 #include "loop/controller.hpp"
+#include "loop/dispatcher.hpp"
 #include "loop/incidents.hpp"
 #include "loop/way_trials.hpp"
 #include "metrics/recorder.hpp"
@@ -41,6 +43,10 @@ class ClosedLoop {
     void tell(trace::StepListener* listener) { listener_ = listener; }
     /// From the next step on, `trials` look at each step of `run`; they outlive the loop, and may be null.
     void try_ways(WayTrials* trials) { trials_ = trials; }
+    /// From the next step on, calls are answered by `dispatcher`; it outlives the loop, and may be null.
+    void answer_calls(Dispatcher* dispatcher) { dispatcher_ = dispatcher; }
+    /// Adds an emergency vehicle; `before_incident`: it is called to a road that an incident closes.
+    void send(const traffic::EmergencyDeparture& departure, bool before_incident);
 
     /// From the next step on, these incidents block roads.
     void block(Incidents incidents) { incidents_.emplace(std::move(incidents)); }
@@ -50,13 +56,15 @@ class ClosedLoop {
 
     /// Steps while a step of `step_length` does not go beyond `end`.
     void warm_up(core::Seconds end, core::Seconds step_length);
-    /// Steps until no vehicle is left or `horizon` is reached.
+    /// Steps until no vehicle is left and no call to come, or `horizon` is reached.
     void run(core::Seconds horizon);
-    /// In a forked child: the vehicle drives this way, which nothing changes any more, and all else goes on.
-    /// Returns when it has arrived, or `horizon`, also where SUMO does not know the way. Outputs go to
-    /// `folder`.
-    core::Seconds arrival_on(const traffic::SetRoute& way, core::Seconds horizon,
-                             const std::filesystem::path& folder);
+    /// In a copy of the run, after `change`: when the vehicle has arrived, or `horizon`; at once where
+    /// `change` says that it cannot be done. Outputs go to `folder`.
+    core::Seconds arrival_after(const std::function<bool()>& change, core::VehicleKey vehicle,
+                                core::Seconds horizon, const std::filesystem::path& folder);
+    /// In a copy of the run: the vehicle drives this way, which nothing changes any more. Returns whether
+    /// SUMO knows the way.
+    bool keep_to(const traffic::SetRoute& way);
     /// Releases everything that the controller holds. Returns what became of its leases.
     metrics::LeaseTotals finish();
 
@@ -83,9 +91,11 @@ class ClosedLoop {
     std::optional<Controller> controller_;
     trace::StepListener* listener_ = nullptr;
     WayTrials* trials_ = nullptr;
+    Dispatcher* dispatcher_ = nullptr;
 
     metrics::TrueLinks true_links_{graph::LinkRules{}};
     std::vector<traffic::Command> commands_;
+    core::Seconds policy_period_{0.5};
     LoopTiming timing_;
 };
 

@@ -39,7 +39,8 @@ Controller::Controller(const experiment::ConditionSpec& condition, const Control
     : chain_(condition, chain),
       requests_(condition, chain),
       actuator_(context.network, actuation),
-      greens_(context.network) {
+      greens_(context.network),
+      is_read_(context.is_read) {
     const traffic::SirenConfig siren = experiment::siren_config(condition, context.siren);
     if (siren.compliance > 0.0) siren_.emplace(context.network, context.random, siren);
     const drivers::RequestConfig requests = experiment::request_config(condition);
@@ -55,7 +56,7 @@ Step<Done::observed> Controller::observe(const truth::Snapshot& snapshot, const 
 
 Step<Done::decided> Controller::decide(Step<Done::observed> step, prediction::Want want) {
     assert(step.snapshot_->time == chain_.observation().time);
-    const bool is_due = chain_.has_policy() && chain_.decision_is_due();
+    const bool is_due = (is_read_ || chain_.has_policy()) && chain_.decision_is_due();
     if (is_due) chain_.decide(want);
     return {*step.snapshot_, *step.roster_, is_due};
 }

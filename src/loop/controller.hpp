@@ -34,6 +34,7 @@ struct ControllerContext {
     std::vector<traffic::Preemption> preemption = {};  ///< By signal; empty: none is set.
     policy::GuestMaker guest = {};                     ///< See pipeline::ChainContext.
     std::vector<traffic::Incident> incidents = {};
+    bool is_read = false;  ///< Whether somebody reads the belief even where no policy acts.
 };
 
 /// How far a controller is in a step.
@@ -101,6 +102,7 @@ class Controller {
     std::optional<drivers::Listeners> listeners_;  ///< Where drivers take requests.
     std::optional<drivers::Privilege> privilege_;  ///< Where emergency vehicles have privileges.
     std::vector<traffic::SignalStatus> signals_;
+    bool is_read_;
 };
 
 /// The ids that a session of this network maps to indices.

@@ -172,6 +172,7 @@ void Incidents::look_ahead(std::size_t row, core::VehicleIndex vehicle, sumo::Se
     const core::VehicleKey key = snapshot.key[vehicle];
     const roads::Lane& lane = network_->lane(snapshot.lane[vehicle]);
     const std::vector<core::EdgeIndex>& route = session.roster().route(session.roster().find(key)->route);
+    if (route.back() == incident.edge && expected_.contains(key)) return;
     const std::size_t next = snapshot.route_edge[vehicle] + 1;
     const float position_m = snapshot.lane_position_m[vehicle];
     if (lane.edge == incident.edge && position_m <= incident.position_m) met_.insert(key);

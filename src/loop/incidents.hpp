@@ -37,6 +37,8 @@ class Incidents {
     /// Whether a vehicle on the road is on the way to a block on its edge, or at the end of the edge before:
     /// a reason to stand.
     bool holds(core::VehicleKey vehicle, const sumo::Session& session) const;
+    /// A vehicle that is called to the road that an incident closes: its crew does not turn there.
+    void expect(core::VehicleKey vehicle) { expected_.insert(vehicle); }
     metrics::IncidentCounts counts() const;
 
   private:
@@ -77,7 +79,7 @@ class Incidents {
     std::vector<State> states_;
     roads::RouteSearch cars_, emergency_;
     double others_looked_at_s_ = -1.0;
-    std::set<core::VehicleKey> met_, turned_, cut_off_, rerouted_;
+    std::set<core::VehicleKey> met_, turned_, cut_off_, rerouted_, expected_;
     std::set<core::VehicleKey> waiting_;  ///< Those cut off who look again when an incident is over.
     std::uint32_t searches_ = 0;
 };

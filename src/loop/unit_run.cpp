@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -43,6 +44,9 @@ sumo::SessionConfig session_config(const experiment::RunJob& unit, const scenari
     config.names = names_of(network);
     return config;
 }
+
+/// A condition begins this long before a call, so that it has seen the traffic, s.
+constexpr double before_call_s = 120.0;
 
 /// A run job with only the simulation set.
 experiment::RunJob plain_job(const experiment::Simulation& simulation) {
@@ -96,8 +100,10 @@ core::Seconds UnitRun::first_emergency() const {
     if (prepared_.emergency.empty()) return core::Seconds(prepared_.time.warm_up_s);
     double first_s = prepared_.time.horizon_s;
     for (const traffic::EmergencyDeparture& departure : prepared_.emergency) {
-        first_s = std::min(first_s, departure.depart.value);
+        if (!departure.call) first_s = std::min(first_s, departure.depart.value);
     }
+    for (const scenario::PlacedCall& call : prepared_.calls.calls)
+        first_s = std::min(first_s, std::max(prepared_.time.warm_up_s, call.at.value - before_call_s));
     return core::Seconds(first_s);
 }
 
@@ -138,6 +144,7 @@ results::RunRecord UnitRun::finish_here(const experiment::ConditionSpec& conditi
         end.planned = metrics::read_planned(files, prepared_.emergency);
     }
     end.incidents = loop_.incident_counts();
+    if (dispatcher_) end.dispatch = dispatcher_->result(horizon());
     end.time = session_->time();
     end.horizon = core::Seconds(prepared_.time.horizon_s);
     session_->close();
@@ -170,6 +177,7 @@ void UnitRun::record(const experiment::ConditionSpec& condition, trace::StepList
 
 void UnitRun::start_together(const experiment::ConditionSpec& condition, trace::StepListener* listener) {
     add_emergency_vehicles(condition);
+    answer_calls(condition);
     const ControllerContext context{
         .network = network_.network,
         .random = random(),
@@ -180,7 +188,8 @@ void UnitRun::start_together(const experiment::ConditionSpec& condition, trace::
         .has_pedestrians = config_.has_pedestrians(),
         .preemption = network_.preemption,
         .guest = guest_,
-        .incidents = incidents()};
+        .incidents = incidents(),
+        .is_read = dispatcher_ && dispatcher_->reads_belief()};
     start_condition(loop_, recorder_, condition,
                     {.context = context, .layout = layout(), .horizon = horizon(), .listener = listener});
 }
@@ -206,11 +215,24 @@ ClosedLoop& UnitRun::start(const experiment::ConditionSpec& condition) {
 }
 
 void UnitRun::add_emergency_vehicles(const experiment::ConditionSpec& condition) {
-    for (traffic::EmergencyDeparture departure : prepared_.emergency) {
+    for (traffic::EmergencyDeparture& departure : prepared_.emergency) {
         departure.bluelight = condition.bluelight;
         departure.rerouting_s = condition.rerouting_s;
-        session_->add(departure);
+        if (!departure.call) session_->add(departure);
     }
+}
+
+void UnitRun::answer_calls(const experiment::ConditionSpec& condition) {
+    if (prepared_.calls.calls.empty()) return;
+    DispatchOrders orders{.by = condition.dispatch,
+                          .calls = prepared_.calls,
+                          .incidents = prepared_.incidents,
+                          .units_tried = experiment::loop_config(condition).units_tried,
+                          .folder = session_->trip_file().parent_path() / "unit"};
+    std::ranges::copy_if(prepared_.emergency, std::back_inserter(orders.vehicles),
+                         [](const traffic::EmergencyDeparture& each) { return each.call.has_value(); });
+    dispatcher_.emplace(network_.network, std::move(orders));
+    loop_.answer_calls(&*dispatcher_);
 }
 
 metrics::RoadLayout UnitRun::layout() const {

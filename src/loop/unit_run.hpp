@@ -62,6 +62,8 @@ class UnitRun {
     std::vector<traffic::Incident> incidents() const;
     void warm_up();
     void add_emergency_vehicles(const experiment::ConditionSpec& condition);
+    /// From the next step on, if the scenario has calls.
+    void answer_calls(const experiment::ConditionSpec& condition);
     metrics::RoadLayout layout() const;
     /// Each emergency vehicle alone, one after the other, with every signal open.
     void run_alone(trace::StepListener* audience);
@@ -84,6 +86,7 @@ class UnitRun {
     metrics::Recorder recorder_;
     ClosedLoop loop_;
     policy::GuestMaker guest_;
+    std::optional<Dispatcher> dispatcher_;
 };
 
 }  // namespace clearway::loop

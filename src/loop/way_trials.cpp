@@ -1,24 +1,12 @@
 #include "loop/way_trials.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <csignal>
-#include <cstdio>
-#include <cstring>
-#include <exception>
 #include <limits>
 #include <span>
 #include <utility>
 
-#include <fmt/format.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include "core/error.hpp"
-#include "core/files.hpp"
-#include "core/read_failure.hpp"
 #include "loop/closed_loop.hpp"
+#include "loop/copy_of_run.hpp"
 
 namespace clearway::loop {
 namespace {
@@ -26,22 +14,6 @@ namespace {
 /// Ways that are longer than the fastest by more than this, by free flow, are not tried.
 constexpr double longest_share = 2.0;
 constexpr double longest_extra_s = 60.0;
-
-/// Everything of a child but its number. Never returns, because objects of the parent must not be destroyed
-/// twice.
-[[noreturn]] void be_way(ClosedLoop& loop, const traffic::SetRoute& way, core::Seconds horizon,
-                         const std::filesystem::path& folder, int answer) {
-    double arrival_s = std::numeric_limits<double>::quiet_NaN();
-    try {
-        core::make_folder(folder);
-        arrival_s = loop.arrival_on(way, horizon, folder).value;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "another way: {}\n", error.what());
-    }
-    std::fflush(nullptr);
-    const ssize_t written = ::write(answer, &arrival_s, sizeof arrival_s);
-    _exit(written == sizeof arrival_s ? 0 : 1);
-}
 
 }  // namespace
 
@@ -97,37 +69,12 @@ void WayTrials::try_ways(ClosedLoop& loop, std::uint32_t row, core::Seconds hori
 
 double WayTrials::arrival_s(ClosedLoop& loop, core::VehicleKey vehicle,
                             const std::vector<core::EdgeIndex>& way, core::Seconds horizon) {
-    int ends[2];
-    if (pipe(ends) != 0)
-        throw core::EnvironmentError(
-            fmt::format("cannot try another way: {}. {}", std::strerror(errno), core::cure_of(errno)));
-    std::fflush(nullptr);
-    const pid_t child = fork();
-    if (child < 0) {
-        ::close(ends[0]);
-        ::close(ends[1]);
-        throw core::EnvironmentError(fmt::format("cannot fork to try another way: {}. {}",
-                                                 std::strerror(errno), core::cure_of(errno)));
-    }
-    if (child == 0) {
-        prctl(PR_SET_PDEATHSIG, SIGKILL);
-        be_way(loop, {vehicle, way}, horizon, folder_, ends[1]);
-    }
-    ::close(ends[1]);
-    double arrival_s = std::numeric_limits<double>::quiet_NaN();
-    ssize_t got = 0;
-    do {
-        got = ::read(ends[0], &arrival_s, sizeof arrival_s);
-    } while (got < 0 && errno == EINTR);
-    ::close(ends[0]);
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-    if (got != sizeof arrival_s || !(arrival_s == arrival_s))
-        throw core::SimulatorError("a copy of the run that tried another way did not come to its end");
-    return arrival_s;
+    return in_copy(folder_,
+                   [&] {
+                       const auto change = [&] { return loop.keep_to({vehicle, way}); };
+                       return loop.arrival_after(change, vehicle, horizon, folder_);
+                   })
+        .value;
 }
 
 metrics::WayChoices WayTrials::result(core::Seconds horizon) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/units.hpp"
+#include "metrics/dispatch_counts.hpp"
 #include "metrics/road_layout.hpp"
 #include "metrics/run_metrics.hpp"
 #include "metrics/true_links.hpp"
@@ -68,6 +69,7 @@ struct RunEnd {
     core::Seconds horizon;
     LeaseTotals leases;
     IncidentCounts incidents = {};
+    DispatchCounts dispatch = {};
 };
 
 /// Turns a run into numbers. Call `step` for every simulation step, warm-up included; after a fork the copy

@@ -124,6 +124,12 @@ struct RunMetrics {
     std::uint64_t ways_tried = 0;
     std::optional<double> way_regret_s;
 
+    std::uint64_t units_sent = 0;
+    std::uint64_t units_missing = 0;
+    std::uint64_t unit_decisions = 0;
+    std::optional<double> wrong_unit_share;
+    std::optional<double> unit_regret_s;
+
     std::uint64_t emergency_met_incident = 0;
     std::uint64_t emergency_turned_round = 0;
     std::uint64_t emergency_cut_off = 0;
@@ -353,6 +359,22 @@ struct RunMetrics {
             Field{"incident_delay_s", "s", &M::incident_delay_s, 0.0, 1e9,
                   "Longest time from an incident's start until all its lanes were blocked", from});
     }
+    static constexpr auto call_fields() {
+        using M = RunMetrics;
+        using core::Field;
+        constexpr const char* from = "copies of the run, setting loop.units_tried";
+        return std::make_tuple(
+            Field{"units_sent", "1", &M::units_sent, 0.0, 1e9, "EVs that calls sent out",
+                  "calls of the scenario"},
+            Field{"units_missing", "1", &M::units_missing, 0.0, 1e9,
+                  "EVs called for that no station could send", "calls of the scenario"},
+            Field{"unit_decisions", "1", &M::unit_decisions, 0.0, 1e9,
+                  "EVs sent while units of other stations were driven there in copies of the run", from},
+            Field{"wrong_unit_share", "1", &M::wrong_unit_share, 0.0, 1.0,
+                  "Share of these: another unit would have been there more than 1 s earlier", from},
+            Field{"unit_regret_s", "s", &M::unit_regret_s, 0.0, 1e9,
+                  "Time lost against the first of the units, mean of these", from});
+    }
     static constexpr auto request_fields() {
         using M = RunMetrics;
         using core::Field;
@@ -445,8 +467,8 @@ struct RunMetrics {
   public:
     static constexpr auto fields() {
         return std::tuple_cat(travel_fields(), safety_fields(), signal_fields(), pedestrian_fields(),
-                              decision_fields(), incident_fields(), request_fields(), answer_fields(),
-                              link_fields());
+                              decision_fields(), incident_fields(), call_fields(), request_fields(),
+                              answer_fields(), link_fields());
     }
 };
 

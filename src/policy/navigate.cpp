@@ -76,7 +76,8 @@ void Navigate::plan(const detail::View& view, const traffic::BelievedVehicle& em
         return is_limited ? context_.network.edge(edge).length_m / found->speed_past_mps : 0.0;
     };
     const auto edge_s = [&](core::EdgeIndex edge, double entered_s) {
-        if (is_known_closed(known_, edge)) return roads::no_way_s;
+        // Who is called to a closed road goes there.
+        if (edge != route.back() && is_known_closed(known_, edge)) return roads::no_way_s;
         return std::max(times_.at(edge, entered_s, pace), limited_s(edge));
     };
     const double found_s = search_.search({here, route.back(), fork.leaving_s, pace}, edge_s, way_);

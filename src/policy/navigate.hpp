@@ -7,8 +7,8 @@
 
 #include "core/fields.hpp"
 #include "policy/configured_policy.hpp"
-#include "policy/detail/edge_times.hpp"
 #include "policy/detail/view.hpp"
+#include "policy/edge_times.hpp"
 #include "roads/route_search.hpp"
 
 namespace clearway::policy {
@@ -77,7 +77,7 @@ class Navigate : public ConfiguredPolicy<NavigateConfig> {
               detail::LeaseWriter& write);
 
     roads::RouteSearch search_;
-    detail::EdgeTimes times_;
+    EdgeTimes times_;
     std::vector<traffic::KnownIncident> known_;      ///< At the last decision.
     std::map<core::VehicleKey, double> planned_at_;  ///< s, by emergency vehicle.
     std::vector<core::EdgeIndex> way_;               ///< Reused.

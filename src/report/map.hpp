@@ -42,12 +42,20 @@ struct MapIncident {
     double to_s = 0.0;
 };
 
+/// A place to which emergency vehicles are called.
+struct MapCall {
+    std::string edge;
+    double at_s = 0.0;
+    std::uint64_t units = 0;
+};
+
 /// The roads of a scenario that emergency vehicles may drive.
 struct RoadMap {
     std::vector<MapEdge> edges;
     std::vector<MapSignal> signals;
     std::vector<MapStation> stations;
     std::vector<MapIncident> incidents;
+    std::vector<MapCall> calls;
 
     std::optional<std::size_t> find_edge(const std::string& id) const;
 };

@@ -209,6 +209,13 @@ std::string locks_of(const ScenarioFacts& scenario, const ConditionFacts& condit
     return words;
 }
 
+/// `2 EVs cut off by an incident; `, or empty.
+std::string cut_off_of(const ConditionFacts& condition) {
+    const double cut_off = condition.total("emergency_cut_off");
+    if (cut_off == 0.0) return {};
+    return counted(static_cast<std::uint64_t>(cut_off), "EV") + " cut off by an incident; ";
+}
+
 }  // namespace
 
 Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
@@ -219,7 +226,7 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     if (condition.missing_runs > 0)
         absent += fmt::format("{} of {} are missing; ", condition.missing_runs, counted(all, "run"));
     Verdict words = lead(scenario, condition, script);
-    words.finding = absent + words.finding;
+    words.finding = absent + cut_off_of(condition) + words.finding;
     std::string& text = words.figures;
     text.insert(0, locks_of(scenario, condition, script));
     const std::string others = analysis::other_objections(condition.objections);

@@ -10,6 +10,7 @@
 
 #include "core/fields.hpp"
 #include "core/spellings.hpp"
+#include "scenario/call.hpp"
 #include "scenario/incident.hpp"
 #include "scenario/pedestrians.hpp"
 #include "scenario/road_condition.hpp"
@@ -357,6 +358,10 @@ struct EmergencySite {
     SiteKind kind = SiteKind::hospital;
     std::string edge;
     std::string name;
+    std::optional<int> units;
+
+    /// Vehicles that calls can send from here.
+    int ready() const { return units.value_or(kind == SiteKind::hospital ? 0 : 1); }
 
     static constexpr auto fields() {
         using S = EmergencySite;
@@ -364,7 +369,9 @@ struct EmergencySite {
             core::Field{"kind", "", &S::kind, 0, 0, "hospital, ambulance_station or fire_station.",
                         "scenario"},
             core::Field{"edge", "", &S::edge, 0, 0, "Edge at which it lies.", "scenario"},
-            core::Field{"name", "", &S::name, 0, 0, "Its name on the map; text from a file.", "none"});
+            core::Field{"name", "", &S::name, 0, 0, "Its name on the map; text from a file.", "none"},
+            core::Field{"units", "1", &S::units, 0, 1000,
+                        "Vehicles that wait here for calls; each goes once.", "stations 1, hospitals 0"});
     }
 };
 
@@ -503,6 +510,7 @@ struct ScenarioConfig {
     std::vector<EmergencyTrip> emergency_trips;
     std::vector<EmergencySite> emergency_sites;
     std::vector<Incident> incidents;
+    std::vector<Call> calls;
     std::optional<Measured> measured;
 
     std::filesystem::path folder;  ///< Relative paths start here. Not part of the configuration.

@@ -25,7 +25,7 @@ std::string value_text(const Member& value) {
         return detail::quoted(value);
     } else if constexpr (std::is_enum_v<Member>) {
         return detail::quoted(std::string(core::name(value)));
-    } else if constexpr (std::is_same_v<Member, std::optional<double>>) {
+    } else if constexpr (core::OptionalMember<Member>::value) {
         return fmt::format("{}", *value);
     } else {
         return fmt::format("{}", value);
@@ -37,7 +37,7 @@ std::string value_text(const Member& value) {
 template <class Member>
 bool is_absent(const Member& value) {
     if constexpr (std::is_same_v<Member, std::string>) return value.empty();
-    if constexpr (std::is_same_v<Member, std::optional<double>>) return !value.has_value();
+    if constexpr (core::OptionalMember<Member>::value) return !value.has_value();
     if constexpr (std::is_same_v<Member, TripEnds>) return value == TripEnds::connected;
     return false;
 }

@@ -11,11 +11,10 @@
 #include "core/number.hpp"
 #include "roads/closure.hpp"
 #include "roads/exits.hpp"
-#include "roads/geography.hpp"
-#include "roads/lane_grid.hpp"
 #include "roads/network.hpp"
 #include "scenario/config.hpp"
 #include "scenario/detail/checks.hpp"
+#include "scenario/detail/road_place.hpp"
 
 namespace clearway::scenario {
 namespace {
@@ -23,9 +22,7 @@ namespace {
 using Problems = std::vector<core::Problem>;
 
 std::string place(const ScenarioConfig& config, std::size_t row, const std::string& key) {
-    const std::string table = fmt::format("incident[{}]", row);
-    const auto found = config.origins.find(table + "." + key);
-    return found == config.origins.end() ? config.where(table) + "." + key : found->second;
+    return detail::place_of_key(config, fmt::format("incident[{}]", row), key);
 }
 
 double end_s(const ScenarioConfig& config, const Incident& incident) {
@@ -74,36 +71,29 @@ class Placing {
     }
 
   private:
-    struct Where {
-        core::EdgeIndex edge;
-        float position_m = 0.0F;
-    };
-
     void report(const std::string& key, std::string what, std::string allowed, std::string cure) {
         problems_.push_back(
             {place(config_, row_, key), std::move(what), std::move(allowed), std::move(cure)});
     }
 
     void put(const Incident& incident) {
-        std::optional<Where> where =
-            incident.edge.empty() ? at_coordinates(incident) : on_edge(incident.edge);
+        const std::optional<detail::RoadPlace> where =
+            incident.edge.empty()
+                ? detail::at_coordinates(network_, *incident.longitude, *incident.latitude,
+                                         place(config_, row_, "longitude"), problems_)
+                : detail::on_edge(network_, incident.edge, place(config_, row_, "edge"), problems_);
         if (!where) return;
-        const roads::Edge& edge = network_.edge(where->edge);
-        if (incident.position_m) {
-            constexpr double rounding_m = 0.05;  // lengths are shown with two decimals
-            if (*incident.position_m > edge.length_m + rounding_m)
-                report("position_m",
-                       fmt::format("{} is beyond the end of edge \"{}\"", *incident.position_m, edge.id),
-                       fmt::format("0 to {:.2f} m", edge.length_m), "or leave it out for the middle");
-            where->position_m = std::min(static_cast<float>(*incident.position_m), edge.length_m);
-        }
+        detail::RoadPlace at = *where;
+        if (incident.position_m)
+            detail::move_to(network_, *incident.position_m, place(config_, row_, "position_m"), at,
+                            problems_);
         if (incident.speed_past_kmh > 0.0 && incident.speed_past_kmh < 1.0)
             report("speed_past_kmh", fmt::format("{} km/h is a standstill", incident.speed_past_kmh),
                    "0 for no limit, or 1 to 400 km/h", "close the lane instead: lanes");
         traffic::Incident placed{
-            .edge = where->edge,
-            .lanes = lanes(incident, where->edge),
-            .position_m = where->position_m,
+            .edge = at.edge,
+            .lanes = lanes(incident, at.edge),
+            .position_m = at.position_m,
             .from = core::Seconds(incident.from_s),
             .to = core::Seconds(end_s(config_, incident)),
             .known_after = {},
@@ -113,49 +103,6 @@ class Placing {
         if (placed.lanes.empty()) return;
         placed_.push_back({std::move(placed), incident.reroute_share});
         rows_.push_back(row_);
-    }
-
-    std::optional<Where> on_edge(const std::string& id) {
-        const auto found = network_.find_edge(id);
-        if (!found || network_.edge(*found).internal) {
-            std::vector<std::string> known;
-            for (const roads::Edge& edge : network_.edges())
-                if (!edge.internal) known.push_back(edge.id);
-            report("edge", fmt::format("the network has no edge \"{}\"", id),
-                   "id of an edge outside junctions",
-                   core::did_you_mean(id, known, "give longitude and latitude instead"));
-            return std::nullopt;
-        }
-        return Where{*found, network_.edge(*found).length_m / 2.0F};
-    }
-
-    std::optional<Where> at_coordinates(const Incident& incident) {
-        const auto geography = roads::Geography::of(network_.location());
-        if (!geography) {
-            report("longitude", "the network has no projection that Clearway knows", "networks from a map",
-                   "give edge instead");
-            return std::nullopt;
-        }
-        constexpr core::Metres reach{100.0};
-        std::vector<roads::LanePlace> places;
-        const roads::Point point = geography->point({*incident.longitude, *incident.latitude});
-        roads::LaneGrid(network_).near(point, reach, places);
-        std::erase_if(places, [&](const roads::LanePlace& each) {
-            const roads::Lane& lane = network_.lane(each.lane);
-            return !lane.allows_cars || network_.edge(lane.edge).internal;
-        });
-        const auto nearest = std::ranges::min_element(places, {}, &roads::LanePlace::distance_m);
-        if (nearest != places.end()) return Where{network_.lane(nearest->lane).edge, nearest->position_m};
-        const roads::Location& box = network_.location();
-        const auto low = geography->coordinates(box.x_minimum_m, box.y_minimum_m);
-        const auto high = geography->coordinates(box.x_maximum_m, box.y_maximum_m);
-        report("longitude",
-               fmt::format("no road open to cars within {:.0f} m of {}, {}", reach.value, *incident.longitude,
-                           *incident.latitude),
-               fmt::format("longitude {:.4f} to {:.4f}, latitude {:.4f} to {:.4f}", low.longitude_deg,
-                           high.longitude_deg, low.latitude_deg, high.latitude_deg),
-               "mind the order: longitude is east, latitude is north");
-        return std::nullopt;
     }
 
     /// The lanes that an incident closes; empty after adding a problem.
@@ -227,6 +174,9 @@ class Placing {
                 check_start(fmt::format("flow[{}]", row), config_.flows[row].from, time.warm_up_s,
                             time.window_s);
         }
+        for (std::size_t row = 0; row < config_.emergency_sites.size(); ++row) {
+            if (config_.emergency_sites[row].ready() > 0) check_station(row);
+        }
         for (std::size_t row = 0; row < config_.emergency_trips.size(); ++row) {
             const EmergencyTrip& trip = config_.emergency_trips[row];
             const std::string from =
@@ -235,14 +185,38 @@ class Placing {
         }
     }
 
-    /// Follows the way out of a start as long as there is but one.
-    void check_start(const std::string& key, const std::string& id, double first_s, double last_s) {
+    /// When calls may send somebody from a site.
+    void check_station(std::size_t row) {
+        const std::size_t found = problems_.size();
+        for (const Call& call : config_.calls) {
+            const double leaves_s = call.at_s.value_or(config_.time.warm_up_s) + call.turnout_s;
+            check_start(fmt::format("emergency_site[{}]", row), config_.emergency_sites[row].edge, leaves_s,
+                        leaves_s, edge_of(call));
+            if (problems_.size() > found) return;
+        }
+    }
+
+    /// Where a call is; nothing for a place that is reported with the calls.
+    std::optional<core::EdgeIndex> edge_of(const Call& call) const {
+        const auto row = static_cast<std::size_t>(call.incident.value_or(0));
+        if (call.incident)
+            return row < placed_.size() ? std::optional(placed_[row].closed.edge) : std::nullopt;
+        if (!call.edge.empty()) return network_.find_edge(call.edge);
+        if (!call.longitude || !call.latitude) return std::nullopt;
+        Problems none;
+        const auto place = detail::at_coordinates(network_, *call.longitude, *call.latitude, "", none);
+        return place ? std::optional(place->edge) : std::nullopt;
+    }
+
+    /// Follows the way out of a start as long as there is but one, up to `end`.
+    void check_start(const std::string& key, const std::string& id, double first_s, double last_s,
+                     std::optional<core::EdgeIndex> end = {}) {
         const auto start = network_.find_edge(id);
         if (!start) return;  // reported with the demand
         std::vector<core::EdgeIndex> passed;
         double elapsed_s = 0.0;
         for (std::optional<core::EdgeIndex> edge = start; edge; edge = only_way_out(*edge)) {
-            if (std::ranges::find(passed, *edge) != passed.end()) return;
+            if (edge == end || std::ranges::find(passed, *edge) != passed.end()) return;
             passed.push_back(*edge);
             for (std::size_t at = 0; at < placed_.size(); ++at) {
                 const traffic::Incident& incident = placed_[at].closed;

@@ -61,6 +61,8 @@ Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core
     detail::PlannedDemand demand =
         config.measured ? detail::read_measured(context) : detail::generate(context);
     detail::add_emergency_trips(context, demand);
+    Calls calls = place_calls(config, network.network, incidents);
+    detail::add_calls(context, calls, demand);
     detail::sort_by_departure(demand);
 
     const std::string types = detail::with_driver_types(context, demand, vehicle_types_xml(config));
@@ -90,6 +92,7 @@ Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core
     prepared.automated = count(demand.vehicles, traffic::VehicleClass::automated);
     prepared.emergency = std::move(demand.emergency);
     prepared.incidents = std::move(incidents);
+    prepared.calls = std::move(calls);
     prepared.time = config.time;
     prepared.simulator_seed = simulator_seed(context.random);
     prepared.demand_hash = core::content_hash(types + routes + emergency + persons + pedestrians);

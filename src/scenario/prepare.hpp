@@ -21,8 +21,10 @@ struct Prepared {
     /// Vehicle types first, then the files that the demand refers to.
     std::vector<std::filesystem::path> additional_files;
     /// By departure. The run adds them after the warm-up; they are in no route file, but in `emergency.csv`.
+    /// Those that calls send are planned by free flow: a run decides again.
     std::vector<traffic::EmergencyDeparture> emergency;
     std::vector<PlacedIncident> incidents;
+    Calls calls;
     Times time;
     std::vector<std::string> options;  ///< For SUMO, `name=value`.
     std::uint64_t simulator_seed = 1;  ///< For SUMO's own generator, 31 bits, not 0.

@@ -25,10 +25,12 @@ std::string emergency_xml(const std::vector<traffic::EmergencyDeparture>& depart
     std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<routes>\n";
     for (const traffic::EmergencyDeparture& departure : departures)
         xml += fmt::format(
-            "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departSpeed=\"{}\">\n    "
+            "    <vehicle id=\"{}\" type=\"{}\" depart=\"{:.2f}\" departLane=\"{}\" departSpeed=\"{}\"{}>\n  "
+            "  "
             "    <route edges=\"{}\"/>\n{}    </vehicle>\n",
             core::escaped(departure.id), core::escaped(departure.type), departure.depart.value,
             departure.depart_lane, departure.depart_speed,
+            departure.arrival ? fmt::format(" arrivalPos=\"{:.2f}\"", departure.arrival->value) : "",
             core::escaped(fmt::format("{}", fmt::join(departure.edges, " "))), device);
     return xml + "</routes>\n";
 }

@@ -288,7 +288,9 @@ void Session::add(const traffic::EmergencyDeparture& departure) {
                            .edges = departure.edges,
                            .depart = fmt::format("{}", departure.depart.value),
                            .depart_lane = departure.depart_lane,
-                           .depart_speed = departure.depart_speed});
+                           .depart_speed = departure.depart_speed,
+                           .arrival = departure.arrival ? fmt::format("{:.2f}", departure.arrival->value)
+                                                        : std::string("max")});
         state_->observer.declare_emergency(departure.id, departure.kind);
     });
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct EmergencyDeparture {
     std::string depart_speed = "max";
     BlueLight bluelight = BlueLight::off;
     double rerouting_s = 0.0;  ///< Period of SUMO's `device.rerouting`; 0: none.
+    /// Where the trip ends on the last edge, from its start; nothing: at its end.
+    std::optional<core::Metres> arrival = {};
+    /// Row of the call that it answers, from where is decided in the run; nothing: it has a trip.
+    std::optional<std::uint32_t> call = {};
 };
 
 /// Parameters of a SUMO vehicle type (`<param key= value=/>`) that a scenario writes and the gateway reads

@@ -26,7 +26,14 @@ class AccidentTest(FolderCase):
         type_in(compare[0], ("--seeds 10", "--seeds 1 --no-solo --out runs/navigate"))
         found = {row["condition"]: row for row in self.rows("navigate")}
         self.assertEqual(set(found), {"baseline", "navigate"})
-        tried = commands(GUIDE, "3. What a better way would have saved")[0]
+        called = next(block for block in blocks(GUIDE, "3. Who is sent") if "[[call]]" in block)
+        file.write_text(file.read_text(encoding="utf-8") + "\n" + called.replace('"..."', '"-114024904"'), encoding="utf-8")
+        sent = commands(GUIDE, "3. Who is sent")
+        self.assertEqual(len(sent), 2)
+        type_in(sent[1], ("--seeds 10", "--seeds 1 --no-solo --out runs/sent"))
+        answered = next(row for row in self.rows("sent") if row["condition"] != "baseline")
+        self.assertEqual(answered["units_sent"], "2")
+        tried = commands(GUIDE, "4. What a better way would have saved")[0]
         type_in(tried, ("--seeds 5", "--seeds 1 --no-solo --out runs/tried"), ("ways_tried=8", "ways_tried=2"))
         chosen = next(row for row in self.rows("tried") if row["condition"] != "baseline")
         self.assertGreater(int(chosen["way_decisions"]), 0)

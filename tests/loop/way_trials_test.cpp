@@ -83,7 +83,9 @@ TEST(WayTrials, TheWayThatIsDrivenAnywayArrivesWhenTheRunDoes) {
     ASSERT_EQ(pipe(ends), 0);
     const pid_t child = fork();
     if (child == 0) {
-        const double arrival_s = loop.arrival_on(way, run.horizon(), folder.path() / "child").value;
+        const auto change = [&] { return loop.keep_to(way); };
+        const double arrival_s =
+            loop.arrival_after(change, vehicle, run.horizon(), folder.path() / "child").value;
         _exit(write(ends[1], &arrival_s, sizeof arrival_s) == sizeof arrival_s ? 0 : 1);
     }
     double arrival_s = 0.0;

@@ -76,6 +76,16 @@ TEST(Page, marks_blocked_roads_on_the_map) {
     EXPECT_THAT(page, HasSubstr("road blocked for a while"));
 }
 
+TEST(Page, marks_places_of_calls_on_the_map) {
+    StudyFacts study = tests::study({"merge"});
+    EXPECT_THAT(page_of(study), Not(HasSubstr("EVs are called here")));
+    report::RoadMap& roads = *study.scenarios[0].roads;
+    roads.calls = {{roads.edges[0].id, 60.0, 2}, {"not-there", 0.0, 1}};
+    const std::string page = page_of(study);
+    EXPECT_EQ(count_of(page, "<circle class=\"call\""), 2u);  // One on the map, one in its legend.
+    EXPECT_THAT(page, HasSubstr("EVs are called here"));
+}
+
 TEST(Page, tells_all_that_is_known_of_a_paired_difference) {
     const std::string page = page_of(tests::study({"merge"}));
     EXPECT_THAT(page, HasSubstr("Statistics of the paired differences"));

@@ -57,6 +57,14 @@ TEST(Verdict, says_helped_harmed_or_no_effect_shown) {
                 StartsWith("no effect shown: EV travel time -0.6 s [-3.4, 2.2], -1 %;"));
 }
 
+TEST(Verdict, says_first_whom_an_incident_cut_off) {
+    ScenarioFacts scenario = tests::scenario("merge");
+    for (analysis::MetricSummary& metric : scenario.conditions[1].metrics)
+        if (metric.metric.name == "emergency_cut_off") metric.values = {1.0, 0.0, 2.0};
+    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(),
+                StartsWith("3 EVs cut off by an incident; helped: "));
+}
+
 TEST(Verdict, does_not_call_a_fifth_of_a_second_help) {
     ScenarioFacts scenario = tests::scenario("merge");
     tests::difference(scenario.conditions[1], primary) = tests::around(-0.2, 0.1);

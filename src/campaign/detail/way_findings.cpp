@@ -8,6 +8,7 @@
 #include "core/counted.hpp"
 #include "roads/closure.hpp"
 #include "roads/route_search.hpp"
+#include "scenario/fleet.hpp"
 
 namespace clearway::campaign::detail {
 namespace {
@@ -71,6 +72,27 @@ Finding incident_finding(roads::RouteSearch& search, const std::vector<Trip>& tr
             "another edge, other lanes, or emergency_passes = 1; else these EVs wait until it is over"};
 }
 
+/// How often the station that is nearest in a straight line is not the one that is there first at free flow.
+Finding call_finding(roads::RouteSearch& search, const scenario::Calls& calls,
+                     const roads::Network& network) {
+    const auto free_s = [&](core::EdgeIndex edge, double) { return search.free_s(edge); };
+    const scenario::Fleet fleet(calls.stations);
+    std::size_t differing = 0;
+    for (const scenario::PlacedCall& call : calls.calls) {
+        std::vector<scenario::Sending> found = fleet.candidates(call, search, free_s);
+        const scenario::Sending* const first = scenario::cheapest(found);
+        const std::size_t by_time = first == nullptr ? fleet.stations().size() : first->station;
+        for (scenario::Sending& each : found)
+            each.cost = scenario::straight_m(network, fleet.stations()[each.station], call);
+        const scenario::Sending* const nearest = scenario::cheapest(found);
+        differing += nearest != nullptr && nearest->station != by_time ? 1 : 0;
+    }
+    return {"calls", Grade::ok,
+            fmt::format("{}, {}; for {} the nearest in a straight line is not the first at free flow",
+                        core::counted(calls.calls.size(), "call"),
+                        core::counted(calls.stations.size(), "station"), differing)};
+}
+
 /// SUMO takes a vehicle past the jam in which it has stood for long.
 Finding teleport_finding(const scenario::ScenarioConfig& config,
                          const std::vector<scenario::PlacedIncident>& incidents) {
@@ -92,6 +114,8 @@ std::vector<Finding> way_findings(const scenario::ScenarioConfig& config, const 
     roads::RouteSearch search(network, roads::Driver::emergency);
     std::vector<Finding> findings = {choice_finding(search, trips)};
     const std::vector<scenario::PlacedIncident> incidents = scenario::place_incidents(config, network);
+    const scenario::Calls calls = scenario::place_calls(config, network, incidents);
+    if (!calls.calls.empty()) findings.push_back(call_finding(search, calls, network));
     if (incidents.empty()) return findings;
     findings.push_back(incident_finding(search, trips, incidents, network));
     findings.push_back(teleport_finding(config, incidents));

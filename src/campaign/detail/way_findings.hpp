@@ -8,8 +8,8 @@
 namespace clearway::campaign::detail {
 
 /// What the network leaves emergency vehicles to choose: how many have two ways or more within a fifth of the
-/// fastest by free flow, and, where there are incidents, whom they cut off. `emergency_csv` is what `prepare`
-/// wrote.
+/// fastest by free flow; which station is nearest to calls; and, where there are incidents, whom they cut
+/// off. `emergency_csv` is what `prepare` wrote.
 std::vector<Finding> way_findings(const scenario::ScenarioConfig& config, const roads::Network& network,
                                   const std::string& emergency_csv);
 

@@ -34,7 +34,8 @@ experiment::ConditionSpec own_condition(const ConditionWords& words,
     experiment::ConditionSpec& own = described.condition;
     const bool names_policies = !own.policies.empty();
     const bool changes = has_own_condition(condition_of(described));
-    if (names_policies || !changes || own.bluelight == traffic::BlueLight::on || own.rerouting_s > 0.0)
+    if (names_policies || !changes || own.bluelight == traffic::BlueLight::on || own.rerouting_s > 0.0 ||
+        own.dispatch != experiment::Dispatch::free_flow)
         return condition_of(described);
     if (chosen.size() > 1) {
         const std::vector<std::string> names = core::texts_of(chosen, &experiment::ConditionSpec::name);
@@ -182,6 +183,17 @@ void add_own_condition_options(CLI::App& app, DescribedCondition& described) {
                    "comparison")
         ->check(core::NumberRange{0.0, 3600.0})
         ->option_text("S [0: none]");
+    static const auto dispatches = [] {
+        std::map<std::string, experiment::Dispatch> words;
+        for (const auto& [value, word] : spellings(experiment::Dispatch{}))
+            words.emplace(word, value);
+        return words;
+    }();
+    app.add_option_function<std::string>(
+           "--dispatch", [&own](const std::string& name) { own.dispatch = dispatches.at(name); },
+           "Which station answers a call of the scenario")
+        ->check(CLI::IsMember(dispatches))
+        ->option_text("free_flow|straight_line|believed|true_times [free_flow]");
     static const std::map<std::string, experiment::TrafficModel> models = {
         {"standard", experiment::TrafficModel::standard}, {"sublane", experiment::TrafficModel::sublane}};
     app.add_option_function<std::string>(

@@ -98,6 +98,17 @@ void draw_incidents(MapCanvas& canvas, const RoadMap& roads) {
     }
 }
 
+/// A ring in the middle of the edge.
+void draw_calls(MapCanvas& canvas, const RoadMap& roads) {
+    for (const MapCall& one : roads.calls) {
+        const auto edge = roads.find_edge(one.edge);
+        if (!edge || roads.edges[*edge].shape.empty()) continue;
+        const std::vector<MapPlace>& shape = roads.edges[*edge].shape;
+        const auto [x, y] = canvas.place(shape[shape.size() / 2]);
+        canvas.add(fmt::format("<circle class=\"call\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\"/>\n", x, y));
+    }
+}
+
 DataTable data_of(const RoadMap& roads, const ScenarioMap& map,
                   const std::vector<const analysis::ApproachCost*>& losing) {
     DataTable table{{"What", "id", "passages or holds", "baseline, s", "condition, s", "gain, s"}, {}};
@@ -111,6 +122,9 @@ DataTable data_of(const RoadMap& roads, const ScenarioMap& map,
     for (const MapIncident& one : roads.incidents)
         table.rows.push_back({"blocked, from and to, s", one.edge, "", number(one.from_s, typeset(0)),
                               number(one.to_s, typeset(0)), ""});
+    for (const MapCall& one : roads.calls)
+        table.rows.push_back(
+            {"call, at s", one.edge, grouped(one.units), number(one.at_s, typeset(0)), "", ""});
     for (const MapLocks& one : map.locks)
         table.rows.push_back({"locks, all runs", roads.edges[one.edge].id, "", grouped(one.baseline),
                               grouped(one.condition), ""});
@@ -134,6 +148,8 @@ std::vector<LegendEntry> entries_of(const RoadMap& roads, const ScenarioMap& map
                            "vehicles locked each other (pale: baseline)"});
     if (!roads.incidents.empty())
         entries.push_back({"<path class=\"block\" d=\"M14 4h12v4h-12z\"/>", "road blocked for a while"});
+    if (!roads.calls.empty())
+        entries.push_back({"<circle class=\"call\" cx=\"20\" cy=\"6\" r=\"5\"/>", "EVs are called here"});
     if (losing)
         entries.push_back({"<path class=\"losing\" d=\"M20 10l5 -9h-10z\"/>", "others lose time here"});
     return entries;
@@ -153,6 +169,7 @@ Figure gain_map_figure(const ScenarioFacts& scenario) {
     draw_holds(canvas, roads, map);
     draw_locks(canvas, roads, map);
     draw_incidents(canvas, roads);
+    draw_calls(canvas, roads);
     const std::vector<const analysis::ApproachCost*> losing = losing_approaches(condition);
     for (std::size_t row = 0; row < std::min(losing.size(), drawn_losses); ++row) {
         if (const auto edge = roads.find_edge(losing[row]->edge)) draw_loss(canvas, roads.edges[*edge]);

@@ -62,6 +62,9 @@ RoadMap roads_from(const json& object) {
     for (const json& row : object.value("incidents", json::array()))
         map.incidents.push_back({row.at("edge").get<std::string>(), row.at("from_s").get<double>(),
                                  row.at("to_s").get<double>()});
+    for (const json& row : object.value("calls", json::array()))
+        map.calls.push_back({row.at("edge").get<std::string>(), row.at("at_s").get<double>(),
+                             row.at("units").get<std::uint64_t>()});
     return map;
 }
 

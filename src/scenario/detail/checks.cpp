@@ -197,9 +197,9 @@ void check_measured(const ScenarioConfig& config, Problems& problems) {
 }
 
 void check_sites(const ScenarioConfig& config, Problems& problems) {
-    if (!config.emergency_sites.empty() && config.demand_kind() == DemandKind::flows)
+    if (!config.emergency_sites.empty() && config.calls.empty() && config.demand_kind() == DemandKind::flows)
         problems.push_back({config.where("emergency_site[0]"), "is given together with [[flow]]",
-                            "trips or measured",
+                            "trips or measured, or a scenario with [[call]]",
                             "remove one; [[emergency_trip]] adds single emergency vehicles"});
     for (std::size_t row = 0; row < config.emergency_sites.size(); ++row)
         if (config.emergency_sites[row].edge.empty())
@@ -266,6 +266,7 @@ void check(const ScenarioConfig& config, Problems& problems) {
     check_road(config, problems);
     check_drivers(config, problems);
     check_incidents(config, problems);
+    check_calls(config, problems);
 }
 
 }  // namespace clearway::scenario::detail

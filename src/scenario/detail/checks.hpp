@@ -15,5 +15,7 @@ void check(const ScenarioConfig& config, std::vector<core::Problem>& problems);
 
 /// Of incidents, what needs no network.
 void check_incidents(const ScenarioConfig& config, std::vector<core::Problem>& problems);
+/// Likewise of calls.
+void check_calls(const ScenarioConfig& config, std::vector<core::Problem>& problems);
 
 }  // namespace clearway::scenario::detail

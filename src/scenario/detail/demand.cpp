@@ -13,8 +13,10 @@
 #include "core/error.hpp"
 #include "core/xml_stream.hpp"
 #include "roads/route.hpp"
+#include "roads/route_search.hpp"
 #include "scenario/detail/driver_types.hpp"
 #include "scenario/detail/trip_routes.hpp"
+#include "scenario/fleet.hpp"
 #include "scenario/vehicle_types.hpp"
 
 namespace clearway::scenario::detail {
@@ -296,6 +298,27 @@ void add_emergency_trips(const DemandContext& context, PlannedDemand& demand) {
                                                   trip.depart_s, *route));
     }
     if (!problems.empty()) throw core::InputError(problems);
+}
+
+void add_calls(const DemandContext& context, const Calls& calls, PlannedDemand& demand) {
+    if (calls.calls.empty()) return;
+    roads::RouteSearch search(context.network, roads::Driver::emergency);
+    const auto free_s = [&](core::EdgeIndex edge, double) { return search.free_s(edge); };
+    Fleet fleet(calls.stations);
+    for (std::size_t row = 0; row < calls.calls.size(); ++row) {
+        const PlacedCall& call = calls.calls[row];
+        for (std::uint32_t unit = 0; unit < call.units; ++unit) {
+            const std::vector<Sending> candidates = fleet.candidates(call, search, free_s);
+            const Sending* const sent = cheapest(candidates);
+            if (sent == nullptr) break;
+            fleet.send_from(sent->station);
+            traffic::EmergencyDeparture departure = plan_emergency(
+                context, call.vehicle(unit), call.kind, call.at.value + call.turnout.value, sent->way);
+            departure.arrival = core::Metres(call.position_m);
+            departure.call = static_cast<std::uint32_t>(row);
+            demand.emergency.push_back(std::move(departure));
+        }
+    }
 }
 
 }  // namespace clearway::scenario::detail

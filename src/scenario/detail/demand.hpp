@@ -47,6 +47,9 @@ PlannedDemand read_measured(const DemandContext& context);
 /// does.
 void add_emergency_trips(const DemandContext& context, PlannedDemand& demand);
 
+/// The vehicles that calls send, as they are sent by free flow. `calls` are those of the scenario.
+void add_calls(const DemandContext& context, const Calls& calls, PlannedDemand& demand);
+
 /// Departure of emergency vehicle `id`: uniform in [warm_up_s, window_s], to 0.01 s.
 double emergency_departure_s(const DemandContext& context, const std::string& id);
 

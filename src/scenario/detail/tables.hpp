@@ -47,6 +47,7 @@ constexpr auto tables() {
         Table{"emergency_trip", &S::emergency_trips, "An EV with a trip of its own"},
         Table{"emergency_site", &S::emergency_sites, "Where EVs start or arrive"},
         Table{"incident", &S::incidents, "A road that is blocked for a while"},
+        Table{"call", &S::calls, "EVs are sent from stations; `dispatch` of a condition says which"},
         Table{"measured", &S::measured,
               "Measured demand; its lists `routes`, `additional` and `persons` name files"});
 }

@@ -88,7 +88,7 @@ std::vector<scenario::EmergencySite> place_sites(const std::vector<MapSite>& sit
             continue;
         }
         const std::string& edge = network.edge(nearest.edge).id;
-        if (taken.emplace(site.kind, edge).second) placed.push_back({site.kind, edge, site.name});
+        if (taken.emplace(site.kind, edge).second) placed.push_back({site.kind, edge, site.name, {}});
     }
     return placed;
 }

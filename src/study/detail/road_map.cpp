@@ -90,6 +90,16 @@ core::Json incidents_json(const roads::Network& network, const scenario::Scenari
     return incidents;
 }
 
+core::Json calls_json(const roads::Network& network, const scenario::ScenarioConfig& config) {
+    const scenario::Calls placed =
+        scenario::place_calls(config, network, scenario::place_incidents(config, network));
+    core::Json calls = core::Json::array();
+    for (const scenario::PlacedCall& call : placed.calls)
+        calls.push_back(
+            {{"edge", network.edge(call.edge).id}, {"at_s", tenths(call.at.value)}, {"units", call.units}});
+    return calls;
+}
+
 }  // namespace
 
 std::string road_map_json(const roads::Network& network, const scenario::ScenarioConfig& config) {
@@ -124,7 +134,8 @@ std::string road_map_json(const roads::Network& network, const scenario::Scenari
     const core::Json map = {{"edges", std::move(edges)},
                             {"signals", signals_json(network)},
                             {"stations", stations_json(config)},
-                            {"incidents", incidents_json(network, config)}};
+                            {"incidents", incidents_json(network, config)},
+                            {"calls", calls_json(network, config)}};
     return map.dump(-1, ' ', false, core::Json::error_handler_t::replace) + "\n";
 }
 

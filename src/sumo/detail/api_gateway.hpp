@@ -224,7 +224,8 @@ class ApiGateway : public Sumo {
             const auto add_on = [&](const std::string& id, const std::vector<std::string>& edges) {
                 api::Route::add(id, edges);
                 api::Vehicle::add(insertion.vehicle, id, insertion.type, insertion.depart,
-                                  insertion.depart_lane, "base", insertion.depart_speed);
+                                  insertion.depart_lane, "base", insertion.depart_speed, "current",
+                                  insertion.arrival);
             };
             try {
                 add_on(route, insertion.edges);

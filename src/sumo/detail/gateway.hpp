@@ -64,6 +64,7 @@ struct Insertion {
     std::string depart;
     std::string depart_lane;
     std::string depart_speed;
+    std::string arrival = "max";  ///< Position on the last edge.
 };
 
 /// Where a stop is: its lane and the end position on it, m.

@@ -1,10 +1,10 @@
-#include "policy/detail/edge_times.hpp"
+#include "policy/edge_times.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-namespace clearway::policy::detail {
+namespace clearway::policy {
 namespace {
 
 /// Slower traffic is believed to move at this speed, m/s: a queue moves up.
@@ -59,7 +59,7 @@ double EdgeTimes::mean_wait_s(core::EdgeIndex index) const {
     for (std::uint32_t lane = edge.first_lane; lane < edge.first_lane + edge.lane_count; ++lane) {
         for (const roads::Connection& way : network_.connections_from(core::LaneIndex{lane})) {
             if (edge.internal || !way.signal.exists() || !way.allows_emergency) continue;
-            sum_s += detail::mean_wait_s(network_.signal(way.signal), way.signal_link);
+            sum_s += policy::mean_wait_s(network_.signal(way.signal), way.signal_link);
             ++links;
         }
     }
@@ -71,18 +71,22 @@ double EdgeTimes::fading(double lasting_s) const {
 }
 
 void EdgeTimes::see(const traffic::BelievedGraph& belief, core::Seconds period) {
-    now_s_ = belief.time.value;
+    turn_to(belief.time);
     for (const traffic::BelievedVehicle& vehicle : belief.vehicles) {
-        if (vehicle.vehicle_class == traffic::VehicleClass::emergency || !vehicle.state.lane.exists())
-            continue;
-        const core::EdgeIndex edge = network_.lane(vehicle.state.lane).edge;
-        if (network_.edge(edge).internal) continue;
-        Seen& seen = seen_[edge.value];
-        const double share = fading(now_s_ - seen.at_s);
-        seen.time_s = seen.time_s * share + period.value;
-        seen.distance_m = seen.distance_m * share + vehicle.state.speed_mps * period.value;
-        seen.at_s = now_s_;
+        if (vehicle.vehicle_class != traffic::VehicleClass::emergency)
+            add(vehicle.state.lane, vehicle.state.speed_mps, period);
     }
+}
+
+void EdgeTimes::add(core::LaneIndex lane, float speed_mps, core::Seconds period) {
+    if (!lane.exists()) return;
+    const core::EdgeIndex edge = network_.lane(lane).edge;
+    if (network_.edge(edge).internal) return;
+    Seen& seen = seen_[edge.value];
+    const double share = fading(now_s_ - seen.at_s);
+    seen.time_s = seen.time_s * share + period.value;
+    seen.distance_m = seen.distance_m * share + speed_mps * period.value;
+    seen.at_s = now_s_;
 }
 
 double EdgeTimes::at(core::EdgeIndex edge, double entered_s, double pace) const {
@@ -103,4 +107,4 @@ double EdgeTimes::at(core::EdgeIndex edge, double entered_s, double pace) const 
     return limit_s / pace + delay_s * (signal_[edge.value] ? config_.signal_share : 1.0);
 }
 
-}  // namespace clearway::policy::detail
+}  // namespace clearway::policy

@@ -8,7 +8,7 @@
 #include "roads/route_search.hpp"
 #include "traffic/belief.hpp"
 
-namespace clearway::policy::detail {
+namespace clearway::policy {
 
 /// How times are believed.
 struct EdgeTimesConfig {
@@ -27,6 +27,9 @@ class EdgeTimes {
 
     /// Takes what is believed of vehicles other than emergency vehicles for one `period`.
     void see(const traffic::BelievedGraph& belief, core::Seconds period);
+    /// The same vehicle by vehicle: the time, then each on its lane.
+    void turn_to(core::Seconds now) { now_s_ = now.value; }
+    void add(core::LaneIndex lane, float speed_mps, core::Seconds period);
 
     /// Time along an edge that is entered `entered_s` from the last `see`, for somebody who drives `pace`
     /// times the limit where the road is free, s. Never below that; FIFO in `entered_s`.
@@ -52,4 +55,4 @@ class EdgeTimes {
     double now_s_ = 0.0;
 };
 
-}  // namespace clearway::policy::detail
+}  // namespace clearway::policy

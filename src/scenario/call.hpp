@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/fields.hpp"
+#include "core/ids.hpp"
+#include "core/units.hpp"
+#include "traffic/vehicle.hpp"
+
+namespace clearway::roads {
+class Network;
+}
+
+namespace clearway::scenario {
+
+struct ScenarioConfig;
+struct PlacedIncident;
+
+/// One of `[[call]]`: emergency vehicles are sent to a place. They wait at sites with `units`.
+struct Call {
+    std::string edge;
+    std::optional<double> longitude;
+    std::optional<double> latitude;
+    std::optional<int> incident;
+    std::optional<double> position_m;
+    std::optional<double> at_s;
+    int units = 1;
+    std::string kind = "ambulance";
+    double turnout_s = 60.0;
+
+    static constexpr auto fields() {
+        using S = Call;
+        return std::make_tuple(
+            core::Field{"edge", "", &S::edge, 0, 0, "Where they are needed, or give coordinates or incident.",
+                        "scenario"},
+            core::Field{"longitude", "deg", &S::longitude, -180.0, 180.0,
+                        "With latitude: at the nearest road open to cars.", "none: edge"},
+            core::Field{"latitude", "deg", &S::latitude, -90.0, 90.0, "WGS 84, as longitude.", "none: edge"},
+            core::Field{"incident", "1", &S::incident, 0, 10000,
+                        "At this `[[incident]]`, 0 for the first: they stop before it.", "none: edge"},
+            core::Field{"position_m", "m", &S::position_m, 0.0, 1e6, "From the start of the edge.",
+                        "none: its middle, or the coordinates"},
+            core::Field{"at_s", "s", &S::at_s, 0.0, 604800.0, "When the call comes in.",
+                        "none: when everybody knows of the incident"},
+            core::Field{"units", "1", &S::units, 1, 100, "How many are sent.", "1"},
+            core::Field{"kind", "", &S::kind, 0, 0,
+                        "ambulance, from ambulance stations and hospitals, or fire_engine, from fire "
+                        "stations.",
+                        "ambulance"},
+            core::Field{"turnout_s", "s", &S::turnout_s, 0.0, 3600.0, "From the call to the departure.",
+                        "assumed"});
+    }
+};
+
+/// A call on a network.
+struct PlacedCall {
+    std::string id;  ///< `emergency.call.0`, by row in the file; that of its first vehicle ends in `.0`.
+    core::EdgeIndex edge;
+    float position_m = 0.0F;  ///< Where the trip ends, from the start of the edge.
+    core::Seconds at;
+    core::Seconds turnout;
+    traffic::VehicleKind kind = traffic::VehicleKind::ambulance;
+    std::uint32_t units = 1;
+    bool before_incident = false;  ///< An incident closes its edge, and the trip ends before it.
+
+    std::string vehicle(std::uint32_t unit) const { return id + "." + std::to_string(unit); }
+};
+
+/// Where vehicles of a kind wait for calls.
+struct Station {
+    core::EdgeIndex edge;
+    traffic::VehicleKind kind = traffic::VehicleKind::ambulance;
+    std::uint32_t units = 0;
+};
+
+/// Who is called, and who can go.
+struct Calls {
+    std::vector<PlacedCall> calls;  ///< By time, then by row in the file.
+    std::vector<Station> stations;  ///< With at least one unit, in the order of the file.
+};
+
+/// The calls of a scenario on its network. Throws core::InputError with every problem: an unknown edge or
+/// incident, coordinates off the network, an edge closed to emergency vehicles, a place that an incident
+/// closes the way to, a call that no station can answer or reach, and more units called than wait.
+Calls place_calls(const ScenarioConfig& config, const roads::Network& network,
+                  const std::vector<PlacedIncident>& incidents);
+
+}  // namespace clearway::scenario

@@ -1,0 +1,72 @@
+#include "scenario/detail/road_place.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/number.hpp"
+#include "roads/geography.hpp"
+#include "roads/lane_grid.hpp"
+#include "scenario/config.hpp"
+
+namespace clearway::scenario::detail {
+
+std::string place_of_key(const ScenarioConfig& config, const std::string& row, const std::string& key) {
+    const auto found = config.origins.find(row + "." + key);
+    return found == config.origins.end() ? config.where(row) + "." + key : found->second;
+}
+
+std::optional<RoadPlace> on_edge(const roads::Network& network, const std::string& id,
+                                 const std::string& where, std::vector<core::Problem>& problems) {
+    const auto found = network.find_edge(id);
+    if (found && !network.edge(*found).internal)
+        return RoadPlace{*found, network.edge(*found).length_m / 2.0F};
+    std::vector<std::string> known;
+    for (const roads::Edge& edge : network.edges())
+        if (!edge.internal) known.push_back(edge.id);
+    problems.push_back({where, fmt::format("the network has no edge \"{}\"", id),
+                        "id of an edge outside junctions",
+                        core::did_you_mean(id, known, "give longitude and latitude instead")});
+    return std::nullopt;
+}
+
+std::optional<RoadPlace> at_coordinates(const roads::Network& network, double longitude, double latitude,
+                                        const std::string& where, std::vector<core::Problem>& problems) {
+    const auto geography = roads::Geography::of(network.location());
+    if (!geography) {
+        problems.push_back({where, "the network has no projection that Clearway knows", "networks from a map",
+                            "give edge instead"});
+        return std::nullopt;
+    }
+    constexpr core::Metres reach{100.0};
+    std::vector<roads::LanePlace> places;
+    roads::LaneGrid(network).near(geography->point({longitude, latitude}), reach, places);
+    std::erase_if(places, [&](const roads::LanePlace& each) {
+        const roads::Lane& lane = network.lane(each.lane);
+        return !lane.allows_cars || network.edge(lane.edge).internal;
+    });
+    const auto nearest = std::ranges::min_element(places, {}, &roads::LanePlace::distance_m);
+    if (nearest != places.end()) return RoadPlace{network.lane(nearest->lane).edge, nearest->position_m};
+    const roads::Location& box = network.location();
+    const auto low = geography->coordinates(box.x_minimum_m, box.y_minimum_m);
+    const auto high = geography->coordinates(box.x_maximum_m, box.y_maximum_m);
+    problems.push_back(
+        {where,
+         fmt::format("no road open to cars within {:.0f} m of {}, {}", reach.value, longitude, latitude),
+         fmt::format("longitude {:.4f} to {:.4f}, latitude {:.4f} to {:.4f}", low.longitude_deg,
+                     high.longitude_deg, low.latitude_deg, high.latitude_deg),
+         "mind the order: longitude is east, latitude is north"});
+    return std::nullopt;
+}
+
+void move_to(const roads::Network& network, double position_m, const std::string& where, RoadPlace& place,
+             std::vector<core::Problem>& problems) {
+    constexpr double rounding_m = 0.05;  // lengths are shown with two decimals
+    const roads::Edge& edge = network.edge(place.edge);
+    if (position_m > edge.length_m + rounding_m)
+        problems.push_back({where, fmt::format("{} is beyond the end of edge \"{}\"", position_m, edge.id),
+                            fmt::format("0 to {:.2f} m", edge.length_m), "or leave it out for the middle"});
+    place.position_m = std::min(static_cast<float>(position_m), edge.length_m);
+}
+
+}  // namespace clearway::scenario::detail

@@ -1,0 +1,150 @@
+#include "scenario/call.hpp"
+
+#include <gmock/gmock.h>
+
+#include "scenario/called_scenario.hpp"
+#include "scenario/fleet.hpp"
+#include "scenario/prepare.hpp"
+#include "scratch.hpp"
+
+namespace clearway::scenario {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+class CallTest : public ScratchTest {
+  protected:
+    void SetUp() override {
+        ScratchTest::SetUp();
+        write_called_roads(
+            [&](const std::string& name, const std::string& text) { return write(name, text); });
+    }
+    Prepared prepared(const std::string& rest, const std::string& head = called_head) const {
+        const ScenarioConfig config = load(write("scenario.toml", head + rest).string());
+        return prepare(config, build_network(config, folder() / "net"), core::StudySeed{1},
+                       core::Replication{0}, folder() / "demand");
+    }
+    std::vector<std::string> wrong(const std::string& rest, const std::string& head = called_head) const {
+        std::vector<std::string> lines;
+        for (const core::Problem& problem : problems_of([&] { prepared(rest, head); })) {
+            EXPECT_FALSE(problem.allowed.empty()) << problem.what;
+            EXPECT_THAT(problem.where, HasSubstr("scenario.toml:"));
+            const std::size_t name = problem.where.find(": ");
+            lines.push_back(problem.where.substr(name == std::string::npos ? 0 : name + 2) + " " +
+                            problem.what);
+        }
+        return lines;
+    }
+};
+
+TEST_F(CallTest, vehicles_are_planned_from_the_stations_that_are_nearest_by_free_flow) {
+    const Prepared planned = prepared(
+        "[[call]]\nedge = \"place\"\nposition_m = 200.0\nat_s = 100.0\nunits = 2\nturnout_s = 30.0\n");
+    ASSERT_THAT(planned.emergency, SizeIs(2));
+    EXPECT_EQ(planned.emergency[0].id, "emergency.call.0.0");
+    EXPECT_EQ(planned.emergency[0].depart.value, 130.0);
+    EXPECT_EQ(planned.emergency[0].arrival->value, 200.0);
+    EXPECT_EQ(planned.emergency[0].call, 0U);
+    EXPECT_THAT(planned.emergency[0].edges, ElementsAre("west", "straight", "place"));
+    // West had one unit.
+    EXPECT_THAT(planned.emergency[1].edges, ElementsAre("east", "detour", "back", "place"));
+    EXPECT_EQ(planned.calls.stations.size(), 2U);
+}
+
+TEST_F(CallTest, every_key_is_read_and_written_back) {
+    const std::string text =
+        "[[call]]\nedge = \"place\"\nposition_m = 30.0\nat_s = 20.0\nunits = 3\nkind = \"ambulance\"\n"
+        "turnout_s = 5.0\n";
+    prepared(text);
+    const ScenarioConfig config = load((folder() / "scenario.toml").string());
+    store(config, folder() / "stored");
+    const ScenarioConfig again = load((folder() / "stored").string());
+    EXPECT_EQ(configuration_hash(again), configuration_hash(config));
+    EXPECT_EQ(again.calls.at(0).units, 3);
+    EXPECT_EQ(again.emergency_sites.at(1).units, 2);
+    EXPECT_FALSE(again.emergency_sites.at(0).units.has_value());
+}
+
+TEST_F(CallTest, without_one_sites_and_configuration_are_as_they_were) {
+    EXPECT_EQ(to_toml(load("city")).find("[[call]]"), std::string::npos);
+    EmergencySite site;
+    EXPECT_EQ(site.ready(), 0) << "a hospital";
+    site.kind = SiteKind::fire_station;
+    EXPECT_EQ(site.ready(), 1);
+}
+
+TEST_F(CallTest, a_call_to_an_incident_ends_before_it_when_it_is_known) {
+    const Prepared planned = prepared(
+        "[[incident]]\nedge = \"place\"\nposition_m = 300.0\nfrom_s = 50.0\nknown_after_s = 20.0\n"
+        "[[call]]\nincident = 0\n");
+    ASSERT_THAT(planned.calls.calls, SizeIs(1));
+    EXPECT_EQ(planned.calls.calls[0].at.value, 70.0);
+    EXPECT_EQ(planned.calls.calls[0].position_m, 290.0F);
+    EXPECT_TRUE(planned.calls.calls[0].before_incident);
+}
+
+TEST_F(CallTest, contradicting_and_missing_keys_are_all_reported) {
+    EXPECT_THAT(wrong("[[call]]\nat_s = 100.0\n"
+                      "[[call]]\nedge = \"place\"\nincident = 0\nat_s = 100.0\n"
+                      "[[call]]\nlongitude = 1.0\nat_s = 100.0\n"
+                      "[[call]]\nedge = \"place\"\n"
+                      "[[call]]\nedge = \"place\"\nat_s = 5.0\n"
+                      "[[call]]\nedge = \"place\"\nat_s = 590.0\n"
+                      "[[call]]\nedge = \"place\"\nat_s = 100.0\nkind = \"ambulanse\"\n"),
+                AllOf(SizeIs(9),
+                      ElementsAre("call[0] has no place", "call[1] has more than one place",
+                                  "call[1].incident there is no incident 0",
+                                  "call[2] has but one of longitude and latitude",
+                                  "call[3].at_s is not given", "call[4].at_s 5 is before the warm-up ends",
+                                  "call[5].at_s 590 and turnout_s, 60, are not before the end of the run",
+                                  "call[6].kind no site sends out \"ambulanse\"",
+                                  "call[3] 6 units of kind ambulance are called, and 3 wait at all sites")));
+}
+
+TEST_F(CallTest, places_that_cannot_be_reached_are_refused) {
+    EXPECT_THAT(wrong("[[call]]\nedge = \"plaec\"\nat_s = 100.0\n"),
+                ElementsAre("call[0].edge the network has no edge \"plaec\""));
+    EXPECT_THAT(wrong("[[call]]\nedge = \"island\"\nat_s = 100.0\n"),
+                ElementsAre("call[0] no station of its kind leads to edge \"island\""));
+    EXPECT_THAT(wrong("[[call]]\nedge = \"place\"\nposition_m = 900.0\nat_s = 100.0\n"),
+                ElementsAre("call[0].position_m 900 is beyond the end of edge \"place\""));
+    EXPECT_THAT(wrong("[[incident]]\nedge = \"place\"\nposition_m = 100.0\n"
+                      "[[call]]\nedge = \"place\"\nposition_m = 200.0\nat_s = 100.0\n"),
+                ElementsAre("call[0].position_m 200 lies behind incident[0] on edge \"place\""));
+}
+
+TEST_F(CallTest, a_call_without_a_station_of_its_kind_is_refused) {
+    EXPECT_THAT(wrong("[[call]]\nedge = \"place\"\nat_s = 100.0\nkind = \"fire_engine\"\n"),
+                ElementsAre("call[0] 1 unit of kind fire_engine is called, and 0 wait at all sites"));
+    EXPECT_THAT(wrong("[[emergency_site]]\nkind = \"fire_station\"\nedge = \"nowhere\"\n"
+                      "[[call]]\nedge = \"place\"\nat_s = 100.0\n"),
+                ElementsAre("emergency_site[2].edge the network has no edge \"nowhere\""));
+}
+
+TEST_F(CallTest, the_only_way_out_of_a_station_that_is_called_must_stay_open) {
+    const std::string closed = "[[incident]]\nedge = \"straight\"\n";
+    EXPECT_THAT(wrong(closed + "[[call]]\nedge = \"place\"\nat_s = 100.0\n"),
+                ElementsAre("incident[0] closes edge \"straight\", the only way out of emergency_site[0] at "
+                            "\"west\""));
+    EXPECT_THAT(prepared(closed + "to_s = 90.0\n[[call]]\nedge = \"place\"\nat_s = 100.0\n").emergency,
+                SizeIs(1));
+}
+
+TEST(Fleet, SendsEachUnitOnce) {
+    Fleet fleet({{core::EdgeIndex{3}, traffic::VehicleKind::ambulance, 1}});
+    const PlacedCall call;
+    PlacedCall fire;
+    fire.kind = traffic::VehicleKind::fire_engine;
+    EXPECT_TRUE(fleet.can_answer(0, call));
+    EXPECT_FALSE(fleet.can_answer(0, fire));
+    fleet.send_from(0);
+    EXPECT_FALSE(fleet.can_answer(0, call));
+    EXPECT_EQ(cheapest({}), nullptr);
+}
+
+}  // namespace
+}  // namespace clearway::scenario
