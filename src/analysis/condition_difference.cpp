@@ -20,6 +20,7 @@ std::map<std::string, std::string> values_of(const ConditionSpec& condition) {
     values["safety_checks"] = condition.safety_checks == traffic::SafetyChecks::on ? "on" : "off";
     values["bluelight"] = condition.bluelight == traffic::BlueLight::on ? "on" : "off";
     values["rerouting_s"] = fmt::format("{:g}", condition.rerouting_s);
+    values["rerouting_signal_penalty"] = fmt::format("{:g}", condition.rerouting_signal_penalty);
     values["dispatch"] = experiment::name(condition.dispatch);
     if (!condition.model_hash.empty()) values["model (content hash)"] = condition.model_hash;
     return values;

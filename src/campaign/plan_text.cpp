@@ -104,7 +104,10 @@ std::string policy_of(const experiment::ConditionSpec& condition) {
     std::vector<std::string> means = condition.policies;
     if (condition.bluelight == traffic::BlueLight::on) means.emplace_back("bluelight");
     if (condition.rerouting_s > 0.0)
-        means.push_back(fmt::format("rerouting every {:g} s", condition.rerouting_s));
+        means.push_back(fmt::format("rerouting every {:g} s{}", condition.rerouting_s,
+                                    condition.rerouting_signal_penalty > 0.0
+                                        ? fmt::format(", signals {:g}", condition.rerouting_signal_penalty)
+                                        : ""));
     if (condition.dispatch != experiment::Dispatch::free_flow)
         means.push_back(fmt::format("dispatch {}", experiment::name(condition.dispatch)));
     const bool is_checked = condition.safety_checks == traffic::SafetyChecks::on;

@@ -10,6 +10,7 @@
 #include "core/leftovers.hpp"
 #include "results/run_name.hpp"
 #include "scenario/config.hpp"
+#include "scenario/network.hpp"
 #include "view/drawing.hpp"
 #include "view/player.hpp"
 #include "view/recorded_run.hpp"
@@ -74,6 +75,16 @@ roads::Network recorded_network(const trace::RecordingInfo& info, const std::fil
         throw core::InputError({where, "is not the network on which the recording was made",
                                 "content hash " + info.settings.network_hash, "Name it with --network"});
     return roads::Network::read(file, signal_programs_beside(file));
+}
+
+std::vector<double> recorded_mean_times(const trace::RecordingInfo& info,
+                                        const std::filesystem::path& recording,
+                                        const std::filesystem::path& option) {
+    const std::filesystem::path folder = run_folder_of(recording) / "scenarios" / info.key.scenario;
+    if (!option.empty() || !std::filesystem::exists(folder / "scenario.toml")) return {};
+    const scenario::ScenarioConfig config = scenario::load((folder / "scenario.toml").string());
+    if (config.network.mean_times.empty()) return {};
+    return scenario::open_network(config, folder / "network").mean_times_s;
 }
 
 std::string written_words(const std::filesystem::path& file, std::size_t bytes) {

@@ -16,6 +16,12 @@ namespace clearway::campaign {
 roads::Network recorded_network(const trace::RecordingInfo& info, const std::filesystem::path& recording,
                                 const std::filesystem::path& option);
 
+/// The mean times of other days that the scenario of a recorded run names, by edge; empty where it names
+/// none, and where the run folder is not there or another network was named.
+std::vector<double> recorded_mean_times(const trace::RecordingInfo& info,
+                                        const std::filesystem::path& recording,
+                                        const std::filesystem::path& option);
+
 /// The run folder in which a recording lies, whether or not it is one.
 std::filesystem::path run_folder_of(const std::filesystem::path& recording);
 

@@ -51,7 +51,8 @@ core::ExitCode show(const experiment::RunJob& unit) {
 
 experiment::RunJob unit_of(const study::Plan& plan, const experiment::ConditionSpec& shown) {
     for (const study::PlannedUnit& planned : plan.units) {
-        if (planned.unit.traffic_model != shown.traffic_model) continue;
+        if (experiment::process_of(planned.unit.conditions.front()) != experiment::process_of(shown))
+            continue;
         experiment::RunJob unit = planned.unit;
         unit.conditions = {shown};
         return unit;

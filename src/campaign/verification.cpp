@@ -132,7 +132,8 @@ study::Plan plan_of(const results::Store& store, const std::vector<experiment::R
         if (std::filesystem::exists(trace::recording_file(store.folder(), key)))
             job.recording = experiment::StepRecording::on;
         const std::string name =
-            fmt::format("{}-{:05}-{}", key.scenario, key.replication, experiment::name(job.traffic_model));
+            fmt::format("{}-{:05}-{}", key.scenario, key.replication,
+                        experiment::to_text(experiment::process_of(job.conditions.front())));
         const auto [unit, is_new] = unit_of.try_emplace(name, plan.units.size());
         if (is_new) {
             plan.units.push_back({name, std::move(job)});

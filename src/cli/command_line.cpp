@@ -58,6 +58,8 @@ constexpr std::array scenario_parts = {
          "clearway scenario check ./monaco", configure_check},
     Verb{"signals", "List a scenario's signals, draw them, write their preemption parameters",
          "clearway scenario signals city --svg signals.svg --out preemption.csv", configure_signals},
+    Verb{"mean-times", "Write mean times of edges from runs on other days, for `navigate`",
+         "clearway scenario mean-times city --out mean_times.csv", configure_mean_times},
 };
 
 constexpr std::array python_parts = {

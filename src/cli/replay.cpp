@@ -303,7 +303,9 @@ core::ExitCode replay_file(Arguments arguments) {
     campaign::require_trust({kept}, arguments.file, arguments.trust);
     const experiment::ConditionSpec condition = condition_of(info, arguments);
     const roads::Network network = campaign::recorded_network(info, arguments.file, arguments.network);
-    const trace::ReplayResult result = trace::replay(recording, condition, network);
+    const trace::ReplayResult result =
+        trace::replay(recording, condition, network,
+                      campaign::recorded_mean_times(info, arguments.file, arguments.network));
     const std::string run = run_of(arguments.file, info.key);
     campaign::print(printout_of(facts_of(run, info, condition, result)), arguments.printing);
     if (condition != info.condition || is_same(result)) return core::ExitCode::ok;

@@ -53,6 +53,7 @@ Action configure_list(CLI::App& app);
 Action configure_init(CLI::App& app);
 Action configure_import(CLI::App& app);
 Action configure_signals(CLI::App& app);
+Action configure_mean_times(CLI::App& app);
 Action configure_equip(CLI::App& app);
 Action configure_check(CLI::App& app);
 Action configure_attach(CLI::App& app);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "core/error.hpp"
 #include "core/folder_name.hpp"
 #include "core/json.hpp"
@@ -38,6 +40,16 @@ std::map<std::string, std::string> hashes_of(const ConditionSpec& condition) {
 }
 
 }  // namespace
+
+ProcessOptions process_of(const ConditionSpec& condition) {
+    return {condition.traffic_model, condition.rerouting_s > 0.0 ? condition.rerouting_signal_penalty : 0.0};
+}
+
+std::string to_text(const ProcessOptions& process) {
+    const std::string model(name(process.traffic_model));
+    return process.signal_penalty == 0.0 ? model
+                                         : fmt::format("{}-penalty-{:g}", model, process.signal_penalty);
+}
 
 ConditionSpec without_folders(ConditionSpec condition) {
     condition.predictor = part_without_folder(condition.predictor);

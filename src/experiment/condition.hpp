@@ -56,6 +56,8 @@ struct ConditionSpec {
     traffic::BlueLight bluelight = traffic::BlueLight::off;
     /// Period of SUMO's rerouting device on true times, s; 0: none.
     double rerouting_s = 0.0;
+    /// What that device adds for signals, as share of their mean wait (SUMO's weights.tls-penalty).
+    double rerouting_signal_penalty = 0.0;
     Dispatch dispatch = Dispatch::free_flow;  ///< Where the scenario has calls.
 
     /// Whether anything is done for emergency vehicles. Otherwise the condition can be a baseline.
@@ -80,9 +82,24 @@ struct ConditionSpec {
             Field{"bluelight", "", &S::bluelight, 0, 0, "SUMO's device.bluelight on every EV", "off"},
             Field{"rerouting_s", "s", &S::rerouting_s, 0.0, 3600.0,
                   "Period of SUMO's device.rerouting on every EV, which knows the true times; 0: none", "0"},
+            Field{"rerouting_signal_penalty", "1", &S::rerouting_signal_penalty, 0.0, 100.0,
+                  "SUMO's weights.tls-penalty for that device: of the mean wait at a signal by its program, "
+                  "the share that a way through it takes at least; 0: none",
+                  "0"},
             Field{"dispatch", "", &S::dispatch, 0, 0, "Which station answers a call", "free_flow"});
     }
 };
+
+/// What all conditions of a worker process share: options that SUMO reads when it starts.
+struct ProcessOptions {
+    TrafficModel traffic_model = TrafficModel::standard;
+    double signal_penalty = 0.0;  ///< ConditionSpec::rerouting_signal_penalty.
+
+    bool operator==(const ProcessOptions&) const = default;
+};
+ProcessOptions process_of(const ConditionSpec& condition);
+/// `standard`, `standard-penalty-1`: for names of files.
+std::string to_text(const ProcessOptions& process);
 
 /// The condition with its model and its parts in Python named without their folders, which do not count:
 /// files of the same names and contents elsewhere make the same condition.

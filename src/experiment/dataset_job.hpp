@@ -21,12 +21,14 @@ enum class DatasetKind : std::uint8_t {
     repair,     ///< The same for the improved net, `graphsage`.
     /// The features of every candidate pair, for the logistic pair model; also per failure model.
     pair_samples,
+    edge_times,  ///< Vehicles, time and distance on each edge: samples/edge_times.hpp.
 };
-constexpr core::Spellings<DatasetKind, 4> spellings(DatasetKind) {
+constexpr core::Spellings<DatasetKind, 5> spellings(DatasetKind) {
     return {{{DatasetKind::published, "published"},
              {DatasetKind::samples, "samples"},
              {DatasetKind::repair, "repair"},
-             {DatasetKind::pair_samples, "pair_samples"}}};
+             {DatasetKind::pair_samples, "pair_samples"},
+             {DatasetKind::edge_times, "edge_times"}}};
 }
 
 /// Which pairs a published data set lists; the dissertation does not say.

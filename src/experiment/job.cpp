@@ -86,6 +86,12 @@ void read(const Source& source, ObjectReader& reader, RunJob& job) {
     reader.read("recording", job.recording);
     for (const Json& condition : reader.child("conditions", Json::value_t::array))
         job.conditions.push_back(condition_from(condition, source.where + ": conditions", source.problems));
+    for (const ConditionSpec& condition : job.conditions) {
+        if (process_of(condition).signal_penalty == process_of(job.conditions.front()).signal_penalty) continue;
+        reader.problem("conditions", fmt::format("\"{}\" and \"{}\" need other penalties for signals",
+                                                 job.conditions.front().name, condition.name));
+        break;
+    }
     reader.read("wall_limit_s", job.limits.wall_s);
     if (!(job.limits.wall_s > 0.0)) reader.problem("wall_limit_s", "is not above 0");
     reader.read("memory_limit_mib", job.limits.memory_mib);

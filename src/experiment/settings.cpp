@@ -171,6 +171,16 @@ void check_link_radius(const ConditionSpec& condition, const std::string& where,
                                   problems);
 }
 
+/// The penalty is the device's own.
+void check_rerouting(const ConditionSpec& condition, const std::string& where,
+                     std::vector<core::Problem>& problems) {
+    if (condition.rerouting_signal_penalty == 0.0 || condition.rerouting_s > 0.0) return;
+    problems.push_back({where + "rerouting_signal_penalty",
+                        fmt::format("is {:g}, and no vehicle has SUMO's rerouting device",
+                                    condition.rerouting_signal_penalty),
+                        "0 without rerouting_s", "Set rerouting_s, or leave it out"});
+}
+
 /// A part in Python is another process, which a copy of the run would share with it.
 void check_ways(const ConditionSpec& condition, const std::string& where,
                 std::vector<core::Problem>& problems) {
@@ -419,6 +429,7 @@ std::vector<core::Problem> check_settings(const ConditionSpec& condition, const 
         prediction::check_settings(condition.predictor, predictor_settings(condition), where + *part,
                                    problems);
     check_sublane(condition, where, problems);
+    check_rerouting(condition, where, problems);
     if (problems.empty()) {
         check_ways(condition, where, problems);
         check_leases(condition, where, problems);
@@ -445,6 +456,8 @@ std::string described_name(const ConditionSpec& condition) {
         condition.policies, [](const std::string& policy) { return python::short_name(policy); });
     if (condition.bluelight == traffic::BlueLight::on) words.emplace_back("bluelight");
     if (condition.rerouting_s > 0.0) words.push_back(fmt::format("rerouting_{:g}s", condition.rerouting_s));
+    if (condition.rerouting_signal_penalty > 0.0)
+        words.push_back(fmt::format("penalty_{:g}", condition.rerouting_signal_penalty));
     if (condition.dispatch != usual.dispatch) words.emplace_back(name(condition.dispatch));
     if (words.empty()) words.emplace_back("no_policy");
     if (condition.failure != usual.failure) words.push_back(condition.failure);

@@ -118,6 +118,7 @@ struct FailureConfig : RequestChannel, SignalRequestChannel {
     double emergency_sensor_range_m = 0.0;
     double emergency_sensor_sigma_m = 0.5;
     EmergencyDark emergency_dark = EmergencyDark::yes;
+    double way_loss_rate = 0.0;
 
     bool operator==(const FailureConfig&) const = default;
 
@@ -219,7 +220,11 @@ struct FailureConfig : RequestChannel, SignalRequestChannel {
                   "0.5 m assumed, as on-board sensors"},
             Field{"emergency_dark", "", &C::emergency_dark, 0, 0,
                   "Whether reports and radios of emergency vehicles fail as those of other vehicles do",
-                  "yes: the frozen presets treat all vehicles alike"});
+                  "yes: the frozen presets treat all vehicles alike"},
+            Field{"way_loss_rate", "1", &C::way_loss_rate, 0.0, 1.0,
+                  "Share of the other ways (`take_route`) that do not reach the emergency vehicle for which "
+                  "they are found, each independently",
+                  "0: found on board; above it, by a centre that tells the crew"});
     }
     static constexpr auto request_fields() {
         using C = ChannelConfig;

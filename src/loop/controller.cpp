@@ -13,7 +13,8 @@ pipeline::ChainContext chain_context(const ControllerContext& context) {
             .policy_period_s = context.loop.policy_period_s,
             .rules = context.loop.rules(),
             .guest = context.guest,
-            .incidents = context.incidents};
+            .incidents = context.incidents,
+            .mean_times_s = context.mean_times_s};
 }
 
 actuation::ActuatorConfig actuation_of(const experiment::ConditionSpec& condition,

@@ -35,6 +35,7 @@ struct ControllerContext {
     policy::GuestMaker guest = {};                     ///< See pipeline::ChainContext.
     std::vector<traffic::Incident> incidents = {};
     bool is_read = false;  ///< Whether somebody reads the belief even where no policy acts.
+    std::vector<double> mean_times_s = {};  ///< See policy::PolicyContext.
 };
 
 /// How far a controller is in a step.

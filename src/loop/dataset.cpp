@@ -11,6 +11,8 @@
 #include "loop/jobs.hpp"
 #include "loop/unit_run.hpp"
 #include "prediction/comparison/features.hpp"
+#include "samples/dataset_plan.hpp"
+#include "samples/edge_times.hpp"
 #include "samples/recorders.hpp"
 #include "trace/step_listener.hpp"
 
@@ -88,6 +90,12 @@ void record_samples(const experiment::DatasetJob& job, UnitRun& run, const graph
     }
 }
 
+void record_edge_times(const experiment::DatasetJob& job, UnitRun& run) {
+    samples::EdgeUseRecorder recorder(run.network());
+    run.record(detail::plain_traffic("dataset"), recorder);
+    samples::write_edge_uses(recorder.uses(), samples::files_of(job).front());
+}
+
 }  // namespace
 
 core::ExitCode record_dataset(const experiment::DatasetJob& job) {
@@ -97,6 +105,8 @@ core::ExitCode record_dataset(const experiment::DatasetJob& job) {
     const graph::LinkRules rules = job.rules();
     if (job.dataset == experiment::DatasetKind::published) {
         record_published(job, run, rules);
+    } else if (job.dataset == experiment::DatasetKind::edge_times) {
+        record_edge_times(job, run);
     } else {
         record_samples(job, run, rules);
     }

@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "core/files.hpp"
 #include "experiment/settings.hpp"
 #include "loop/road_layout.hpp"
@@ -32,6 +34,12 @@ sumo::SessionConfig session_config(const experiment::RunJob& unit, const scenari
         config.ignore_junction_blocker = core::Seconds(*prepared.time.ignore_junction_blocker_s);
     if (unit.traffic_model == experiment::TrafficModel::sublane) {
         config.extra_arguments = {"--lateral-resolution", scenario::sublane_resolution_m};
+    }
+    if (!unit.conditions.empty()) {
+        const double penalty = experiment::process_of(unit.conditions.front()).signal_penalty;
+        if (penalty > 0.0)
+            config.extra_arguments.insert(config.extra_arguments.end(),
+                                          {"--weights.tls-penalty", fmt::format("{:g}", penalty)});
     }
     // A vehicle whose way is closed when it departs waits at the block, instead of being an error.
     const auto closes_lanes = [](const scenario::PlacedIncident& each) {
@@ -189,7 +197,8 @@ void UnitRun::start_together(const experiment::ConditionSpec& condition, trace::
         .preemption = network_.preemption,
         .guest = guest_,
         .incidents = incidents(),
-        .is_read = dispatcher_ && dispatcher_->reads_belief()};
+        .is_read = dispatcher_ && dispatcher_->reads_belief(),
+        .mean_times_s = network_.mean_times_s};
     start_condition(loop_, recorder_, condition,
                     {.context = context, .layout = layout(), .horizon = horizon(), .listener = listener});
 }

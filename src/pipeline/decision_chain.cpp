@@ -21,6 +21,7 @@ failures::FailureConfig with_perfect_reports(const failures::FailureConfig& conf
     static_cast<failures::RequestChannel&>(exact) = to_vehicles;
     static_cast<failures::SignalRequestChannel&>(exact) = to_signals;
     exact.emergency_dark = config.emergency_dark;
+    exact.way_loss_rate = config.way_loss_rate;
     return exact;
 }
 
@@ -77,7 +78,8 @@ DecisionChain::DecisionChain(const experiment::ConditionSpec& condition, const C
                                              .config = {},
                                              .random = context.random},
                                             settings_for_chain(condition, failure, has_links));
-    const policy::PolicyContext place{.network = context.network, .period = core::Seconds(period_s_)};
+    const policy::PolicyContext place{
+        .network = context.network, .period = core::Seconds(period_s_), .mean_times_s = context.mean_times_s};
     for (const std::string& name : condition.policies)
         policies_.push_back(policy::make_policy(name, place, condition.settings));
     if (context.guest) policies_.push_back(context.guest(place));

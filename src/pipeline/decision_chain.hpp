@@ -32,6 +32,7 @@ struct ChainContext {
     /// Who reads the belief of a chain: its policies alone, or somebody who may want links, too.
     enum class Readers : std::uint8_t { policies, others } readers = Readers::others;
     std::vector<traffic::Incident> incidents = {};
+    std::vector<double> mean_times_s = {};  ///< See policy::PolicyContext.
 };
 
 /// What the predictor of a condition observes: its failure; for one that knows the truth, sensors without

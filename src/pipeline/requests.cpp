@@ -96,6 +96,8 @@ Requests::Requests(const experiment::ConditionSpec& condition, const ChainContex
                    const failures::FailureConfig& failure)
     : vehicles_(failure, context.random, sensing::Channel::Receivers::vehicles),
       signals_(failure, context.random, sensing::Channel::Receivers::signals),
+      random_(context.random),
+      way_loss_rate_(failure.way_loss_rate),
       equipment_(failure, context.random) {
     for (const roads::Signal& signal : context.network.signals())
         signal_places_.push_back(sensing::place_of(context.network, signal));
@@ -166,7 +168,7 @@ void Requests::send(const Moment& moment) {
     heard_.clear();
     for (const traffic::Lease& lease : moment.decision.leases) {
         if (!is_request(lease, moment.decision.decided_there)) {
-            arrived_.push_back(lease);
+            (is_lost_way(lease, now) ? lost_ : arrived_).push_back(lease);
         } else if (const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target)) {
             ask_vehicle(lease, *vehicle, moment);
         } else if (std::holds_alternative<traffic::Stretch>(lease.target)) {
@@ -176,6 +178,17 @@ void Requests::send(const Moment& moment) {
         }
     }
     if (vehicle_turns_.is_new_interval() || !hearings_.empty()) judge(moment);
+}
+
+bool Requests::is_lost_way(const traffic::Lease& lease, core::Seconds now) const {
+    const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target);
+    if (way_loss_rate_ == 0.0 || vehicle == nullptr ||
+        !std::holds_alternative<traffic::TakeRoute>(lease.action))
+        return false;
+    const auto decision = static_cast<std::uint64_t>(std::llround(now.value * 1000.0));
+    // Nobody sends a request to itself, so these draws are no other ones.
+    return random_.uniform(core::Purpose::request_loss, core::pair_subject(vehicle->value, vehicle->value),
+                           decision) < way_loss_rate_;
 }
 
 void Requests::ask_vehicle(const traffic::Lease& lease, core::VehicleKey vehicle, const Moment& moment) {

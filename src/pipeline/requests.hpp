@@ -31,8 +31,8 @@ namespace clearway::pipeline {
 /// heard it and sends it on; each hop adds the latency, and what comes after a newer request of the same
 /// policy and sender is outdated. Human-driven vehicles that are not equipped hear nothing. Leases of
 /// vehicles and signals about themselves need no message, nor do those that signals decided from messages
-/// which have come to them already (SignalRadio). With perfect channels, every lease arrives at once. One
-/// thread.
+/// which have come to them already (SignalRadio). With perfect channels, every lease arrives at once, but for
+/// the ways that FailureConfig::way_loss_rate takes. One thread.
 class Requests {
   public:
     /// Throws core::InputError as DecisionChain does.
@@ -116,7 +116,12 @@ class Requests {
     void deliver(const traffic::Lease& lease, double latency_s, core::Seconds now);
     void judge(const Moment& moment);
 
+    /// Whether another way does not reach its vehicle.
+    bool is_lost_way(const traffic::Lease& lease, core::Seconds now) const;
+
     sensing::Channel vehicles_, signals_;
+    core::KeyedRandom random_;
+    double way_loss_rate_;
     sensing::EquipmentProcess equipment_;
     std::vector<std::optional<sensing::Place>> signal_places_;
     /// The same policies with perfect sensors. Null where the condition has them itself, and where a policy

@@ -47,8 +47,11 @@ EdgeTimes::EdgeTimes(const roads::Network& network, const roads::RouteSearch& se
         length_m_.push_back(network.edge(core::EdgeIndex{row}).length_m);
         const double wait_s = mean_wait_s(core::EdgeIndex{row});
         signal_.push_back(wait_s >= 0.0);
-        wait_s_.push_back(std::max(0.0, wait_s));
+        const double mean_s = config.mean_times_s.empty() ? 0.0 : config.mean_times_s[row];
+        usual_delay_s_.push_back(
+            std::max(0.0, mean_s > 0.0 ? mean_s - search.free_s(core::EdgeIndex{row}) : wait_s));
     }
+    config_.mean_times_s = {};
 }
 
 /// Mean over the links of the edge; negative without a signal.
@@ -93,7 +96,7 @@ double EdgeTimes::at(core::EdgeIndex edge, double entered_s, double pace) const 
     const double limit_s = search_.free_s(edge);
     if (limit_s == roads::no_way_s) return limit_s;
     const double length_m = std::max(length_m_[edge.value], 0.1);
-    const double prior_s = limit_s + wait_s_[edge.value];
+    const double prior_s = limit_s + usual_delay_s_[edge.value];
     const Seen& seen = seen_[edge.value];
     const double share = fading(now_s_ - seen.at_s);
     const double speed_mps = (seen.distance_m * share + config_.prior_s * length_m / prior_s) /

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/ids.hpp"
@@ -15,11 +16,15 @@ struct EdgeTimesConfig {
     double fade_s = 120.0;      ///< Time constant with which what was seen fades, > 0.
     double prior_s = 10.0;      ///< Weight of the prior, as time of vehicles on the edge, > 0.
     double signal_share = 1.0;  ///< Share of the delay before a signal that counts.
+    /// What an edge usually takes, s, by core::EdgeIndex, 0 where that is not known; empty: for none. Used by
+    /// the constructor alone.
+    std::span<const double> mean_times_s = {};
 };
 
 /// Believed times along edges. The speed on an edge is the distance over the time of the vehicles that are
-/// seen there (Edie 1963), both fading exponentially, with a prior: the limit, and before a signal the mean
-/// wait of its program (red^2 / (2 cycle), Webster 1958, without its random terms).
+/// seen there (Edie 1963), both fading exponentially, with a prior: what the edge usually takes, or, where
+/// that is not known, the limit, and before a signal the mean wait of its program (red^2 / (2 cycle), Webster
+/// 1958, without its random terms).
 class EdgeTimes {
   public:
     /// Network and search outlive the object.
@@ -49,8 +54,8 @@ class EdgeTimes {
     const roads::RouteSearch& search_;
     EdgeTimesConfig config_;
     std::vector<double> length_m_;
-    std::vector<double> wait_s_;  ///< By edge: mean wait at the signal at its end.
-    std::vector<bool> signal_;    ///< By edge: whether it ends at one.
+    std::vector<double> usual_delay_s_;  ///< By edge: against the limit, before anything is seen.
+    std::vector<bool> signal_;           ///< By edge: whether it ends at one.
     std::vector<Seen> seen_;
     double now_s_ = 0.0;
 };

@@ -3,15 +3,29 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "roads/route.hpp"
 
 namespace clearway::policy {
 namespace {
 
+/// A way is asked for so long at most, s: enough to leave a junction. Later the crew may have turned.
+constexpr double longest_lease_s = 5.0;
+
 bool is_known_closed(const std::vector<traffic::KnownIncident>& incidents, core::EdgeIndex edge) {
     return std::ranges::any_of(incidents, [&](const traffic::KnownIncident& incident) {
         return incident.edge == edge && incident.closed_to_emergency;
     });
+}
+
+/// The times that the prior asks for. Throws core::InputError where the scenario has none.
+std::span<const double> usual_times(const PolicyContext& context, Prior prior) {
+    if (prior == Prior::free_flow) return {};
+    if (context.mean_times_s.empty())
+        throw core::InputError({"navigate.prior", "is mean_times, and the scenario names none",
+                                "free_flow, or a scenario with network.mean_times",
+                                "`clearway scenario mean-times SCENARIO --out FILE` makes them"});
+    return context.mean_times_s;
 }
 
 }  // namespace
@@ -20,14 +34,18 @@ Navigate::Navigate(const PolicyContext& context, const NavigateConfig& config)
     : ConfiguredPolicy(context, config),
       search_(context.network, roads::Driver::emergency),
       times_(context.network, search_,
-             {.fade_s = config.fade_s, .prior_s = config.prior_s, .signal_share = config.signal_share}) {}
+             {.fade_s = config.fade_s,
+              .prior_s = config.prior_s,
+              .signal_share = config.signal_share,
+              .mean_times_s = usual_times(context, config.prior)}) {}
 
 void Navigate::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     if (config_.observes != 0) times_.see(belief, context_.period);
     const bool has_news = config_.heeds_incidents != 0 && belief.incidents != known_;
     if (has_news) known_ = belief.incidents;
     const detail::View view(context_.network, belief);
-    detail::LeaseWriter write("navigate", context_.period, belief.time, leases, config_.replan_s);
+    detail::LeaseWriter write("navigate", context_.period, belief.time, leases,
+                              std::min(config_.replan_s, longest_lease_s));
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
         const auto [planned, is_new] = planned_at_.try_emplace(emergency.key, belief.time.value);
         const double age_s = belief.time.value - planned->second;

@@ -1,17 +1,28 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
+#include "core/spellings.hpp"
 #include "policy/configured_policy.hpp"
 #include "policy/detail/view.hpp"
 #include "policy/edge_times.hpp"
 #include "roads/route_search.hpp"
 
 namespace clearway::policy {
+
+/// What is assumed of an edge before anything is seen there.
+enum class Prior : std::uint8_t {
+    free_flow,   ///< The limit, and the waits of the signals' programs.
+    mean_times,  ///< The mean of other days (PolicyContext::mean_times_s); free_flow where none is known.
+};
+constexpr core::Spellings<Prior, 2> spellings(Prior) {
+    return {{{Prior::free_flow, "free_flow"}, {Prior::mean_times, "mean_times"}}};
+}
 
 /// Settings of Navigate.
 struct NavigateConfig {
@@ -23,14 +34,17 @@ struct NavigateConfig {
     double signal_share = 1.0;
     int observes = 1;
     int heeds_incidents = 1;
+    Prior prior = Prior::free_flow;
 
     static constexpr auto fields() {
         using C = NavigateConfig;
         using core::Field;
         return std::make_tuple(
-            Field{"replan_s", "s", &C::replan_s, 0.1, 600.0,
-                  "Time between two searches for an emergency vehicle; a new incident is looked at at once",
-                  "assumed: a few hundred metres in between"},
+            Field{
+                "replan_s", "s", &C::replan_s, 0.1, 86400.0,
+                "Time between two searches for an emergency vehicle; a new incident is looked at at once. A "
+                "day: at departure alone",
+                "assumed: a few hundred metres in between"},
             Field{"gain_s", "s", &C::gain_s, 0.0, 1e6,
                   "A way is changed only for a believed gain above this and above gain_share",
                   "assumed: below it, beliefs decide and not roads"},
@@ -52,7 +66,12 @@ struct NavigateConfig {
                   "0: traffic is not looked at, ways follow free flow and the signals' programs",
                   "1; 0 is the control"},
             Field{"heeds_incidents", "1", &C::heeds_incidents, 0, 1,
-                  "0: what is known of incidents is not heard", "1; 0 is the control"});
+                  "0: what is known of incidents is not heard", "1; 0 is the control"},
+            Field{"prior", "", &C::prior, 0, 0,
+                  "What is assumed of an edge before anything is seen there: free_flow, with the signals' "
+                  "programs, or mean_times, those of other days that the scenario names "
+                  "(network.mean_times)",
+                  "free_flow: needs no other days"});
     }
 };
 

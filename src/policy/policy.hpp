@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +37,9 @@ class Policy {
 struct PolicyContext {
     const roads::Network& network;
     core::Seconds period{0.5};  ///< Time between two calls of `act`.
+    /// What others needed for each edge on other days, s, by core::EdgeIndex, 0 where that is not known;
+    /// empty: for none. Valid while the policy is made.
+    std::span<const double> mean_times_s = {};
 };
 
 /// A registered policy. Settings are named with their component, `preempt_signals.lead_s`; `make` ignores

@@ -193,12 +193,14 @@ std::unique_ptr<SampleRecorder> make_sample_recorder(experiment::DatasetKind kin
         case experiment::DatasetKind::pair_samples:
             return std::make_unique<PairSampleRecorder>(std::move(setup));
         case experiment::DatasetKind::published:
+        case experiment::DatasetKind::edge_times:
             break;
     }
-    throw std::logic_error("the published data set is not a file of samples");
+    throw std::logic_error("this data set is not a file of samples");
 }
 
 const char* sample_ending(experiment::DatasetKind kind) {
+    if (kind == experiment::DatasetKind::edge_times) return "-edge-times.csv";
     return kind == experiment::DatasetKind::pair_samples ? pair_sample_ending : graph_sample_extension;
 }
 

@@ -65,7 +65,7 @@ class SampleRecorder : public trace::StepListener {
     double next_s_ = 0.0;
 };
 
-/// The recorder for a kind of samples; any kind but `published`.
+/// The recorder for a kind of samples; any kind but `published` and `edge_times`.
 std::unique_ptr<SampleRecorder> make_sample_recorder(experiment::DatasetKind kind,
                                                      SampleRecorder::Setup setup);
 /// Ending of the names of its files.

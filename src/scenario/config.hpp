@@ -83,6 +83,7 @@ struct NetworkSource {
     Restriction restrict = Restriction::none;
     std::string attribution;
     std::string preemption;
+    std::string mean_times;
     std::vector<std::string> additional;  ///< SUMO's additional files that belong to the network.
 
     bool plain() const { return file.empty(); }
@@ -103,7 +104,11 @@ struct NetworkSource {
             core::Field{
                 "preemption", "", &S::preemption, 0, 0,
                 "CSV of the signals' preemption parameters (clearway scenario signals writes it); optional.",
-                "none: the settings of the condition"});
+                "none: the settings of the condition"},
+            core::Field{"mean_times", "", &S::mean_times, 0, 0,
+                        "Mean times of edges on other days (clearway scenario mean-times writes them), for "
+                        "navigate.prior; beside the scenario; optional.",
+                        "none"});
     }
 };
 

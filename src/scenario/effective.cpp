@@ -120,8 +120,9 @@ std::string table_text(const char* key, const Member& member) {
 /// The files that a configuration names relative to its folder.
 std::vector<std::string> own_files(const ScenarioConfig& config) {
     const NetworkSource& network = config.network;
-    std::vector<std::string> files = {network.nodes, network.edges,      network.connections, network.signals,
-                                      network.file,  network.preemption, config.demand.counts};
+    std::vector<std::string> files = {network.nodes,      network.edges,       network.connections,
+                                      network.signals,    network.file,        network.preemption,
+                                      network.mean_times, config.demand.counts};
     files.insert(files.end(), network.additional.begin(), network.additional.end());
     if (config.measured) {
         files.insert(files.end(), config.measured->routes.begin(), config.measured->routes.end());

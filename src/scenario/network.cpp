@@ -14,6 +14,7 @@
 #include "core/running_hash.hpp"
 #include "core/units.hpp"
 #include "scenario/detail/network_sources.hpp"
+#include "scenario/mean_times.hpp"
 #include "scenario/network_document.hpp"
 #include "scenario/preemption.hpp"
 
@@ -178,12 +179,19 @@ BuiltNetwork open_network(const ScenarioConfig& config, const std::filesystem::p
     const std::filesystem::path file = folder / network_name;
     BuiltNetwork built{file, detail::read_made(config, file, additional_files(config)),
                        hash_of_inputs(config)};
-    if (config.network.preemption.empty()) return built;
-    const std::filesystem::path parameters = resolve(config, config.network.preemption);
     std::vector<core::Problem> problems;
-    const PreemptionRows rows = read_preemption_rows(parameters, problems);
+    if (!config.network.preemption.empty()) {
+        const std::filesystem::path parameters = resolve(config, config.network.preemption);
+        const PreemptionRows rows = read_preemption_rows(parameters, problems);
+        if (problems.empty()) built.preemption = preemption_of(rows, parameters, built.network);
+    }
+    if (!config.network.mean_times.empty()) {
+        const std::filesystem::path times = resolve(config, config.network.mean_times);
+        const MeanTimes read = read_mean_times(times, problems);
+        if (problems.empty())
+            built.mean_times_s = mean_times_of(read, times, built.network, built.inputs_hash);
+    }
     if (!problems.empty()) throw core::InputError(std::move(problems));
-    built.preemption = preemption_of(rows, parameters, built.network);
     return built;
 }
 

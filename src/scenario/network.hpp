@@ -16,6 +16,7 @@ struct BuiltNetwork {
     roads::Network network;
     std::string inputs_hash;  ///< Hash of the inputs and of how it was built from them.
     std::vector<traffic::Preemption> preemption = {};  ///< By signal; empty where the scenario names no file.
+    std::vector<double> mean_times_s = {};             ///< By edge, 0 where not known; empty likewise.
 };
 
 /// Builds the network of `config` in `folder` with netconvert: from plain XML, or from a network file,
@@ -24,7 +25,7 @@ struct BuiltNetwork {
 /// pedestrians; network files keep those that they have. The result holds no time stamp and no path, so equal
 /// inputs give equal bytes. Throws core::InputError naming file and cure for input that netconvert refuses,
 /// for a network without edges open to cars, for a stretch of road that is not in it and for preemption
-/// parameters that do not fit its signals (`preemption_of`);
+/// parameters that do not fit its signals (`preemption_of`) and for mean times of another one;
 /// core::EnvironmentError when netconvert is missing.
 BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::path& folder);
 

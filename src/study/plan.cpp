@@ -147,30 +147,34 @@ Plan make_plan(const StudyConfig& config, const Versions& versions, const fs::pa
         unit.network_folder = output / "scenarios" / unit.scenario / network_name;
         unit.study_seed = config.seed;
         unit.replication = place.replication;
-        unit.traffic_model = place.traffic_model;
+        unit.traffic_model = place.process.traffic_model;
         std::ranges::copy_if(
             config.conditions, std::back_inserter(unit.conditions),
-            [&](const auto& condition) { return condition.traffic_model == place.traffic_model; });
+            [&](const auto& condition) { return experiment::process_of(condition) == place.process; });
         unit.output = output;
         const std::string name =
-            fmt::format("{}-{:05}-{}", unit.scenario, unit.replication, experiment::name(unit.traffic_model));
+            fmt::format("{}-{:05}-{}", unit.scenario, unit.replication, experiment::to_text(place.process));
         plan.units.push_back({name, std::move(unit)});
     }
     return plan;
 }
 
 std::vector<UnitPlace> units_of(const results::Manifest& manifest) {
-    std::vector<TrafficModel> traffic_models;
+    std::vector<experiment::ProcessOptions> processes;
     for (const TrafficModel traffic_model :
          {TrafficModel::standard, TrafficModel::sublane, TrafficModel::free_flow}) {
-        const auto needs_it = [&](const auto& condition) { return condition.traffic_model == traffic_model; };
-        if (std::ranges::any_of(manifest.conditions, needs_it)) traffic_models.push_back(traffic_model);
+        for (const experiment::ConditionSpec& condition : manifest.conditions) {
+            const experiment::ProcessOptions process = experiment::process_of(condition);
+            if (process.traffic_model == traffic_model &&
+                std::ranges::find(processes, process) == processes.end())
+                processes.push_back(process);
+        }
     }
     std::vector<UnitPlace> places;
     for (std::uint32_t replication = 0; replication < manifest.replications; ++replication) {
         for (std::size_t scenario = 0; scenario < manifest.scenarios.size(); ++scenario) {
-            for (const TrafficModel traffic_model : traffic_models)
-                places.push_back({scenario, replication, traffic_model});
+            for (const experiment::ProcessOptions& process : processes)
+                places.push_back({scenario, replication, process});
         }
     }
     return places;
@@ -178,8 +182,10 @@ std::vector<UnitPlace> units_of(const results::Manifest& manifest) {
 
 void check_roads(const Plan& plan) {
     std::vector<core::Problem> problems;
-    for (const scenario::ScenarioConfig& config : plan.scenarios)
+    for (const scenario::ScenarioConfig& config : plan.scenarios) {
+        detail::check_mean_times(plan.manifest.conditions, config, plan.manifest.study_seed, problems);
         detail::check_roads(plan.manifest.conditions, config, problems);
+    }
     if (!problems.empty()) throw core::InputError(problems);
 }
 

@@ -23,7 +23,7 @@ struct PlannedUnit {
 struct UnitPlace {
     std::size_t scenario = 0;
     std::uint32_t replication = 0;
-    experiment::TrafficModel traffic_model = experiment::TrafficModel::standard;
+    experiment::ProcessOptions process = {};
 };
 /// All units of a study in the order of replications, so that an interrupted study has complete replications
 /// of every scenario.
@@ -54,7 +54,8 @@ results::Manifest manifest_of(const StudyConfig& config, const Versions& version
 Plan make_plan(const StudyConfig& config, const Versions& versions, const std::filesystem::path& folder);
 
 /// Throws core::InputError with what the conditions need of the scenarios' roads and do not find there, such
-/// as a shoulder. Builds the networks of which a condition needs something, in some seconds at most.
+/// as a shoulder or mean times of other days. Builds the networks of which a condition needs something, in
+/// some seconds at most.
 void check_roads(const Plan& plan);
 
 /// Throws core::InputError for a scenario that the folder holds and that is not the manifest's any more, or

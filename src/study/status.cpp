@@ -21,7 +21,7 @@ std::vector<CellStatus> cells_of(const results::Manifest& manifest, const Shard&
     for (std::size_t unit = 0; unit < units.size(); ++unit) {
         if (!has_unit(shard, unit)) continue;
         for (std::size_t i = 0; i < manifest.conditions.size(); ++i) {
-            if (manifest.conditions[i].traffic_model == units[unit].traffic_model)
+            if (experiment::process_of(manifest.conditions[i]) == units[unit].process)
                 ++cells[units[unit].scenario * manifest.conditions.size() + i].runs;
         }
     }

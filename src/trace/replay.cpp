@@ -57,16 +57,22 @@ class CandidateGatherer {
     std::vector<std::uint8_t> linked_;
 };
 
+struct Roads {
+    const roads::Network& network;
+    const std::vector<double>& mean_times_s;
+};
+
 class Replay {
   public:
-    Replay(const RecordingInfo& info, const experiment::ConditionSpec& condition,
-           const roads::Network& network, const experiment::LoopConfig& loop)
-        : chain_(condition, {.network = network,
+    Replay(const RecordingInfo& info, const experiment::ConditionSpec& condition, const Roads& roads,
+           const experiment::LoopConfig& loop)
+        : chain_(condition, {.network = roads.network,
                              .random = core::KeyedRandom(core::StudySeed{info.provenance.study_seed},
                                                          core::Replication{info.key.replication}),
                              .policy_period_s = loop.policy_period_s,
                              .rules = loop.rules(),
-                             .incidents = incidents_from(info.incidents, "recording")}),
+                             .incidents = incidents_from(info.incidents, "recording"),
+                             .mean_times_s = roads.mean_times_s}),
           true_links_(loop.rules()) {}
 
     void step(const RecordedStep& step) {
@@ -140,9 +146,9 @@ class Replay {
 }  // namespace
 
 ReplayResult replay(RecordingReader& recording, const experiment::ConditionSpec& condition,
-                    const roads::Network& network) {
+                    const roads::Network& network, const std::vector<double>& mean_times_s) {
     const experiment::LoopConfig loop = experiment::loop_config(condition, loop_of(recording.info()));
-    Replay replay(recording.info(), condition, network, loop);
+    Replay replay(recording.info(), condition, {network, mean_times_s}, loop);
     while (const auto step = recording.next())
         replay.step(*step);
     return replay.result();

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "experiment/condition.hpp"
 #include "metrics/link_quality.hpp"
@@ -45,7 +46,8 @@ struct ReplayResult {
 /// this is not checked here. A decision is made at every policy period, even when the recorded condition had
 /// no policy. Memory grows with the number of candidates, 9 bytes each. Throws core::InputError for unknown
 /// names and as RecordingReader does.
+/// `mean_times_s` as in policy::PolicyContext.
 ReplayResult replay(RecordingReader& recording, const experiment::ConditionSpec& condition,
-                    const roads::Network& network);
+                    const roads::Network& network, const std::vector<double>& mean_times_s = {});
 
 }  // namespace clearway::trace

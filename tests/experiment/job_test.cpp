@@ -124,6 +124,16 @@ TEST_F(JobTest, ReportsEveryProblemOfAFileAtOnce) {
     EXPECT_NE(complaint(to_json(run_job()).substr(0, 90)), "");
 }
 
+TEST_F(JobTest, RefusesConditionsThatSumoCannotServeTogether) {
+    RunJob job = run_job();
+    for (ConditionSpec& condition : job.conditions)
+        condition.rerouting_s = 30.0;
+    EXPECT_EQ(complaint(to_json(job)), "");
+    job.conditions.back().rerouting_signal_penalty = 1.0;
+    EXPECT_THAT(complaint(to_json(job)),
+                HasSubstr("\"b10\" and \"plain\" need other penalties for signals"));
+}
+
 TEST_F(JobTest, NamesTheKindsThatThereAre) {
     EXPECT_THAT(complaint(R"({"kind": "fly"})"),
                 AllOf(HasSubstr("\"fly\" is not known"), HasSubstr("run, dataset, links or attach")));

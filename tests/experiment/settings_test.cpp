@@ -398,6 +398,16 @@ TEST(Settings, APolicyThatNeedsTheSublaneModelIsRefusedWithoutIt) {
     EXPECT_THAT(problems_of(condition), IsEmpty());
 }
 
+TEST(Settings, OfSumosDeviceNeedTheDevice) {
+    ConditionSpec condition = corridor();
+    condition.rerouting_signal_penalty = 1.0;
+    EXPECT_THAT(problems_of(condition), HasSubstr("no vehicle has SUMO's rerouting device"));
+    condition.rerouting_s = 30.0;
+    EXPECT_EQ(problems_of(condition), "");
+    EXPECT_EQ(to_text(process_of(condition)), "standard-penalty-1");
+    EXPECT_THAT(described_name(condition), HasSubstr("rerouting_30s_penalty_1"));
+}
+
 TEST(Settings, PrivilegesAreOfTheEnvironmentSoTheBaselineHasThemToo) {
     ConditionSpec condition = corridor();
     set(condition, "privilege.pass_red", "1");

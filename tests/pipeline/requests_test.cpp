@@ -127,6 +127,23 @@ TEST(Requests, AreSentOnByAutomatedVehiclesAlone) {
     EXPECT_THAT(five.lost(), ElementsAre("a3")) << "h1, a human driver, sends nothing on";
 }
 
+TEST(Requests, LoseTheShareOfWaysThatIsSetAndNothingElse) {
+    const auto lost_of = [](const std::string& failure, const traffic::Action& action) {
+        OneRoad one(failure);
+        std::size_t lost = 0;
+        for (int decision = 0; decision < 200; ++decision) {
+            one.decide({lease(one.scene.key("e1"), action, one.scene.key("e1"))}, decision);
+            EXPECT_EQ(one.lost().size() + one.arrived().size(), 1u);
+            lost += one.lost().size();
+        }
+        return lost;
+    };
+    EXPECT_EQ(lost_of("perfect", traffic::TakeRoute{}), 0u);
+    EXPECT_EQ(lost_of("perfect,way_loss_rate=1", traffic::TakeRoute{}), 200u);
+    EXPECT_NEAR(static_cast<double>(lost_of("perfect,way_loss_rate=0.3", traffic::TakeRoute{})), 60.0, 20.0);
+    EXPECT_EQ(lost_of("perfect,way_loss_rate=1", traffic::HoldLane{}), 0u);
+}
+
 TEST(Requests, NeedNoMessageForWhatAVehicleDecidesItself) {
     OneRoad deaf("perfect,request_propagation=sharp,request_loss_rate=1");
     deaf.decide({lease(deaf.scene.key("e1"), traffic::ChangeLane{1}, deaf.scene.key("e1")),

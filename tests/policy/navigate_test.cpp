@@ -1,7 +1,8 @@
 #include "policy/navigate.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include "core/error.hpp"
 #include "support/crossing_scene.hpp"
 
 namespace clearway::testing {
@@ -74,6 +75,46 @@ TEST_F(Navigation, does_not_look_at_traffic_without_observes) {
     add_queue();
     policy::Navigate navigate({short_square()}, {.observes = 0});
     EXPECT_TRUE(act_for(navigate, 60.0).empty());
+}
+
+TEST_F(Navigation, takes_the_way_that_is_faster_on_other_days) {
+    std::vector<double> mean_s(short_square().edges().size(), 0.0);
+    mean_s[edge("A0B0").value] = 60.0;
+    const auto departs = [&](const NavigateConfig& config) {
+        policy::Navigate navigate({.network = short_square(), .mean_times_s = mean_s}, config);
+        return act_for(navigate, 20.0);
+    };
+    EXPECT_TRUE(departs({}).empty());
+    const auto leases = departs({.replan_s = 86400.0, .observes = 0, .prior = policy::Prior::mean_times});
+    ASSERT_EQ(leases.size(), 1U) << "at departure alone";
+    EXPECT_EQ(std::get<traffic::TakeRoute>(leases.front().action).edges,
+              edges({"left0A0", "A0A1", "A1B1", "B1right1"}));
+    EXPECT_LE(leases.front().expiry.value, now_s) << "later the crew may have turned";
+}
+
+TEST_F(Navigation, takes_free_flow_where_other_days_know_nothing) {
+    const std::vector<double> mean_s(short_square().edges().size(), 0.0);
+    add_queue();
+    policy::Navigate with({.network = short_square(), .mean_times_s = mean_s},
+                          {.prior = policy::Prior::mean_times});
+    policy::Navigate without({short_square()}, NavigateConfig{});
+    const double begin_s = now_s;
+    const auto one = act_for(with, 60.0);
+    now_s = begin_s;
+    const auto other = act_for(without, 60.0);
+    ASSERT_EQ(one.size(), other.size());
+    ASSERT_FALSE(one.empty());
+    EXPECT_EQ(std::get<traffic::TakeRoute>(one.front().action).edges,
+              std::get<traffic::TakeRoute>(other.front().action).edges);
+}
+
+TEST_F(Navigation, refuses_to_assume_other_days_that_the_scenario_does_not_have) {
+    try {
+        policy::Navigate navigate({short_square()}, {.prior = policy::Prior::mean_times});
+        FAIL();
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("clearway scenario mean-times"));
+    }
 }
 
 TEST_F(Navigation, changes_for_no_less_than_the_gain_that_it_asks) {

@@ -3,11 +3,13 @@
 #include <functional>
 #include <limits>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
 #include "experiment/conditions.hpp"
 #include "study/detail/situation.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace clearway::study {
 namespace {
@@ -112,6 +114,30 @@ TEST(Plan, TakesNoConditionWithABluelightForABaseline) {
     EXPECT_THAT(problems_of(config), testing::HasSubstr("has no baseline with traffic model \"sublane\""));
 }
 
+TEST(Plan, StartsSumoAnewForAnotherPenaltyOfSignals) {
+    StudyConfig config = example();
+    for (const double penalty : {0.0, 1.0}) {
+        experiment::ConditionSpec device;
+        device.name = fmt::format("device_{:g}", penalty);
+        device.rerouting_s = 30.0;
+        device.rerouting_signal_penalty = penalty;
+        config.conditions.push_back(device);
+    }
+    const Plan plan = plan_of(config);
+    std::vector<std::string> with_penalty;
+    for (const PlannedUnit& planned : plan.units) {
+        for (const experiment::ConditionSpec& condition : planned.unit.conditions) {
+            EXPECT_EQ(experiment::process_of(condition),
+                      experiment::process_of(planned.unit.conditions.front()));
+            if (condition.name == "device_1") with_penalty.push_back(planned.name);
+            if (condition.name == "device_0") EXPECT_EQ(planned.name.find("penalty"), std::string::npos);
+        }
+    }
+    EXPECT_THAT(with_penalty,
+                testing::ElementsAre("alpha-00000-standard-penalty-1", "beta-00000-standard-penalty-1",
+                                     "alpha-00001-standard-penalty-1", "beta-00001-standard-penalty-1"));
+}
+
 TEST(Plan, RefusesAnEmptyStudy) {
     StudyConfig config;
     config.replications = 0;
@@ -149,6 +175,32 @@ TEST(Situation, RefusesAPolicyThatNeedsAShoulderWhereThereIsNone) {
         testing::AllOf(testing::HasSubstr("condition pull_over, scenario merge"),
                        testing::HasSubstr("pull_over needs a shoulder"), testing::HasSubstr("pull_aside")));
     EXPECT_EQ(problems_on_the_road("rural", "pull_over", TrafficModel::standard, as_it_is), "none");
+}
+
+TEST(Situation, RefusesMeanTimesThatTheScenarioDoesNotNameOrThatAreOfTheStudysOwnDays) {
+    const support::TemporaryFolder folder;
+    experiment::ConditionSpec condition;
+    condition.name = "usual";
+    condition.policies = {"navigate"};
+    const auto problems_with = [&](const std::string& file, std::uint64_t seed) -> std::string {
+        scenario::ScenarioConfig config;
+        config.name = "town";
+        config.network.mean_times = file;
+        config.folder = folder.path();
+        std::vector<core::Problem> problems;
+        detail::check_mean_times({condition}, config, seed, problems);
+        return problems.empty() ? "none" : core::InputError(problems).what();
+    };
+    EXPECT_EQ(problems_with("", 1), "none");
+    condition.settings["navigate.prior"] = "mean_times";
+    EXPECT_THAT(problems_with("", 1), testing::AllOf(testing::HasSubstr("condition usual, scenario town"),
+                                                     testing::HasSubstr("clearway scenario mean-times")));
+    folder.write(
+        "times.csv",
+        "# clearway mean times 1: network abc, study seed 77, runs 10, edges 1\nedge,vehicles,time_s\n"
+        "a,5,8\n");
+    EXPECT_EQ(problems_with("times.csv", 1), "none");
+    EXPECT_THAT(problems_with("times.csv", 77), testing::HasSubstr("which is that of this study"));
 }
 
 TEST(Situation, RefusesAnEmergencyVehicleThatIsWiderThanTheGapBetweenTwoLanes) {

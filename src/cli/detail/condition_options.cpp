@@ -183,6 +183,10 @@ void add_own_condition_options(CLI::App& app, DescribedCondition& described) {
                    "comparison")
         ->check(core::NumberRange{0.0, 3600.0})
         ->option_text("S [0: none]");
+    app.add_option("--rerouting-penalty", own.rerouting_signal_penalty,
+                   "That device's penalty for signals (SUMO's weights.tls-penalty), in mean waits")
+        ->check(core::NumberRange{0.0, 100.0})
+        ->option_text("SHARE [0: none]");
     static const auto dispatches = [] {
         std::map<std::string, experiment::Dispatch> words;
         for (const auto& [value, word] : spellings(experiment::Dispatch{}))

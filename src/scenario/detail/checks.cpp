@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/folder_name.hpp"
+#include "scenario/mean_times.hpp"
 #include "scenario/preemption.hpp"
 #include "traffic/vehicle.hpp"
 
@@ -50,6 +51,20 @@ void check_preemption(const ScenarioConfig& config, Problems& problems) {
     if (!path.empty() && problems.size() == before) read_preemption_rows(resolve(config, path), problems);
 }
 
+void check_mean_times(const ScenarioConfig& config, Problems& problems) {
+    const std::string& path = config.network.mean_times;
+    if (path.empty()) return;
+    const std::size_t before = problems.size();
+    // Only files in the scenario's folder are in its hash.
+    if (path.front() == '$' || std::filesystem::path(path).is_absolute())
+        problems.push_back({config.where("network.mean_times"),
+                            fmt::format("\"{}\" is not in the scenario's folder", path), "a path inside it",
+                            "copy the file beside scenario.toml"});
+    else
+        check_file(config, "network.mean_times", path, problems);
+    if (problems.size() == before) read_mean_times(resolve(config, path), problems);
+}
+
 void check_network(const ScenarioConfig& config, Problems& problems) {
     const NetworkSource& network = config.network;
     const bool has_plain = !network.nodes.empty() || !network.edges.empty() || !network.connections.empty() ||
@@ -72,6 +87,7 @@ void check_network(const ScenarioConfig& config, Problems& problems) {
     for (const std::string& path : network.additional)
         check_file(config, "network.additional", path, problems);
     check_preemption(config, problems);
+    check_mean_times(config, problems);
 }
 
 void check_time(const ScenarioConfig& config, Problems& problems) {

@@ -31,7 +31,7 @@ double factor_of(const DemandContext& context, const std::string& vehicle, TypeD
     return std::clamp(std::exp(std::sqrt(variance) * normal - variance / 2.0), least_factor, largest_factor);
 }
 
-void set_in_place(pugi::xml_node node, const char* name, const std::string& value) {
+void set(pugi::xml_node node, const char* name, const std::string& value) {
     pugi::xml_attribute attribute = node.attribute(name);
     if (!attribute) attribute = node.append_attribute(name);
     attribute.set_value(value.c_str());
@@ -46,10 +46,10 @@ const KindProperties* kind_of(pugi::xml_node type) {
 
 /// Multiplies an attribute of the type and of the car-following model nested in it.
 void scale(pugi::xml_node type, const char* name, double factor, std::optional<double> standard) {
-    if (!type.attribute(name) && standard) set_in_place(type, name, fmt::format("{}", *standard));
+    if (!type.attribute(name) && standard) set(type, name, fmt::format("{}", *standard));
     const auto multiply = [&](pugi::xml_node node) {
         if (node.attribute(name))
-            set_in_place(node, name, fmt::format("{:.6g}", node.attribute(name).as_double() * factor));
+            set(node, name, fmt::format("{:.6g}", node.attribute(name).as_double() * factor));
     };
     multiply(type);
     for (const pugi::xml_node nested : type.children())
@@ -61,7 +61,7 @@ void keep_emergency_braking(pugi::xml_node type, const KindProperties* kind) {
     if (!hardest && kind == nullptr) return;
     const double hardest_mps2 = hardest ? hardest.as_double() : kind->emergency_deceleration_mps2;
     const pugi::xml_attribute usual = type.attribute("decel");
-    if (usual.as_double() > hardest_mps2) set_in_place(type, "emergencyDecel", usual.value());
+    if (usual.as_double() > hardest_mps2) set(type, "emergencyDecel", usual.value());
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ std::string with_driver_types(const DemandContext& context, const PlannedDemand&
         const auto standard = [&](double KindProperties::*member) {
             return kind == nullptr ? std::nullopt : std::optional(kind->*member);
         };
-        set_in_place(type, "id", driver_type_id(vehicle.own_type_of, vehicle.id));
+        set(type, "id", driver_type_id(vehicle.own_type_of, vehicle.id));
         scale(type, "tau", factor_of(context, vehicle.id, headway), standard_headway_s);
         scale(type, "accel", factor_of(context, vehicle.id, acceleration),
               standard(&KindProperties::acceleration_mps2));

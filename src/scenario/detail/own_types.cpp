@@ -18,7 +18,7 @@ namespace {
 
 using traffic::VehicleClass;
 
-void set(pugi::xml_node node, const char* name, const std::string& value) {
+void set_text(pugi::xml_node node, const char* name, const std::string& value) {
     node.remove_attribute(name);
     node.append_attribute(name).set_value(value.c_str());
 }
@@ -29,12 +29,12 @@ void follow_by(pugi::xml_node type, const ModelAttributes& model) {
     }))
         type.remove_child(nested);
     type.remove_attribute("speedDev");
-    set(type, "carFollowModel", model.model);
-    set(type, "tau", fmt::format("{}", model.time_headway_s));
-    set(type, model.extra, fmt::format("{}", model.extra_value));
-    set(type, "minGap", fmt::format("{}", model.minimum_gap_m));
-    set(type, "speedFactor", "1");
-    set(type, "speedDev", "0");
+    set_text(type, "carFollowModel", model.model);
+    set_text(type, "tau", fmt::format("{}", model.time_headway_s));
+    set_text(type, model.extra, fmt::format("{}", model.extra_value));
+    set_text(type, "minGap", fmt::format("{}", model.minimum_gap_m));
+    set_text(type, "speedFactor", "1");
+    set_text(type, "speedDev", "0");
 }
 
 /// Limits the top speed to `limit_kmh`. A type without one of its own has that of its kind.
@@ -45,14 +45,14 @@ void limit_speed(pugi::xml_node type, const MeasuredType& listed, double limit_k
     const double fastest_mps =
         own ? own.as_double()
             : properties(*core::value_from<traffic::VehicleKind>(listed.kind)).maximum_speed_mps;
-    set(type, "maxSpeed", fmt::format("{:.2f}", std::min(limit_mps, fastest_mps)));
+    set_text(type, "maxSpeed", fmt::format("{:.2f}", std::min(limit_mps, fastest_mps)));
 }
 
 /// Multiplies an attribute of the type (`standard` if it has none) and of the car-following model nested in
 /// it.
 void scale(pugi::xml_node type, const char* name, double factor, double standard) {
     const auto multiply = [&](pugi::xml_node node, double value) {
-        set(node, name, fmt::format("{:.6g}", value * factor));
+        set_text(node, name, fmt::format("{:.6g}", value * factor));
     };
     multiply(type, type.attribute(name).as_double(standard));
     for (const pugi::xml_node nested : type.children())
@@ -112,7 +112,7 @@ class TypeWriter {
     void add(pugi::xml_document& written, pugi::xml_node source, const MeasuredType& listed,
              VehicleClass vehicle_class) {
         pugi::xml_node type = written.append_copy(source);
-        set(type, "id", own_type_id(vehicle_class, listed.id));
+        set_text(type, "id", own_type_id(vehicle_class, listed.id));
         const bool automated = vehicle_class == VehicleClass::automated;
         if (automated || own_.car_following == CarFollowing::idm)
             follow_by(type, model_attributes(config_, vehicle_class));

@@ -15,7 +15,9 @@ namespace clearway::scenario::detail {
 namespace {
 
 /// Numbers of the random draws for one pedestrian. Never renumber them.
-enum Draw : std::uint64_t { depart, crossing, direction, from, to, from_distance, to_distance, speed };
+struct Draw {
+    enum Number : std::uint64_t { depart, crossing, direction, from, to, from_distance, to_distance, speed };
+};
 
 /// Range of distances from the junction at which pedestrians depart and arrive, m, if the sidewalk is long
 /// enough. Assumed: far enough to meet a signal in any phase, near enough to cost little time.
@@ -72,9 +74,9 @@ class Walk {
 
   private:
     std::uint64_t key() const { return core::vehicle_key(id_).value; }
-    double draw(Draw what) const { return context_.random.uniform(core::Purpose::pedestrian, key(), what); }
+    double draw(Draw::Number what) const { return context_.random.uniform(core::Purpose::pedestrian, key(), what); }
     template <class Row>
-    const Row& pick(const std::vector<Row>& rows, Draw what) const {
+    const Row& pick(const std::vector<Row>& rows, Draw::Number what) const {
         return rows[context_.random.below(rows.size(), core::Purpose::pedestrian, key(), what)];
     }
     const std::string& edge_id(const roads::SidewalkEnd& sidewalk) const {
@@ -84,7 +86,7 @@ class Walk {
         return edge_id(start) + " " + edge_id(target);
     }
     /// Position along the sidewalk's lane.
-    double position_m(const roads::SidewalkEnd& sidewalk, Draw what) const {
+    double position_m(const roads::SidewalkEnd& sidewalk, Draw::Number what) const {
         const double length_m = context_.network.lane(sidewalk.lane).length_m;
         const double off_m = std::min(nearest_m + draw(what) * (farthest_m - nearest_m), length_m / 2.0);
         return sidewalk.end == roads::LaneEnd::last ? length_m - off_m : off_m;

@@ -10,6 +10,7 @@
 #include "experiment/settings.hpp"
 #include "roads/network.hpp"
 #include "roads/shoulder.hpp"
+#include "scenario/mean_times.hpp"
 #include "scenario/network.hpp"
 #include "scenario/vehicle_types.hpp"
 
@@ -113,6 +114,31 @@ void check_traffic_model(const ConditionSpec& condition, const scenario::Scenari
                             "lets emergency vehicles drive between lanes, which traffic model \"standard\" "
                             "cannot show",
                             "traffic model \"sublane\", or privilege.between_lanes=0", sublane_cure});
+}
+
+void check_mean_times(const std::vector<ConditionSpec>& conditions, const scenario::ScenarioConfig& scenario,
+                      std::uint64_t study_seed, std::vector<core::Problem>& problems) {
+    const auto wants = [](const auto& setting) {
+        return setting.first.ends_with(".prior") && setting.second == "mean_times";
+    };
+    for (const ConditionSpec& condition : conditions) {
+        const auto setting = std::ranges::find_if(condition.settings, wants);
+        if (setting == condition.settings.end()) continue;
+        const std::string& file = scenario.network.mean_times;
+        const std::string where =
+            fmt::format("condition {}, scenario {}: {}", condition.name, scenario.name, setting->first);
+        if (file.empty()) {
+            problems.push_back({where, "is mean_times, and the scenario names none",
+                                "a scenario with network.mean_times, or another prior",
+                                "`clearway scenario mean-times SCENARIO --out FILE` makes them"});
+        } else if (scenario::read_mean_times(scenario::resolve(scenario, file), problems).study_seed ==
+                   study_seed) {
+            problems.push_back(
+                {where,
+                 fmt::format("{} was made with study seed {}, which is that of this study", file, study_seed),
+                 "times of other days", "Give the study another seed"});
+        }
+    }
 }
 
 void check_roads(const std::vector<ConditionSpec>& conditions, const scenario::ScenarioConfig& scenario,

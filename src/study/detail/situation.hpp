@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/error.hpp"
@@ -12,6 +13,12 @@ namespace clearway::study::detail {
 /// privilege of the scenario that does.
 void check_traffic_model(const experiment::ConditionSpec& condition, const scenario::ScenarioConfig& scenario,
                          std::vector<core::Problem>& problems);
+
+/// Conditions that assume mean times of other days of a scenario that names none, or names those of this
+/// study's own days.
+void check_mean_times(const std::vector<experiment::ConditionSpec>& conditions,
+                      const scenario::ScenarioConfig& scenario, std::uint64_t study_seed,
+                      std::vector<core::Problem>& problems);
 
 /// What the conditions need of the scenario's roads and do not find there: a shoulder, a gap between two
 /// lanes in which an emergency vehicle fits, or the signals that are equipped. Builds the network if one of
