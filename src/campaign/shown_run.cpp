@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "campaign/worker_jobs.hpp"
+#include "core/leftovers.hpp"
 
 namespace clearway::campaign {
 namespace {
@@ -63,7 +64,8 @@ experiment::RunJob unit_of(const study::Plan& plan, const experiment::ConditionS
 core::ExitCode show_and_print(const study::Plan& plan, const RunOptions& options,
                               const experiment::ConditionSpec& shown, const experiment::WindowSpec& window) {
     require_display();
-    const bool is_new = !std::filesystem::exists(options.folder / "manifest.json");
+    // Removed below: nothing of the user's may be in it, hidden or not.
+    const bool is_new = core::holds_only(options.folder, [](const std::string&) { return false; });
     const results::Store store = prepare_run_folder(plan, options);
     experiment::RunJob unit = unit_of(plan, shown);
     unit.window = window;

@@ -7,6 +7,7 @@
 
 #include "core/files.hpp"
 #include "core/number.hpp"
+#include "core/read_failure.hpp"
 
 namespace clearway::core {
 namespace {
@@ -58,11 +59,13 @@ bool is_leftover(const fs::path& path) {
 }
 
 bool holds_only(const fs::path& folder, const std::function<bool(const std::string&)>& allowed) {
-    std::error_code none;
-    for (auto entry = fs::directory_iterator(folder, none); !none && entry != fs::directory_iterator();
-         entry.increment(none)) {
+    std::error_code error;
+    for (auto entry = fs::directory_iterator(folder, error); !error && entry != fs::directory_iterator();
+         entry.increment(error)) {
         if (!allowed(entry->path().filename().string()) && !is_leftover(entry->path())) return false;
     }
+    if (error == std::errc::not_a_directory) return false;
+    if (error && error != std::errc::no_such_file_or_directory) fail_to_read(folder, error.value());
     return true;
 }
 

@@ -16,7 +16,8 @@ bool is_leftover(const std::filesystem::path& path);
 /// The ending of the names of files and folders that are not whole.
 inline constexpr const char* part_ending = ".part";
 
-/// Whether a folder is missing or holds nothing but leftovers and names that are `allowed`.
+/// Whether a folder is missing or holds nothing but leftovers and names that are `allowed`. Throws as
+/// fail_to_read does: what cannot be listed is not empty.
 bool holds_only(const std::filesystem::path& folder, const std::function<bool(const std::string&)>& allowed);
 /// Likewise, where hidden names are allowed, such as those of locks.
 bool is_absent_or_empty(const std::filesystem::path& folder);

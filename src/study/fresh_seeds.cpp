@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/read_failure.hpp"
 #include "core/strict_table.hpp"
 #include "results/manifest.hpp"
 #include "study/plan.hpp"
@@ -22,9 +23,10 @@ namespace fs = std::filesystem;
 /// Sorted, so that a message names the same one on every machine.
 std::set<fs::path> entries_of(const fs::path& folder) {
     std::set<fs::path> entries;
-    std::error_code none;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
         entries.insert(entry.path());
+    if (error && error != std::errc::no_such_file_or_directory) core::fail_to_read(folder, error.value());
     return entries;
 }
 
@@ -55,8 +57,11 @@ std::string user_among_files(const StudyConfig& config, const fs::path& file) {
 /// The manifest of a run folder, if it is one. What cannot be read is added to `unread`.
 std::optional<results::Manifest> manifest_in(const fs::path& folder, std::vector<core::Problem>& unread) {
     const fs::path file = folder / "manifest.json";
-    std::error_code none;
-    if (!fs::exists(file, none)) return std::nullopt;
+    std::error_code error;
+    if (!fs::exists(file, error)) {
+        if (error) unread.push_back({file.string(), "cannot be read: " + error.message(), "", ""});
+        return std::nullopt;
+    }
     try {
         return results::manifest_from_json(core::read_file(file), file.string());
     } catch (const core::InputError& error) {

@@ -167,6 +167,17 @@ TEST_F(FilesTest, an_output_is_written_after_what_killed_calls_left_of_it_is_rem
         EXPECT_FALSE(is_leftover(name)) << name;
 }
 
+TEST_F(FilesTest, a_folder_that_cannot_be_listed_is_not_empty) {
+    const auto folder = folder_.path() / "new";
+    EXPECT_TRUE(is_absent_or_empty(folder));
+    std::filesystem::create_directories(folder / ".hidden");
+    EXPECT_TRUE(is_absent_or_empty(folder));
+    EXPECT_FALSE(holds_only(folder, [](const std::string&) { return false; }));
+    EXPECT_FALSE(is_absent_or_empty(folder_.write("file", "")));
+    std::filesystem::create_symlink("loop", folder_.path() / "loop");
+    EXPECT_THROW(is_absent_or_empty(folder_.path() / "loop"), InputError);
+}
+
 TEST_F(FilesTest, parts_of_killed_writers_go_and_those_of_others_stay) {
     const auto gone = folder_.write("a.json.2147483647.part", "");
     const auto own = folder_.write("a.json." + std::to_string(getpid()) + ".part", "");

@@ -293,6 +293,10 @@ TEST_F(PlannedRuns, ThatCannotBeReadAreNamed) {
     core::write_atomically(runs_ / "damaged" / "manifest.json", "{");
     ASSERT_EQ(unread().size(), 1U);
     EXPECT_THAT(unread().front().where, HasSubstr("damaged/manifest.json"));
+    fs::create_symlink("loop", runs_ / "loop");
+    ASSERT_EQ(unread().size(), 2U);
+    EXPECT_THAT(unread().back().what, HasSubstr("cannot be read"));
+    EXPECT_THROW(check_fresh_seed(config_, file_, runs_ / "loop" / "planned"), core::InputError);
     config_.plan.reset();
     EXPECT_THAT(unread(), testing::IsEmpty()) << "nothing to confirm";
 }
