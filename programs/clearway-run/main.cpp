@@ -1,12 +1,14 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <new>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/build_stamp.hpp"
 #include "core/error.hpp"
+#include "core/machine_failure.hpp"
 #include "loop/episodes.hpp"
 #include "loop/worker.hpp"
 #include "sumo/session.hpp"
@@ -46,5 +48,8 @@ int main(int argument_count, char** arguments) {
     } catch (const core::Error& error) {
         fmt::print(stderr, "clearway-run: {}\n", error.what());
         return static_cast<int>(error.exit_code());
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "clearway-run: {}\n", core::no_memory().what());
+        return static_cast<int>(core::ExitCode::environment);
     }
 }

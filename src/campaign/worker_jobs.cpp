@@ -140,7 +140,11 @@ WorkerResult record_jobs(const std::vector<experiment::DatasetJob>& jobs, unsign
                         .log = std::filesystem::path(file).replace_extension(".log"),
                         .work = {job.output / fmt::format("work-{}-{}", job.scenario, job.replication)}});
     }
-    return work_on(work, processes, "recordings");
+    WorkerResult result = work_on(work, processes, "recordings");
+    // Libraries write to the same streams.
+    std::erase_if(result.lines,
+                  [&](const std::string& line) { return !line.starts_with(jobs.front().output.string()); });
+    return result;
 }
 
 }  // namespace clearway::campaign

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -15,6 +16,7 @@
 #include "cli/verb.hpp"
 #include "core/build_stamp.hpp"
 #include "core/error.hpp"
+#include "core/machine_failure.hpp"
 #include "core/process.hpp"
 #include "core/read_failure.hpp"
 #include "core/usage.hpp"
@@ -263,6 +265,8 @@ core::ExitCode act(const Action& action, const Invocation& invocation) {
             core::ExitCode::environment);
     } catch (const core::Error& error) {
         return complain(error, error.exit_code());
+    } catch (const std::bad_alloc&) {
+        return complain(core::no_memory(), core::ExitCode::environment);
     } catch (const std::exception& error) {
         return complain(error, core::ExitCode::environment);
     }

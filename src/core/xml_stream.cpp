@@ -10,6 +10,7 @@
 #include <zlib.h>
 
 #include "core/error.hpp"
+#include "core/machine_failure.hpp"
 #include "core/read_failure.hpp"
 
 namespace clearway::core {
@@ -80,6 +81,7 @@ int read_chunk(gzFile input, void* buffer, const std::filesystem::path& file) {
 }
 
 [[noreturn]] void fail_at_parser(XML_Parser parser, const std::filesystem::path& file) {
+    if (XML_GetErrorCode(parser) == XML_ERROR_NO_MEMORY) throw no_memory();
     throw core::InputError({fmt::format("{}:{}", file.string(), XML_GetCurrentLineNumber(parser)),
                             fmt::format("is not valid XML: {}", XML_ErrorString(XML_GetErrorCode(parser))),
                             "", "Check that the file is complete and was not edited by mistake"});
@@ -106,7 +108,7 @@ void stream_xml(const std::filesystem::path& file, XmlHandler& handler) {
     const GzipHandle input(gzopen(file.c_str(), "rb"), &gzclose_r);
     if (!input) fail_to_read(file, errno == 0 ? ENOMEM : errno);
     const ParserHandle parser(XML_ParserCreate(nullptr), &XML_ParserFree);
-    if (!parser) throw std::bad_alloc();
+    if (!parser) throw no_memory();
 
     Job job{parser.get(), handler, file};
     XML_SetUserData(parser.get(), &job);
@@ -114,7 +116,7 @@ void stream_xml(const std::filesystem::path& file, XmlHandler& handler) {
     XML_SetCharacterDataHandler(parser.get(), on_text);
     for (bool at_end = false; !at_end;) {
         void* buffer = XML_GetBuffer(parser.get(), chunk_bytes);
-        if (buffer == nullptr) throw std::bad_alloc();
+        if (buffer == nullptr) throw no_memory();
         const int count = read_chunk(input.get(), buffer, file);
         at_end = count == 0;
         const XML_Status status = XML_ParseBuffer(parser.get(), count, at_end ? XML_TRUE : XML_FALSE);

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include <unistd.h>
 
 #include "core/files.hpp"
+#include "core/machine_failure.hpp"
 #include "core/process.hpp"
 #include "core/read_failure.hpp"
 #include "experiment/job.hpp"
@@ -125,6 +127,9 @@ core::ExitCode try_to_store_error(const Unit& unit, const experiment::RunKey& ke
         code = error.exit_code();
         if (code == core::ExitCode::runs_failed || code == core::ExitCode::bad_input)
             code = try_to_store_error(unit, key, error, folder);
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "{}: {}\n", experiment::to_text(key), core::no_memory().what());
+        code = core::ExitCode::environment;
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}: {}\n", experiment::to_text(key), error.what());
         std::fflush(nullptr);

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/machine_failure.hpp"
 #include "core/process.hpp"
-#include "core/read_failure.hpp"
 #include "scenario/detail/xml_text.hpp"
 
 namespace clearway::scenario {
@@ -186,11 +186,7 @@ std::string NetworkDocument::text() const {
 }
 
 void require_whole(const std::filesystem::path& file) {
-    if (core::tail(file, 1).find("</net>") == std::string::npos)
-        throw core::EnvironmentError(fmt::format(
-            "{}: netconvert wrote only a part of it; the disk may be full. Free some space there and "
-            "give the same command again",
-            file.string()));
+    if (core::tail(file, 1).find("</net>") == std::string::npos) throw core::cut_short(file);
 }
 
 }  // namespace clearway::scenario

@@ -17,6 +17,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/machine_failure.hpp"
 #include "core/read_failure.hpp"
 #include "sumo/detail/commander.hpp"
 #include "sumo/detail/gateway.hpp"
@@ -68,10 +69,7 @@ void require_complete(const std::filesystem::path& trips, core::Seconds patience
     const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience.value);
     while (!is_complete(trips) && std::chrono::steady_clock::now() < until)
         std::this_thread::sleep_for(pause);
-    if (!is_complete(trips))
-        throw core::EnvironmentError(trips.string() +
-                                     " is incomplete; the disk may be full. Free some space "
-                                     "there and give the same command again");
+    if (!is_complete(trips)) throw core::cut_short(trips);
 }
 
 }  // namespace

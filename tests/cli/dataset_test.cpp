@@ -52,6 +52,21 @@ TEST_F(DatasetTest, records_samples_of_each_failure_and_replication) {
     EXPECT_THAT(ended.err, HasSubstr("2/2"));
 }
 
+/// A library that meets a failure of the machine, and goes on without it, says so on the worker's streams.
+TEST_F(DatasetTest, takes_nothing_else_that_a_worker_says_for_a_file) {
+    const std::filesystem::path programs = std::filesystem::path(CLEARWAY_BINARY_DIR) / "bin";
+    std::filesystem::copy(programs / "clearway", folder());
+    write_program("clearway-run", "#!/bin/sh\n[ \"$1\" = --version ] || echo 'Warning: beside'\nexec " +
+                                      (programs / "clearway-run").string() + " \"$@\"\n");
+    const core::Exit exit =
+        core::run({folder() / "clearway",
+                   {"links", "dataset", (folder() / "line").string(), "--out", (folder() / "data").string()},
+                   {},
+                   folder() / "said.txt"});
+    EXPECT_EQ(exit.code, 0);
+    EXPECT_THAT(read("said.txt"), AllOf(HasSubstr("data  "), Not(HasSubstr("beside"))));
+}
+
 TEST_F(DatasetTest, records_traffic_under_policies_beside_passive_traffic) {
     const std::vector<std::string> passive = {"links",      "dataset",   "line",      "--out",
                                               "data",       "--samples", "--failure", "report_interval_s=1",

@@ -149,7 +149,8 @@ TEST(Fault, FullDiskIsNoticedAtTheEnd) {
     const rlimit limit{4096, 4096};
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
     test::step_until(session, 120.0);
-    EXPECT_THAT(message_of<core::EnvironmentError>([&] { session.close(); }), HasSubstr("disk may be full"));
+    EXPECT_THAT(message_of<core::EnvironmentError>([&] { session.close(); }),
+                HasSubstr("Files are limited to 4 KiB"));
 }
 
 TEST(Fault, ConfigurationProblemsAreCollected) {

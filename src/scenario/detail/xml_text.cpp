@@ -8,6 +8,7 @@
 #include <zlib.h>
 
 #include "core/error.hpp"
+#include "core/machine_failure.hpp"
 #include "core/read_failure.hpp"
 #include "core/xml_stream.hpp"
 
@@ -62,6 +63,7 @@ pugi::xml_document load_xml(const std::filesystem::path& file, const std::string
     const std::string bytes = inflated(file, kind);
     pugi::xml_document document;
     const pugi::xml_parse_result result = document.load_buffer(bytes.data(), bytes.size(), options);
+    if (result.status == pugi::status_out_of_memory) throw core::no_memory();
     if (!result)
         refuse(file, fmt::format("is not XML: {} at byte {}", result.description(), result.offset), kind);
     LevelWatch levels;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/machine_failure.hpp"
 #include "scenario/network_document.hpp"
 #include "scenario_import/detail/packed_file.hpp"
 #include "scenario_import/detail/source.hpp"
@@ -59,8 +60,7 @@ bool copy_with_version(const std::filesystem::path& map, const std::filesystem::
         piece.resize(stream.read(piece));
     }
     out.close();
-    if (!out)
-        throw core::EnvironmentError(fmt::format("{} cannot be written. Is the disk full?", copy.string()));
+    if (!out) throw core::cut_short(copy);
     return true;
 }
 
