@@ -1,6 +1,7 @@
 // The dispatching of units to workers on a machine that is no machine: its clock moves only when the
 // supervisor pauses, and its workers are events on that clock. Each order of events is drawn from a number.
-// CLEARWAY_ORDERS says how many are tried: 100 otherwise, 100000 in scripts/nightly.
+// CLEARWAY_ORDERS says how many are tried: 100 otherwise, 100000 in scripts/nightly; CLEARWAY_FIRST_ORDER
+// from which number on, so that several calls can share them.
 #include <csignal>
 #include <cstdlib>
 #include <map>
@@ -317,10 +318,15 @@ class Dispatch : public testing::Test {
     study::StudyConfig config_;
 };
 
+std::uint64_t asked_number(const char* variable, std::uint64_t otherwise) {
+    const char* const asked = std::getenv(variable);
+    return asked == nullptr ? otherwise : std::stoull(asked);
+}
+
 TEST_F(Dispatch, MakesEachUnitOnceInAnyOrderOfDeathsDelaysAndDuplicates) {
-    const char* const asked = std::getenv("CLEARWAY_ORDERS");
-    const std::uint64_t orders = asked == nullptr ? 100 : std::stoull(asked);
-    for (std::uint64_t order = 0; order < orders; ++order) {
+    const std::uint64_t first = asked_number("CLEARWAY_FIRST_ORDER", 0);
+    const std::uint64_t last = first + asked_number("CLEARWAY_ORDERS", 100);
+    for (std::uint64_t order = first; order < last; ++order) {
         try {
             try_study(order);
             if (order % 10 == 0) try_merge(order);

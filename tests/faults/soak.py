@@ -1,8 +1,12 @@
 """A long study: many short runs with recordings and a part in Python, whose workers are killed now and then. Wanted: all runs complete,
 memory and descriptors of the parent flat, no process, no temporary file and no shared memory left.
 
-    soak.py BIN [RUNS]     40 runs where no number is given
+    soak.py BIN [RUNS] [--folder FOLDER] [--jobs N]
+
+FOLDER stays, and the same command with it continues a study that was ended by SIGTERM; memory is judged over the runs of each call.
 """
+import argparse
+import contextlib
 import os
 import pathlib
 import random
@@ -66,8 +70,10 @@ def watch(study, folder, draw):
 
 
 def judge(samples, runs):
-    early = [seen for seen in samples if runs // 4 <= seen[0] < runs // 2]
-    late = [seen for seen in samples if seen[0] >= runs // 2 and seen[0] < runs]
+    first = samples[0][0] if samples else 0  # of an earlier call
+    quarter, half = first + (runs - first) // 4, first + (runs - first) // 2
+    early = [seen for seen in samples if quarter <= seen[0] < half]
+    late = [seen for seen in samples if half <= seen[0] < runs]
     if not early or not late:
         return ["too few samples"]
     wrong = []
@@ -81,36 +87,63 @@ def judge(samples, runs):
     return wrong
 
 
-def main():
-    if len(sys.argv) not in (2, 3):
-        sys.exit(__doc__)
-    clearway, runs = pathlib.Path(sys.argv[1]).resolve() / "clearway", int((sys.argv[2:] or ["40"])[0])
+def make_study(folder, runs):
+    """Does nothing where it has been made."""
+    if (folder / "study.toml").exists():
+        return
     source = pathlib.Path(__file__).resolve().parents[2]
+    shutil.copy2(source / "examples" / "python" / "yield_policy.py", folder)
+    (folder / "temporary").mkdir()
+    (folder / "study.toml").write_text(STUDY.format(replications=runs // 2), encoding="utf-8")
+
+
+def run_study(words, folder, draw):
+    """Samples, how many workers were killed, exit code, processes that are left. Ends the study when it is ended itself."""
+    with open(folder / "log", "w", encoding="utf-8") as log, subprocess.Popen(
+            words, cwd=folder, stdout=log, stderr=log, env={**os.environ, "TMPDIR": str(folder / "temporary")},
+            start_new_session=True) as study:
+        try:
+            samples, killed = watch(study, folder, draw)
+        finally:
+            study.terminate()  # of no effect on one that has ended
+    time.sleep(2.0)  # for the children of a worker that was killed
+    left = subprocess.run(["pgrep", "-a", "-s", str(study.pid)], check=False, capture_output=True, text=True).stdout
+    return samples, killed, study.returncode, left
+
+
+def end(number, _):
+    sys.exit(128 + number)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("programs", metavar="BIN", type=lambda text: pathlib.Path(text).resolve())
+    parser.add_argument("runs", metavar="RUNS", nargs="?", type=int, default=40)
+    parser.add_argument("--folder", type=lambda text: pathlib.Path(text).resolve())
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    asked = parser.parse_args()
+    signal.signal(signal.SIGTERM, end)
     shared = set(os.listdir("/dev/shm"))
-    with tempfile.TemporaryDirectory() as name:
+    with contextlib.nullcontext(asked.folder) if asked.folder else tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        shutil.copy2(source / "examples" / "python" / "yield_policy.py", folder)
-        (folder / "temporary").mkdir()
-        (folder / "study.toml").write_text(STUDY.format(replications=runs // 2), encoding="utf-8")
-        with open(folder / "log", "w", encoding="utf-8") as log, subprocess.Popen(
-                [clearway, "study", "study.toml", "--out", "out", "--record"], cwd=folder, stdout=log, stderr=log,
-                env={**os.environ, "TMPDIR": str(folder / "temporary")}, start_new_session=True) as study:
-            samples, killed = watch(study, folder, random.Random(1))
-        wrong = judge(samples, runs)
+        folder.mkdir(exist_ok=True)
+        make_study(folder, asked.runs)
+        words = [asked.programs / "clearway", "study", "study.toml", "--out", "out", "--record", "--jobs", str(asked.jobs)]
+        samples, killed, code, processes = run_study(words, folder, random.Random(1))
+        wrong = judge(samples, asked.runs)
         complete = sum(1 for _ in (folder / "out" / "runs").glob("*/*/*/run.json"))
         recordings = sum(1 for _ in (folder / "out" / "recordings").rglob("*.h5"))
-        print(f"{complete} of {runs} runs complete, {recordings} recordings; {killed} workers were killed")
-        if study.returncode or complete != runs or recordings != runs:
-            wrong.append(f"exit code {study.returncode}: {(folder / 'log').read_text(encoding='utf-8')[-500:]}")
+        print(f"{complete} of {asked.runs} runs complete, {recordings} recordings; {killed} workers were killed")
+        if code or complete != asked.runs or recordings != asked.runs:
+            wrong.append(f"exit code {code}: {(folder / 'log').read_text(encoding='utf-8')[-500:]}")
         if left := os.listdir(folder / "temporary"):
             wrong.append(f"left in the folder for temporary files: {left[:5]}")
         if left := [name for name in set(os.listdir("/dev/shm")) - shared if "clearway" in name]:
             wrong.append(f"left in shared memory: {left[:5]}")
-        if left := [path for path in (folder / "out").rglob("*.part")]:
+        if left := list((folder / "out").rglob("*.part")):
             wrong.append(f"left in the run folder: {left[:5]}")
-        time.sleep(2.0)  # for the children of a worker that was killed
-        if left := subprocess.run(["pgrep", "-a", "-s", str(study.pid)], check=False, capture_output=True, text=True).stdout:
-            wrong.append(f"processes are left: {left}")
+        if processes:
+            wrong.append(f"processes are left: {processes}")
     print("\n".join(wrong))
     sys.exit(bool(wrong))
 

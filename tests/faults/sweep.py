@@ -1,11 +1,11 @@
 """The machine fails at the n-th system call of a command. Wanted: no false "done", a message otherwise, and the same command again
 gives what an untroubled one gives.
 
-    sweep.py BIN [--cases N] [--kills N] [--slow SHARE] [--verb NAME] [--messages]
+    sweep.py BIN [--cases N] [--kills N] [--part K/M] [--slow SHARE] [--verb NAME] [--messages]
 
 Tries N of all faults, spread evenly over verbs, programs, calls and numbers: each call of CALLS fails with each error of ERRORS
-(--cases) or kills the process that makes it (--kills). Ends with 77 where strace cannot inject faults. --messages prints what the
-commands said.
+(--cases) or kills the process that makes it (--kills). --part tries every M-th of the N, from the K-th on: M calls, at any time and
+on any machine, try all. Ends with 77 where strace cannot inject faults. --messages prints what the commands said.
 """
 import argparse
 import collections
@@ -21,7 +21,7 @@ import tempfile
 
 from tracing import require_strace
 
-CALLS = ("openat", "read", "pread64", "write", "pwrite64", "fsync", "rename", "mkdir", "clone", "mmap", "ftruncate")
+CALLS = ("openat", "getdents64", "read", "pread64", "write", "pwrite64", "fsync", "rename", "mkdir", "clone", "mmap", "ftruncate")
 ERRORS = ("EIO", "ENOSPC", "EMFILE", "ENOMEM")
 LIMIT_S = 120
 # What two equal commands write differently: times, process numbers.
@@ -304,6 +304,14 @@ class Sweep:
         return met, lines
 
 
+def part(text):
+    """(K, M) of K/M."""
+    number, count = map(int, text.split("/"))
+    if not 1 <= number <= count:
+        raise ValueError
+    return number, count
+
+
 def make_pristine(folder, programs):
     """What the verbs find in their folder."""
     folder.mkdir()
@@ -325,6 +333,7 @@ def main():
     parser.add_argument("programs", metavar="BIN", type=lambda text: pathlib.Path(text).resolve())
     parser.add_argument("--cases", type=int, default=0)
     parser.add_argument("--kills", type=int, default=0)
+    parser.add_argument("--part", type=part, default=(1, 1), metavar="K/M")
     parser.add_argument("--slow", type=float, default=0.6, metavar="SHARE", help="of the cases, of verbs that take a second")
     parser.add_argument("--verb", action="append", choices=[verb.name for verb in VERBS])
     parser.add_argument("--messages", action="store_true")
@@ -339,8 +348,9 @@ def main():
         wrong = []
         for kind, strata, total in (("faults", sweep.faults, asked.cases), ("kills", sweep.kills, asked.kills)):
             if total:
-                met, lines = sweep.all(divided(strata, total, asked.slow))
-                print(f"{kind}: {met} of {sum(map(len, strata))} tried, {len(lines)} badly ended")
+                number, count = asked.part
+                met, lines = sweep.all(divided(strata, total, asked.slow)[number - 1::count])
+                print(f"{kind}: {met} of {sum(map(len, strata))} tried, {len(lines)} badly ended", flush=True)
                 wrong += lines
     if asked.messages:
         print("\n".join(f"{count} x {said}" for said, count in sweep.messages.most_common()))
