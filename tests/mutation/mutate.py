@@ -27,7 +27,8 @@ MODULES = {"analysis": "**/*.cpp", "graph": "**/*.cpp", "metrics": "**/*.cpp", "
 TESTS = {"analysis": ["analysis_test", "analysis_replications_test"], "graph": ["graph_test"],
          "metrics": ["metrics_link_quality_test", "metrics_recorder_test"], "actuation": ["actuation_test"]}
 LEAST_FOUND = 0.85
-LIMIT_S = 120
+LIMIT_S = 120  # of processor time, whatever else the machine does
+PATIENCE_S = 3600
 SLOW_MS = 150
 MOST_BYTES = 4 << 30  # of memory for each process: a loop that no longer ends may allocate in each turn
 
@@ -70,17 +71,20 @@ def mistakes_of(module, file):
 class Bench:
     """Compiles a mistake, links the tests of its module and runs them."""
 
-    def __init__(self, build):
+    def __init__(self, build, modules, jobs):
         self.build, self.files = build, build / "mutation"
         subprocess.run(["cmake", "--preset", "ci", "-B", self.files, "-DCMAKE_UNITY_BUILD=OFF",
                         "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"], cwd=ROOT, check=True,
                        stdout=subprocess.DEVNULL)
-        subprocess.run(["cmake", "--build", self.files, "--target", *(f"clearway_{module}" for module in MODULES)], check=True,
-                       stdout=subprocess.DEVNULL)
         commands = json.loads((self.files / "compile_commands.json").read_text(encoding="utf-8"))
         self.compile = {pathlib.Path(entry["file"]).resolve(): shlex.split(entry["command"]) for entry in commands}
-        self.link = {test: self.link_command(test) for tests in TESTS.values() for test in tests}
+        self.link = {test: self.link_command(test) for module in modules for test in TESTS[module]}
         self.slow = {test: self.slow_tests(test) for test in self.link}
+        sources = [file for file in self.compile for module in modules if file.is_relative_to(ROOT / "src" / module)]
+        self.objects = {file: self.files / f"{number}.o" for number, file in enumerate(sources)}
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            if not all(pool.map(self.make, sources, sources, self.objects.values())):
+                sys.exit("a source does not compile without a mistake")
 
     def link_command(self, test):
         listed = subprocess.run(["ninja", "-C", self.build, "-t", "commands", f"tests/{test}"], check=True, capture_output=True, text=True)
@@ -95,25 +99,30 @@ class Bench:
             sys.exit(f"{test} fails without a mistake:\n{ran.stdout[-2000:]}")
         return [name for name, took in re.findall(r"\[       OK \] (\S+) \((\d+) ms\)", ran.stdout) if int(took) > SLOW_MS]
 
+    def make(self, file, source, made):
+        """Compiles `source` as `file` is compiled; whether that succeeds."""
+        words = [str(source) if word == str(file) else word for word in self.compile[file] if word != "-Werror"]
+        words[words.index("-o") + 1] = str(made)
+        return subprocess.run([*words, "-w", "-O0"], cwd=self.files, capture_output=True, check=False).returncode == 0
+
     def is_found(self, mistake):
         """None where it does not compile."""
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             source, made = folder / mistake.file.name, folder / "mistake.o"
             source.write_text(mistake.text(), encoding="utf-8")
-            words = self.compile[mistake.file]
-            words = [str(source) if word == str(mistake.file) else word for word in words if word != "-Werror"]
-            words[words.index("-o") + 1] = str(made)
-            if subprocess.run([*words, "-w", "-O0"], cwd=self.files, capture_output=True, check=False).returncode:
+            if not self.make(mistake.file, source, made):
                 return None
-            return any(self.fails(test, mistake.module, folder, made) for test in TESTS[mistake.module])
+            return any(self.fails(test, mistake, folder, made) for test in TESTS[mistake.module])
 
-    def fails(self, test, module, folder, made):
-        archive = f"src/{module}/libclearway_{module}.a"
+    def fails(self, test, mistake, folder, made):
+        archive = f"src/{mistake.module}/libclearway_{mistake.module}.a"
+        others = [str(at) for file, at in self.objects.items()
+                  if file != mistake.file and file.is_relative_to(ROOT / "src" / mistake.module)]
         program = folder / test
         words = []
         for word in self.link[test]:
-            words += [str(made), str(self.files / archive)] if word == archive else [word]
+            words += [str(made), *others] if word == archive else [word]
         words[words.index("-o") + 1] = str(program)
         linked = subprocess.run(words, cwd=self.build, capture_output=True, text=True, check=False)
         if linked.returncode:
@@ -122,12 +131,16 @@ class Bench:
         for only in [f"--gtest_filter=-{slow}", *([f"--gtest_filter={slow}"] if slow else [])]:
             try:
                 ran = subprocess.run([program, "--gtest_fail_fast", "--gtest_brief=1", only], cwd=folder, capture_output=True, check=False,
-                                     timeout=LIMIT_S)
+                                     timeout=PATIENCE_S, preexec_fn=limit_processor)
             except subprocess.TimeoutExpired:
                 return True
             if ran.returncode:
                 return True
         return False
+
+
+def limit_processor():
+    resource.setrlimit(resource.RLIMIT_CPU, (LIMIT_S, LIMIT_S))
 
 
 def reasons():
@@ -146,17 +159,20 @@ def judge(module, bench, asked, known):
     tried = [mistake for file in files for mistake in mistakes_of(module, file)]
     possible = len(tried)
     tried = random.Random(f"{asked.seed} {module}").sample(tried, min(asked.sample, possible))
+    found, listed = [], 0
     with concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:
-        found = list(pool.map(bench.is_found, tried))
-    survived = [mistake for mistake, is_found in zip(tried, found) if is_found is False]
-    listed = [mistake for mistake in survived if mistake.name() in known]
-    compiled = sum(is_found is not None for is_found in found) - len(listed)
+        for mistake, is_found in zip(tried, pool.map(bench.is_found, tried)):
+            found.append(is_found)
+            if is_found is not False:
+                continue
+            if mistake.name() in known:
+                listed += 1
+            else:
+                print(f"  line {mistake.number + 1}: {mistake.name()}", flush=True)
+    compiled = sum(is_found is not None for is_found in found) - listed
     share = found.count(True) / max(compiled, 1)
-    print(f"{module}: {len(tried)} of {possible} mistakes, {compiled + len(listed)} compile, {found.count(True)} found ({share:.0%}), "
-          f"{len(listed)} change nothing", flush=True)
-    for mistake in survived:
-        if mistake.name() not in known:
-            print(f"  line {mistake.number + 1}: {mistake.name()}", flush=True)
+    print(f"{module}: {len(tried)} of {possible} mistakes, {compiled + listed} compile, {found.count(True)} found ({share:.0%}), "
+          f"{listed} change nothing", flush=True)
     return share >= LEAST_FOUND
 
 
@@ -171,9 +187,10 @@ def main():
     if unknown := set(asked.modules) - set(MODULES):
         parser.error(f"{', '.join(sorted(unknown))}: unknown; one of {', '.join(MODULES)}")
     resource.setrlimit(resource.RLIMIT_AS, (MOST_BYTES, MOST_BYTES))
-    bench = Bench(asked.build)
+    modules = asked.modules or list(MODULES)
+    bench = Bench(asked.build, modules, asked.jobs)
     known = reasons()
-    ends = [judge(module, bench, asked, known) for module in asked.modules or MODULES]
+    ends = [judge(module, bench, asked, known) for module in modules]
     sys.exit(not all(ends))
 
 
