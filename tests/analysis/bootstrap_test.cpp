@@ -113,6 +113,19 @@ TEST(BootstrapBca, HasNoAccelerationWhereNoRowAloneChangesAnything) {
     EXPECT_GT(interval->high, 0.0);
 }
 
+TEST(BootstrapBca, TakesAShareThatNoResampleLiesBelowForHalfAResample) {
+    // 1 to 10 in the resamples, 0 in the sample and without any row: z0 = -1.64485, the quantile of 0.5 / 10,
+    // so that the upper end is the quantile of Phi(2 z0 + 1.95996) = 0.091745, the lower one that of Phi(2 z0
+    // - 1.95996).
+    double next = 0.0;
+    std::size_t asked = 0;
+    const auto rising = [&](RowCounts) { return ++asked == 1 || next >= 10.0 ? 0.0 : ++next; };
+    const auto interval = bootstrap_bca(resamples_of(8, 10, SmallSample::as_published), rising);
+    ASSERT_TRUE(interval);
+    EXPECT_NEAR(interval->low, 1.0, 1e-5);
+    EXPECT_NEAR(interval->high, 1.0 + 9.0 * 0.091745, 1e-4);
+}
+
 TEST(BootstrapBca, SaysNothingWhereNothingCanBeSaid) {
     const std::vector<double> same = {2.0, 2.0, 2.0, 2.0};
     EXPECT_FALSE(bootstrap_bca_of_mean(resamples_of(4), same));

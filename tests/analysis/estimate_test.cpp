@@ -62,6 +62,8 @@ TEST(Quantile, InterpolatesAsTypeSevenOfHyndmanAndFan) {
 TEST(EffectSize, IsNotDefinedWithoutVariation) {
     EXPECT_FALSE(effect_size(std::vector{2.0, 3.0}, std::vector{1.0, 2.0}));
     EXPECT_FALSE(paired_t_p(std::vector{2.0}, std::vector{1.0}));
+    EXPECT_NEAR(*effect_size(std::vector{0.2, 0.4}, std::vector{0.0, 0.0}), 0.3 / (0.2 / std::sqrt(2.0)),
+                1e-9);
 }
 
 TEST(QuantileInterval, OfAMedianInterpolatesAsHettmanspergerAndSheather) {
@@ -126,6 +128,16 @@ TEST(EstimateCountDifference, HasTheLimitsOfZouAndDonner) {
     const auto difference = estimate_count_difference(more, less);
     EXPECT_NEAR(difference->interval->low, 2.0 - limit_away(5.0 - of_more.low, of_less.high - 3.0), 1e-9);
     EXPECT_NEAR(difference->interval->high, 2.0 + limit_away(of_more.high - 5.0, 3.0 - of_less.low), 1e-9);
+}
+
+TEST(EstimateCountDifference, TakesCountsThatNeverVaryForIndependentOfOthers) {
+    const std::vector<double> varying = {1.0, 2.0, 3.0, 6.0};
+    const std::vector<double> same(4, 2.0);
+    const Interval of_varying = *estimate_count(varying)->interval;
+    const Interval of_same = *estimate_count(same)->interval;
+    const auto difference = estimate_count_difference(varying, same);
+    EXPECT_NEAR(difference->interval->low, 1.0 - std::hypot(3.0 - of_varying.low, of_same.high - 2.0), 1e-9);
+    EXPECT_NEAR(difference->interval->high, 1.0 + std::hypot(of_varying.high - 3.0, 2.0 - of_same.low), 1e-9);
 }
 
 TEST(Geh, AgreesWithTheWorkedExample) {

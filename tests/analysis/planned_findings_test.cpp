@@ -92,6 +92,15 @@ TEST_F(Planned, ShowsEquivalenceOnlyWithinTheMargin) {
     EXPECT_GT(*findings()[0].p, 0.5) << "even the mean lies outside";
 }
 
+TEST_F(Planned, ShowsNoEquivalenceWithoutAMargin) {
+    add("baseline", {100, 110, 120, 130, 140, 150});
+    add("other", {100, 108, 121, 129, 141, 149});
+    plan("other", "baseline", Claim::equivalence);
+    results_.manifest.plan->margin_s = 0.0;
+    EXPECT_FALSE(findings()[0].p);
+    EXPECT_EQ(findings()[0].shown, Shown::not_shown);
+}
+
 TEST_F(Planned, TakesTheMarginFromTheDelayWhereThatIsMore) {
     add("baseline", {100, 110, 120, 130, 140, 150});  // mean 125
     add("other", {100, 108, 121, 129, 141, 149});

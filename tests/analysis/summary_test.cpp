@@ -127,6 +127,10 @@ TEST(Objections, WeighVehiclesThatWereTakenOffTheRoadApart) {
               "lost 2 of 10 emergency vehicles (2 teleported; baseline 2 still on the road at the end)");
     std::swap(objections.emergency, objections.baseline_emergency);
     EXPECT_FALSE(objections.loses_emergency());
+    objections.emergency = {.running_at_end = 1};
+    objections.baseline_emergency = {.arrived = 1};
+    EXPECT_EQ(emergency_objections(objections),
+              "lost 1 of 1 emergency vehicle (1 still on the road at the end; baseline 0)");
 }
 
 TEST_F(SmallStudy, ObjectsOnlyToMoreLossesThanTheBaselineHas) {
@@ -297,6 +301,10 @@ TEST_F(SmallStudy, IsAllMissingBeforeAnythingRan) {
     EXPECT_FALSE(summary.find("treated")->metric("collisions").estimate);
     EXPECT_EQ(summary.find("treated")->metric("collisions").comparison->incomplete_pairs, 4U);
     EXPECT_EQ(summary.find("nobody"), nullptr);
+    const std::vector<Unpaired> unpaired = summarise(results_).unpaired;
+    ASSERT_EQ(unpaired.size(), 4U);
+    EXPECT_EQ(unpaired[1].condition, "treated");
+    EXPECT_EQ(unpaired[1].why, "4 of 4 runs failed or are missing");
 }
 
 TEST_F(SmallStudy, GivesTheTailOfAllEmergencyVehiclesWithThoseThatDidNotArriveLast) {

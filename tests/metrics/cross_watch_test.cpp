@@ -46,6 +46,8 @@ TEST(CrossWatch, SumsWhatTheCrossStreetLosesInFifteenMinutes) {
     EXPECT_THAT(delay_of(crossing({50.0}), 2000.0), Optional(DoubleNear(901 * 0.5, 1e-6)))
         << "half of each of the steps that end from 50 to 950 s, on the side street alone";
     EXPECT_THAT(delay_of(crossing({50.0}), 99.0), Optional(DoubleNear(50 * 0.5, 1e-6)));
+    EXPECT_THAT(delay_of(crossing({0.0}), 10.0), Optional(DoubleNear(10 * 0.5, 1e-6)))
+        << "from the first step on";
 }
 
 TEST(CrossWatch, CountsOverlappingWindowsOnceAndDividesByThePassages) {

@@ -71,6 +71,7 @@ TEST(LinkQuality, best_threshold_maximises_f1) {
     const Links links{{0.9, 0.5, 0.4, 0.1}, {1, 0, 1, 0}};
     EXPECT_DOUBLE_EQ(best_f1_threshold(links), 0.4);  // TP 2, FP 1: 0.8
     EXPECT_DOUBLE_EQ(best_f1_threshold(Links{{0.9, 0.2}, {0, 0}}), 0.5);
+    EXPECT_DOUBLE_EQ(best_f1_threshold(Links{{0.9, 0.2}, {1, 0}}), 0.9);
 }
 
 TEST(LinkQuality, log_loss_by_hand) {
@@ -97,6 +98,8 @@ TEST(LinkQuality, calibration_error_weighs_bins_by_their_pairs) {
     EXPECT_NEAR(*calibration_error(Links{{0.064, 0.05}, {1, 0}}), (1.0 - 0.114) / 2, 1e-12);
     EXPECT_NEAR(*calibration_error(Links{{0.068, 0.05}, {1, 0}}), (0.932 + 0.05) / 2, 1e-12);
     EXPECT_NEAR(*calibration_error(Links{{1.0, 0.0}, {1, 0}}), 0.0, 1e-12);
+    // The last one begins at 0.9333.
+    EXPECT_NEAR(*calibration_error(Links{{0.9, 1.0}, {1, 0}}), (0.1 + 1.0) / 2, 1e-12);
 }
 
 TEST(LinkQuality, one_class_has_no_area) {

@@ -129,7 +129,10 @@ class LockWatch : public testing::Test {
         for (int second = 0; second < seconds; ++second)
             step(signal);
     }
-    void take_steps_of(double step_s) { step_s_ = step_s; }
+    void take_steps_of(double step_s, double first_s = 100.0) {
+        step_s_ = step_s;
+        time_s_ = first_s;
+    }
     RunSummary finish() {
         RunEnd end;
         end.tripinfo_files = {folder_.write("tripinfo.xml", "<tripinfos></tripinfos>")};
@@ -236,6 +239,15 @@ TEST_F(LockWatch, a_vehicle_that_creeps_is_looked_at_once_a_second_whatever_the_
         stand(1);
     }
     EXPECT_EQ(finish().metrics.locks, 1U);
+}
+
+TEST_F(LockWatch, looks_are_a_second_apart_from_the_first_moment_on) {
+    take_steps_of(0.5, 0.0);
+    put("a1", inside_we, 5.0F, 3.0F);
+    stand(1);
+    put("a1", inside_we, 5.0F);  // from 0.5 s on, which the look at 1 s sees
+    stand(140);
+    EXPECT_THAT(finish().traffic.locks, ElementsAre(LockRow{"west", "J", 1.0, 69.0, 1, 0}));
 }
 
 TEST_F(LockWatch, red_and_the_queue_before_it_are_no_lock) {
@@ -423,6 +435,19 @@ TEST_F(LockWatch, one_that_has_to_change_lanes_waits_for_the_queue_beside_it_or_
     fill_left_lane();
     EXPECT_EQ(locks(), 0U);
     put("b3", 1, 99.0F);
+    EXPECT_EQ(locks(), 0U);
+}
+
+TEST_F(LockWatch, one_that_has_to_change_to_a_lane_of_a_lower_number_waits_for_it_too) {
+    drives("a1", to_the_right);
+    const auto locks = [&] {
+        watch_street(false);
+        put("a1", 1, 99.0F);
+        stand(100, "r");
+        return finish().metrics.locks;
+    };
+    EXPECT_EQ(locks(), 1U);
+    put("b1", 0, 99.0F, 1.0F);
     EXPECT_EQ(locks(), 0U);
 }
 

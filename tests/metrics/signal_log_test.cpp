@@ -57,14 +57,16 @@ class SignalLog : public testing::Test {
         if (is_called) status.calls = {{core::vehicle_key("ev"), {0}}};
         return {status};
     }
-    /// `time code parameter links vehicle`.
-    std::vector<std::string> lines() {
+    RunSummary finish() const {
         const support::TemporaryFolder folder;
-        const auto file = folder.write("tripinfo.xml", "<tripinfos>\n</tripinfos>\n");
         RunEnd end;
-        end.tripinfo_files = {file};
+        end.tripinfo_files = {folder.write("tripinfo.xml", "<tripinfos>\n</tripinfos>\n")};
+        return recorder_.finish(end);
+    }
+    /// `time code parameter links vehicle`.
+    std::vector<std::string> lines() const {
         std::vector<std::string> text;
-        const auto events = recorder_.finish(end).signal_events;
+        const auto events = finish().signal_events;
         for (const SignalEvent& event : events.value_or(std::vector<SignalEvent>{}))
             text.push_back(fmt::format("{} {} {} {} [{}] {}", event.time_s, event.signal, event.event,
                                        event.parameter, event.links, event.vehicle));
@@ -110,6 +112,9 @@ TEST_F(SignalLog, TellsAHoldFromItsCallToTheReturnWithTheChangeBeforeIt) {
                                      "10 J 10 1 [0] ",    // the program's first state
                                      "10 J 150 0 [] "))
         << "link 0 was red before the log began, and nobody knows since when; nothing after the end";
+    EXPECT_EQ(finish().metrics.signal_calls, 1U);
+    EXPECT_THAT(finish().metrics.signal_entry_delay_s, testing::Optional(1.0));
+    EXPECT_THAT(finish().metrics.signal_dwell_s, testing::Optional(3.0));
 }
 
 TEST_F(SignalLog, TellsTheLongestTimeAndTheReturnIntoStep) {

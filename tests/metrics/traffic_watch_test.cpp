@@ -235,6 +235,14 @@ TEST_F(TrafficWatch, LeavesOutAnEdgeThatAnEmergencyVehicleDidNotDriveToItsEnd) {
     EXPECT_TRUE(tables().edge_times.empty());
 }
 
+TEST_F(TrafficWatch, LeavesOutAnEdgeBehindTheEndOfTheRoute) {
+    for (int second = 0; second <= 4; ++second) {
+        put("ev", VehicleClass::emergency, 3, 10.0F, 0.0F, second < 3 ? 1 : 2);
+        step(second);
+    }
+    EXPECT_THAT(tables().edge_times, ElementsAre(EdgeTimeRow{"ev", "out", 0.0, 2.0}));
+}
+
 TEST_F(TrafficWatch, LooksFromAMinuteBeforeAPassageToFourMinutesAfter) {
     for (int second = 0; second <= 400; ++second) {
         put("ev", VehicleClass::emergency, second < 100 ? 0 : 3, 5.0F, 0.0F, second < 100 ? 0 : 1);
