@@ -6,7 +6,7 @@
 
 #include "campaign/worker_jobs.hpp"
 #include "core/counted.hpp"
-#include "core/files.hpp"
+#include "core/leftovers.hpp"
 #include "core/temporary_folder.hpp"
 #include "experiment/dataset_job.hpp"
 #include "samples/dataset_plan.hpp"
