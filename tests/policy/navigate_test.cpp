@@ -113,7 +113,7 @@ TEST_F(Navigation, refuses_to_assume_other_days_that_the_scenario_does_not_have)
         policy::Navigate navigate({short_square()}, {.prior = policy::Prior::mean_times});
         FAIL();
     } catch (const core::InputError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("clearway scenario mean-times"));
+        EXPECT_THAT(error.what(), ::testing::HasSubstr("clearway scenario mean-times"));
     }
 }
 
