@@ -24,7 +24,8 @@ def put(folder):
 
 
 def files_in(folder):
-    return {str(path.relative_to(folder)): path.read_text(encoding="utf-8") for path in folder.rglob("*") if path.is_file()}
+    paths = [path for path in folder.rglob("*") if path.is_file()]
+    return {str(path.relative_to(folder)): path.read_text(encoding="utf-8", errors="replace") for path in paths}
 
 
 def faults_of(title, words, folder):
@@ -33,8 +34,8 @@ def faults_of(title, words, folder):
     def tried(name, options):
         put(theirs)
         trace.unlink(missing_ok=True)
-        ended = subprocess.run(["strace", "-f", "-qq", "-o", trace, "-P", theirs, *options, *words], cwd=folder, capture_output=True, text=True,
-                               errors="replace", check=False)
+        ended = subprocess.run(["strace", "-f", "-qq", "-o", trace, "-P", theirs, *options, *words], cwd=folder, check=False,
+                               capture_output=True, text=True, errors="replace")
         if files_in(theirs) != THEIRS:
             yield f"{title}, {name}: {sorted(files_in(theirs))} are left: {ended.stderr[-300:]}"
         if ended.returncode == 0:
