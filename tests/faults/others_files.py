@@ -56,17 +56,18 @@ def main():
     require_strace("-P", "/", "-e", "inject=getdents64:error=EIO:when=9999")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
+        theirs = str(folder / "theirs")  # by the name that strace compares with
         small = ["--seeds", "1", "--jobs", "1"]
         (folder / "my.toml").write_text("replications = 1\nscenarios = [\"merge\"]\nconditions = [\"baseline\"]\n", encoding="utf-8")
         subprocess.run([clearway, "run", "merge", "--no-solo", *small, "--out", "done"], cwd=folder, check=True, capture_output=True)
         network = pathlib.Path(os.environ.get("SUMO_HOME", "/usr/share/sumo")) / "tools/game/DRT/osm.net.xml"
-        verbs = [("run", ["run", "merge", "--no-solo", *small, "--out", "theirs"]),
-                 ("study", ["study", "my.toml", "--jobs", "1", "--out", "theirs"]),
-                 ("merge", ["study", "merge", "done", "--out", "theirs"]),
-                 ("export", ["export", "figures", "done", "--out", "theirs"]),
-                 ("init", ["scenario", "init", "theirs"]),
+        verbs = [("run", ["run", "merge", "--no-solo", *small, "--out", theirs]),
+                 ("study", ["study", "my.toml", "--jobs", "1", "--out", theirs]),
+                 ("merge", ["study", "merge", "done", "--out", theirs]),
+                 ("export", ["export", "figures", "done", "--out", theirs]),
+                 ("init", ["scenario", "init", theirs]),
                  ("import", ["scenario", "import", network, "--name", "theirs"]),
-                 ("equip", ["equip", "intersection", "--budget", "1", "--seeds", "2", "--out", "theirs"])]
+                 ("equip", ["equip", "intersection", "--budget", "1", "--seeds", "2", "--out", theirs])]
         faults = [fault for title, words in verbs for fault in faults_of(title, [clearway, *words], folder)]
     print("\n".join(faults) or f"{len(verbs)} verbs left a folder with other files alone, whatever call failed")
     sys.exit(bool(faults))
