@@ -87,7 +87,8 @@ void read(const Source& source, ObjectReader& reader, RunJob& job) {
     for (const Json& condition : reader.child("conditions", Json::value_t::array))
         job.conditions.push_back(condition_from(condition, source.where + ": conditions", source.problems));
     for (const ConditionSpec& condition : job.conditions) {
-        if (process_of(condition).signal_penalty == process_of(job.conditions.front()).signal_penalty) continue;
+        if (process_of(condition).signal_penalty == process_of(job.conditions.front()).signal_penalty)
+            continue;
         reader.problem("conditions", fmt::format("\"{}\" and \"{}\" need other penalties for signals",
                                                  job.conditions.front().name, condition.name));
         break;

@@ -7,12 +7,17 @@ namespace {
 class MeanTimesTest : public CrossingsTest {
   protected:
     Ended make(const std::string& file) const {
-        return clearway({"scenario", "mean-times", "./crossings", "--out", file, "--seeds", "2", "--jobs", "1"});
+        return clearway(
+            {"scenario", "mean-times", "./crossings", "--out", file, "--seeds", "2", "--jobs", "1"});
     }
     Ended run(const std::string& out, const std::vector<std::string>& more = {}) const {
-        std::vector<std::string> words = {"run", "./crossings", "--policy", "navigate", "--set",
-                                          "navigate.prior=mean_times", "--seeds", "1", "--no-solo", "--record",
-                                          "--name", "mine", "--out", out};
+        std::vector<std::string> words = {"run",       "./crossings",
+                                          "--policy",  "navigate",
+                                          "--set",     "navigate.prior=mean_times",
+                                          "--seeds",   "1",
+                                          "--no-solo", "--record",
+                                          "--name",    "mine",
+                                          "--out",     out};
         words.insert(words.end(), more.begin(), more.end());
         return clearway(words);
     }
@@ -21,7 +26,8 @@ class MeanTimesTest : public CrossingsTest {
 TEST_F(MeanTimesTest, are_made_on_other_days_and_used_by_a_run_and_its_replay) {
     const Ended made = make("crossings/mean.csv");
     ASSERT_EQ(made.code, 0) << made.err;
-    EXPECT_THAT(made.out, AllOf(HasSubstr("from 2 runs with study seed 77"), HasSubstr("mean_times = \"mean.csv\"")));
+    EXPECT_THAT(made.out,
+                AllOf(HasSubstr("from 2 runs with study seed 77"), HasSubstr("mean_times = \"mean.csv\"")));
     EXPECT_THAT(read("crossings/mean.csv"),
                 AllOf(testing::StartsWith("# clearway mean times 1: network "), HasSubstr("\nA_B,16,")));
     EXPECT_EQ(make("crossings/mean.csv").code, 3) << "never over a file";
@@ -47,8 +53,9 @@ TEST_F(MeanTimesTest, have_to_be_named_by_the_scenario_and_to_be_of_its_network)
     EXPECT_EQ(none.code, 3);
     EXPECT_THAT(none.err, AllOf(HasSubstr("navigate.prior"), HasSubstr("the scenario names none"),
                                 HasSubstr("clearway scenario mean-times")));
-    write("crossings/mean.csv", "# clearway mean times 1: network abc, study seed 77, runs 1, edges 1\n"
-                                "edge,vehicles,time_s\nA_B,5,9\n");
+    write("crossings/mean.csv",
+          "# clearway mean times 1: network abc, study seed 77, runs 1, edges 1\n"
+          "edge,vehicles,time_s\nA_B,5,9\n");
     write_scenario("B_east", "mean_times = \"mean.csv\"\n");
     const Ended foreign = run("out");
     EXPECT_EQ(foreign.code, 3);

@@ -130,8 +130,7 @@ TEST_F(JobTest, RefusesConditionsThatSumoCannotServeTogether) {
         condition.rerouting_s = 30.0;
     EXPECT_EQ(complaint(to_json(job)), "");
     job.conditions.back().rerouting_signal_penalty = 1.0;
-    EXPECT_THAT(complaint(to_json(job)),
-                HasSubstr("\"b10\" and \"plain\" need other penalties for signals"));
+    EXPECT_THAT(complaint(to_json(job)), HasSubstr("\"b10\" and \"plain\" need other penalties for signals"));
 }
 
 TEST_F(JobTest, NamesTheKindsThatThereAre) {
