@@ -53,6 +53,9 @@ core::ExitCode attach(const Arguments& arguments) {
     job.condition = condition_of(arguments.described);
     campaign::check_names({job.condition});
     const std::filesystem::path jobs = job.output.string() + ".job";
+    if (std::filesystem::exists(jobs))
+        throw core::InputError({jobs.string(), "exists already", "a new name: the job's files go there",
+                                "Give another with --out, or remove it"});
     const campaign::WorkerResult result =
         campaign::work_on({{.label = fmt::format("SUMO at {}:{}", job.host, job.port),
                             .job = job,

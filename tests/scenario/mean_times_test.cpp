@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 constexpr const char* head = "# clearway mean times 1: network abc, study seed 77, runs 10, edges 2\n";
 constexpr const char* columns = "edge,vehicles,time_s\n";
 
-const roads::Network& crossings() {
+const roads::Network& measured_crossings() {
     static const roads::Network network =
         roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml");
     return network;
@@ -43,23 +43,23 @@ TEST_F(MeanTimesFile, gives_each_edge_what_was_written_and_nothing_to_the_others
     const MeanTimes times = read(text);
     EXPECT_EQ(times.study_seed, 77U);
     EXPECT_EQ(times.replications, 10U);
-    const std::vector<double> mean_s = mean_times_of(times, "times.csv", crossings(), "abc");
-    ASSERT_EQ(mean_s.size(), crossings().edges().size());
-    EXPECT_EQ(mean_s[crossings().find_edge("A_B").value().value], 31.5);
-    EXPECT_EQ(mean_s[crossings().find_edge("B_A").value().value], 8.25);
-    EXPECT_EQ(mean_s[crossings().find_edge("B_east").value().value], 0.0);
+    const std::vector<double> mean_s = mean_times_of(times, "times.csv", measured_crossings(), "abc");
+    ASSERT_EQ(mean_s.size(), measured_crossings().edges().size());
+    EXPECT_EQ(mean_s[measured_crossings().find_edge("A_B").value().value], 31.5);
+    EXPECT_EQ(mean_s[measured_crossings().find_edge("B_A").value().value], 8.25);
+    EXPECT_EQ(mean_s[measured_crossings().find_edge("B_east").value().value], 0.0);
 }
 
 TEST_F(MeanTimesFile, is_refused_for_another_network) {
     const MeanTimes times = read(std::string(head) + columns + "A_B,12,31.5\nB_A,5,8\n");
-    const auto problems = problems_of([&] { mean_times_of(times, "times.csv", crossings(), "def"); });
+    const auto problems = problems_of([&] { mean_times_of(times, "times.csv", measured_crossings(), "def"); });
     ASSERT_EQ(problems.size(), 1U);
     EXPECT_THAT(core::format_problem(problems.front()),
                 AllOf(HasSubstr("holds times of network abc"), HasSubstr("def"),
                       HasSubstr("clearway scenario mean-times")));
     const MeanTimes elsewhere{"abc", 77, 10, {{"nowhere", 5, 1.0}}};
     EXPECT_THAT(core::format_problem(
-                    problems_of([&] { mean_times_of(elsewhere, "t.csv", crossings(), "abc"); }).front()),
+                    problems_of([&] { mean_times_of(elsewhere, "t.csv", measured_crossings(), "abc"); }).front()),
                 HasSubstr("the network has no edge 'nowhere'"));
 }
 
