@@ -34,7 +34,7 @@ struct ControllerContext {
     std::vector<traffic::Preemption> preemption = {};  ///< By signal; empty: none is set.
     policy::GuestMaker guest = {};                     ///< See pipeline::ChainContext.
     std::vector<traffic::Incident> incidents = {};
-    bool is_read = false;  ///< Whether somebody reads the belief even where no policy acts.
+    bool is_read = false;                   ///< Whether somebody reads the belief even where no policy acts.
     std::vector<double> mean_times_s = {};  ///< See policy::PolicyContext.
 };
 

@@ -10,10 +10,9 @@ TEST(ConditionSpec, is_stored_with_its_settings_where_it_has_any) {
     condition.name = "b10";
     condition.failure = "B10";
     condition.policies = {"corridor"};
-    EXPECT_EQ(
-        to_json(condition).dump(),
-        R"({"name":"b10","failure":"B10","predictor":"none","traffic_model":"standard",)"
-        R"("safety_checks":"on","bluelight":"off","rerouting_s":0.0,"rerouting_signal_penalty":0.0,)"
+    EXPECT_EQ(to_json(condition).dump(),
+              R"({"name":"b10","failure":"B10","predictor":"none","traffic_model":"standard",)"
+              R"("safety_checks":"on","bluelight":"off","rerouting_s":0.0,"rerouting_signal_penalty":0.0,)"
               R"("dispatch":"free_flow","policies":["corridor"]})");
     condition.settings = {{"loop.policy_period_s", "1"}};
     EXPECT_EQ(to_json(condition)["settings"].dump(), R"({"loop.policy_period_s":"1"})");

@@ -9,13 +9,13 @@
 namespace clearway::samples {
 namespace {
 
-constexpr const char* road = R"(
+constexpr const char* short_road = R"(
     10 m per cell, limit 20 m/s, speed 4 m/s
     a.......e...h...............................................
 )";
 
 TEST(EdgeUse, is_time_and_distance_of_others_than_emergency_vehicles) {
-    support::Scene scene(road);
+    support::Scene scene(short_road);
     EdgeUseRecorder recorder(scene.network());
     for (int step = 0; step <= 20; ++step) {
         scene.snapshot().time = core::Seconds(100.0 + 0.5 * step);

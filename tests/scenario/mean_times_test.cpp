@@ -52,14 +52,16 @@ TEST_F(MeanTimesFile, gives_each_edge_what_was_written_and_nothing_to_the_others
 
 TEST_F(MeanTimesFile, is_refused_for_another_network) {
     const MeanTimes times = read(std::string(head) + columns + "A_B,12,31.5\nB_A,5,8\n");
-    const auto problems = problems_of([&] { mean_times_of(times, "times.csv", measured_crossings(), "def"); });
+    const auto problems =
+        problems_of([&] { mean_times_of(times, "times.csv", measured_crossings(), "def"); });
     ASSERT_EQ(problems.size(), 1U);
     EXPECT_THAT(core::format_problem(problems.front()),
                 AllOf(HasSubstr("holds times of network abc"), HasSubstr("def"),
                       HasSubstr("clearway scenario mean-times")));
     const MeanTimes elsewhere{"abc", 77, 10, {{"nowhere", 5, 1.0}}};
-    EXPECT_THAT(core::format_problem(
-                    problems_of([&] { mean_times_of(elsewhere, "t.csv", measured_crossings(), "abc"); }).front()),
+    EXPECT_THAT(core::format_problem(problems_of([&] {
+                                         mean_times_of(elsewhere, "t.csv", measured_crossings(), "abc");
+                                     }).front()),
                 HasSubstr("the network has no edge 'nowhere'"));
 }
 

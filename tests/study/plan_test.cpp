@@ -130,7 +130,8 @@ TEST(Plan, StartsSumoAnewForAnotherPenaltyOfSignals) {
             EXPECT_EQ(experiment::process_of(condition),
                       experiment::process_of(planned.unit.conditions.front()));
             if (condition.name == "device_1") with_penalty.push_back(planned.name);
-            if (condition.name == "device_0") EXPECT_EQ(planned.name.find("penalty"), std::string::npos);
+            if (condition.name != "device_0") continue;
+            EXPECT_EQ(planned.name.find("penalty"), std::string::npos);
         }
     }
     EXPECT_THAT(with_penalty,

@@ -74,7 +74,9 @@ class Walk {
 
   private:
     std::uint64_t key() const { return core::vehicle_key(id_).value; }
-    double draw(Draw::Number what) const { return context_.random.uniform(core::Purpose::pedestrian, key(), what); }
+    double draw(Draw::Number what) const {
+        return context_.random.uniform(core::Purpose::pedestrian, key(), what);
+    }
     template <class Row>
     const Row& pick(const std::vector<Row>& rows, Draw::Number what) const {
         return rows[context_.random.below(rows.size(), core::Purpose::pedestrian, key(), what)];
