@@ -27,7 +27,7 @@ class AccidentTest(FolderCase):
         found = {row["condition"]: row for row in self.rows("navigate")}
         self.assertEqual(set(found), {"baseline", "navigate"})
         called = next(block for block in blocks(GUIDE, "3. Who is sent") if "[[call]]" in block)
-        file.write_text(file.read_text(encoding="utf-8") + "\n" + called.replace('"..."', '"-114024904"'), encoding="utf-8")
+        file.write_text(file.read_text(encoding="utf-8") + "\n" + called.replace('"..."', '"-142575694#2"'), encoding="utf-8")
         sent = commands(GUIDE, "3. Who is sent")
         self.assertEqual(len(sent), 2)
         type_in(sent[1], ("--seeds 10", "--seeds 1 --no-solo --out runs/sent"))
