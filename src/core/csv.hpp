@@ -49,6 +49,9 @@ void append_empty_cells(std::string& line) {
     for_each_field<Struct>([&](const auto&) { line += ","; });
 }
 
+/// Splits off the first line, without its end.
+std::string_view take_line(std::string_view& text);
+
 /// Splits a CSV text row by row. Only quoted cells are copied, because a report spends most of its time
 /// reading runs. The text must outlive the reader.
 class CsvReader {

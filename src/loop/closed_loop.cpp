@@ -23,7 +23,6 @@ void ClosedLoop::begin(const experiment::ConditionSpec& condition, const Control
     assert(!controller_ && "one condition a run");
     controller_.emplace(condition, context);
     true_links_ = metrics::TrueLinks(context.loop.rules());
-    policy_period_ = core::Seconds(context.loop.policy_period_s);
     timing_ = {};
 }
 
@@ -62,6 +61,7 @@ core::Seconds ClosedLoop::arrival_after(const std::function<bool()>& change, cor
     session_.continue_in(folder);
     listener_ = nullptr;
     trials_ = nullptr;
+    if (dispatcher_ != nullptr) dispatcher_->try_none();
     if (!change()) return horizon;
     while (session_.time().value < horizon.value - core::clock_tolerance_s) {
         step();
@@ -126,7 +126,7 @@ bool ClosedLoop::control(const truth::Snapshot& snapshot) {
     auto decided = controller_->decide(
         std::move(observed), others_read_links ? prediction::Want::links : prediction::Want::places);
     const bool has_decision = decided.has_decision();
-    if (has_decision && dispatcher_ != nullptr) dispatcher_->see(chain.belief(), policy_period_);
+    if (has_decision && dispatcher_ != nullptr) dispatcher_->see(chain.belief());
     if (has_decision && chain.observation().is_report) {
         true_links_.look(snapshot);
         recorder_.links(snapshot, true_links_, chain.belief());

@@ -95,7 +95,6 @@ class ClosedLoop {
 
     metrics::TrueLinks true_links_{graph::LinkRules{}};
     std::vector<traffic::Command> commands_;
-    core::Seconds policy_period_{0.5};
     LoopTiming timing_;
 };
 

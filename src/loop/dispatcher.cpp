@@ -14,9 +14,6 @@ namespace {
 
 using experiment::Dispatch;
 
-/// How often true times are taken, s: as beliefs by default.
-constexpr double period_s = 0.5;
-
 }  // namespace
 
 Dispatcher::Dispatcher(const roads::Network& network, DispatchOrders orders)
@@ -25,27 +22,27 @@ Dispatcher::Dispatcher(const roads::Network& network, DispatchOrders orders)
       fleet_(orders_.calls.stations),
       search_(network, roads::Driver::emergency),
       times_(network, search_, {}),
-      noted_(-period_s) {}
+      noted_(-orders_.period.value) {}
 
-void Dispatcher::see(const traffic::BelievedGraph& belief, core::Seconds period) {
+void Dispatcher::see(const traffic::BelievedGraph& belief) {
     if (!reads_belief()) return;
-    times_.see(belief, period);
+    times_.see(belief, orders_.period);
     known_ = belief.incidents;
 }
 
 void Dispatcher::note(const truth::Snapshot& snapshot) {
     if (orders_.by != Dispatch::true_times || !is_waiting() ||
-        now_.value + core::clock_tolerance_s < noted_.value + period_s)
+        now_.value + core::clock_tolerance_s < noted_.value + orders_.period.value)
         return;
     noted_ = now_;
     times_.turn_to(now_);
     for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
         if (snapshot.vehicle_class[row] != traffic::VehicleClass::emergency)
-            times_.add(snapshot.lane[row], snapshot.speed_mps[row], core::Seconds(period_s));
+            times_.add(snapshot.lane[row], snapshot.speed_mps[row], orders_.period);
     }
 }
 
-bool Dispatcher::is_closed(core::EdgeIndex edge, core::Seconds now) const {
+bool Dispatcher::is_closed(core::EdgeIndex edge) const {
     if (orders_.by == Dispatch::believed)
         return std::ranges::any_of(known_, [&](const traffic::KnownIncident& incident) {
             return incident.edge == edge && incident.closed_to_emergency;
@@ -53,16 +50,17 @@ bool Dispatcher::is_closed(core::EdgeIndex edge, core::Seconds now) const {
     if (orders_.by != Dispatch::true_times) return false;
     return std::ranges::any_of(orders_.incidents, [&](const scenario::PlacedIncident& placed) {
         const traffic::Incident& incident = placed.closed;
-        return incident.edge == edge && incident.from.value <= now.value && now.value < incident.to.value &&
+        return incident.edge == edge && incident.from.value <= now_.value && now_.value < incident.to.value &&
                roads::closes_to_emergency(network_, incident);
     });
 }
 
 std::vector<scenario::Sending> Dispatcher::candidates(const scenario::PlacedCall& call) {
+    constexpr double pace = 1.0;
     const bool looks = orders_.by == Dispatch::believed || orders_.by == Dispatch::true_times;
     const auto edge_s = [&](core::EdgeIndex edge, double entered_s) {
-        if (edge != call.edge && is_closed(edge, now_)) return roads::no_way_s;
-        return looks ? times_.at(edge, call.turnout.value + entered_s, 1.0) : search_.free_s(edge);
+        if (edge != call.edge && is_closed(edge)) return roads::no_way_s;
+        return looks ? times_.at(edge, call.turnout.value + entered_s, pace) : search_.free_s(edge);
     };
     std::vector<scenario::Sending> found = fleet_.candidates(call, search_, edge_s);
     if (orders_.by == Dispatch::straight_line)
@@ -73,8 +71,7 @@ std::vector<scenario::Sending> Dispatcher::candidates(const scenario::PlacedCall
 
 void Dispatcher::step(ClosedLoop& loop, core::Seconds horizon) {
     now_ = loop.snapshot().time;
-    for (const core::VehicleKey vehicle : loop.events().arrived)
-        arrived_s_.emplace(vehicle, now_.value);
+    trials_.note(loop.events());
     note(loop.snapshot());
     while (is_waiting() && orders_.calls.calls[next_call_].at.value <= now_.value + core::clock_tolerance_s) {
         if (next_unit_ < orders_.calls.calls[next_call_].units) {
@@ -106,22 +103,22 @@ void Dispatcher::try_units(ClosedLoop& loop, core::Seconds horizon, const scenar
     std::ranges::stable_sort(others, {}, &scenario::Sending::cost);
     others.resize(std::min(others.size(), static_cast<std::size_t>(orders_.units_tried)));
     add_free_ways(call, others);
-    Trial trial{vehicle, std::numeric_limits<double>::infinity(), 0};
+    double best_s = std::numeric_limits<double>::infinity();
+    std::uint64_t tried = 0;
     for (const scenario::Sending& each : others) {
         if (each.station == chosen.station) continue;
         const core::Seconds arrival = in_copy(orders_.folder, [&] {
             const auto change = [&] {
-                orders_.units_tried = 0;
                 send(loop, each);
                 step(loop, horizon);  // the other vehicles of this step
                 return true;
             };
             return loop.arrival_after(change, vehicle, horizon, orders_.folder);
         });
-        trial.best_s = std::min(trial.best_s, arrival.value);
-        ++trial.units;
+        best_s = std::min(best_s, arrival.value);
+        ++tried;
     }
-    if (trial.units > 0) trials_.push_back(trial);
+    if (tried > 0) trials_.add(vehicle, core::Seconds(best_s), tried);
 }
 
 void Dispatcher::add_free_ways(const scenario::PlacedCall& call, std::vector<scenario::Sending>& others) {
@@ -152,16 +149,8 @@ void Dispatcher::send(ClosedLoop& loop, const scenario::Sending& sending) {
 }
 
 metrics::DispatchCounts Dispatcher::result(core::Seconds horizon) const {
-    constexpr double level_s = 1.0;  // the longest step
     metrics::DispatchCounts counts = counts_;
-    for (const Trial& trial : trials_) {
-        const auto arrived = arrived_s_.find(trial.vehicle);
-        const double chosen_s = arrived == arrived_s_.end() ? horizon.value : arrived->second;
-        const double regret_s = std::max(0.0, chosen_s - trial.best_s);
-        ++counts.decisions;
-        counts.regret_s += regret_s;
-        counts.wrong += regret_s > level_s ? 1 : 0;
-    }
+    counts.units = trials_.result(horizon);
     return counts;
 }
 

@@ -3,13 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <map>
-#include <memory>
 #include <vector>
 
 #include "core/ids.hpp"
 #include "core/units.hpp"
 #include "experiment/condition.hpp"
+#include "loop/trials.hpp"
 #include "metrics/dispatch_counts.hpp"
 #include "policy/edge_times.hpp"
 #include "roads/route_search.hpp"
@@ -30,6 +29,7 @@ struct DispatchOrders {
     std::vector<scenario::PlacedIncident> incidents;
     /// The vehicles that may be sent, each with the call that it answers.
     std::vector<traffic::EmergencyDeparture> vehicles = {};
+    core::Seconds period{0.5};          ///< Between two decisions, and two looks at the truth.
     int units_tried = 0;                ///< See experiment::LoopConfig.
     std::filesystem::path folder = {};  ///< For copies of the run; removed.
 };
@@ -48,21 +48,18 @@ class Dispatcher {
     /// Whether somebody must believe something for it.
     bool reads_belief() const { return orders_.by == experiment::Dispatch::believed; }
     /// Takes the belief of a decision.
-    void see(const traffic::BelievedGraph& belief, core::Seconds period);
+    void see(const traffic::BelievedGraph& belief);
     /// After each step of `loop`: sends vehicles to the calls that have come in. Throws as `in_copy` and
     /// sumo::Session do.
     void step(ClosedLoop& loop, core::Seconds horizon);
+    /// From now on no unit is tried: in a copy of the run, which tries one already.
+    void try_none() { orders_.units_tried = 0; }
     /// Whether a call is still to come.
     bool is_waiting() const { return next_call_ < orders_.calls.calls.size(); }
     /// Once the run is over; a vehicle that did not arrive counts with `horizon`.
     metrics::DispatchCounts result(core::Seconds horizon) const;
 
   private:
-    struct Trial {
-        core::VehicleKey vehicle;
-        double best_s = 0.0;  ///< When the first of the units arrives.
-        std::uint64_t units = 0;
-    };
     void note(const truth::Snapshot& snapshot);
     std::vector<scenario::Sending> candidates(const scenario::PlacedCall& call);
     void answer(ClosedLoop& loop, core::Seconds horizon);
@@ -71,7 +68,7 @@ class Dispatcher {
     /// The same stations on their ways by free flow, where these are others: one yardstick for all rules.
     void add_free_ways(const scenario::PlacedCall& call, std::vector<scenario::Sending>& others);
     void send(ClosedLoop& loop, const scenario::Sending& sending);
-    bool is_closed(core::EdgeIndex edge, core::Seconds now) const;
+    bool is_closed(core::EdgeIndex edge) const;
 
     const roads::Network& network_;
     DispatchOrders orders_;
@@ -83,8 +80,7 @@ class Dispatcher {
     std::uint32_t next_unit_ = 0;
     core::Seconds now_, noted_;
     metrics::DispatchCounts counts_;
-    std::map<core::VehicleKey, double> arrived_s_;
-    std::vector<Trial> trials_;
+    Trials trials_;
 };
 
 }  // namespace clearway::loop

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iterator>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -108,7 +108,7 @@ core::Seconds UnitRun::first_emergency() const {
     if (prepared_.emergency.empty()) return core::Seconds(prepared_.time.warm_up_s);
     double first_s = prepared_.time.horizon_s;
     for (const traffic::EmergencyDeparture& departure : prepared_.emergency) {
-        if (!departure.call) first_s = std::min(first_s, departure.depart.value);
+        if (!departure.is_called) first_s = std::min(first_s, departure.depart.value);
     }
     for (const scenario::PlacedCall& call : prepared_.calls.calls)
         first_s = std::min(first_s, std::max(prepared_.time.warm_up_s, call.at.value - before_call_s));
@@ -185,7 +185,6 @@ void UnitRun::record(const experiment::ConditionSpec& condition, trace::StepList
 
 void UnitRun::start_together(const experiment::ConditionSpec& condition, trace::StepListener* listener) {
     add_emergency_vehicles(condition);
-    answer_calls(condition);
     const ControllerContext context{
         .network = network_.network,
         .random = random(),
@@ -224,22 +223,22 @@ ClosedLoop& UnitRun::start(const experiment::ConditionSpec& condition) {
 }
 
 void UnitRun::add_emergency_vehicles(const experiment::ConditionSpec& condition) {
-    for (traffic::EmergencyDeparture& departure : prepared_.emergency) {
-        departure.bluelight = condition.bluelight;
-        departure.rerouting_s = condition.rerouting_s;
-        if (!departure.call) session_->add(departure);
-    }
-}
-
-void UnitRun::answer_calls(const experiment::ConditionSpec& condition) {
-    if (prepared_.calls.calls.empty()) return;
+    const LoopConfig loop = experiment::loop_config(condition);
     DispatchOrders orders{.by = condition.dispatch,
                           .calls = prepared_.calls,
                           .incidents = prepared_.incidents,
-                          .units_tried = experiment::loop_config(condition).units_tried,
+                          .period = core::Seconds(loop.policy_period_s),
+                          .units_tried = loop.units_tried,
                           .folder = session_->trip_file().parent_path() / "unit"};
-    std::ranges::copy_if(prepared_.emergency, std::back_inserter(orders.vehicles),
-                         [](const traffic::EmergencyDeparture& each) { return each.call.has_value(); });
+    for (traffic::EmergencyDeparture departure : prepared_.emergency) {
+        departure.bluelight = condition.bluelight;
+        departure.rerouting_s = condition.rerouting_s;
+        if (departure.is_called)
+            orders.vehicles.push_back(std::move(departure));
+        else
+            session_->add(departure);
+    }
+    if (prepared_.calls.calls.empty()) return;
     dispatcher_.emplace(network_.network, std::move(orders));
     loop_.answer_calls(&*dispatcher_);
 }

@@ -61,9 +61,8 @@ class UnitRun {
     core::KeyedRandom random() const;
     std::vector<traffic::Incident> incidents() const;
     void warm_up();
+    /// Those that are called are left to a dispatcher.
     void add_emergency_vehicles(const experiment::ConditionSpec& condition);
-    /// From the next step on, if the scenario has calls.
-    void answer_calls(const experiment::ConditionSpec& condition);
     metrics::RoadLayout layout() const;
     /// Each emergency vehicle alone, one after the other, with every signal open.
     void run_alone(trace::StepListener* audience);

@@ -27,8 +27,7 @@ WayTrials::WayTrials(const roads::Network& network, const experiment::LoopConfig
 void WayTrials::look(ClosedLoop& loop, core::Seconds horizon) {
     const truth::Snapshot& snapshot = loop.snapshot();
     const double now_s = snapshot.time.value;
-    for (const core::VehicleKey vehicle : loop.events().arrived)
-        arrived_s_.emplace(vehicle, now_s);
+    trials_.note(loop.events());
     for (std::uint32_t row = 0; row < snapshot.size(); ++row) {
         if (snapshot.vehicle_class[row] != traffic::VehicleClass::emergency) continue;
         double& next_s = next_s_.try_emplace(snapshot.key[row], now_s).first->second;
@@ -59,12 +58,12 @@ void WayTrials::try_ways(ClosedLoop& loop, std::uint32_t row, core::Seconds hori
         return search_.time_of(way, 0.0, free) > longest_share * least_s + longest_extra_s;
     });
     if (ways.size() < 2) return;
-    Trial trial{vehicle, std::numeric_limits<double>::infinity(), ways.size()};
+    double best_s = std::numeric_limits<double>::infinity();
     for (std::vector<core::EdgeIndex>& way : ways) {
         if (fork > at) way.insert(way.begin(), route[at]);
-        trial.best_s = std::min(trial.best_s, arrival_s(loop, vehicle, way, horizon));
+        best_s = std::min(best_s, arrival_s(loop, vehicle, way, horizon));
     }
-    trials_.push_back(trial);
+    trials_.add(vehicle, core::Seconds(best_s), ways.size());
 }
 
 double WayTrials::arrival_s(ClosedLoop& loop, core::VehicleKey vehicle,
@@ -75,21 +74,6 @@ double WayTrials::arrival_s(ClosedLoop& loop, core::VehicleKey vehicle,
                        return loop.arrival_after(change, vehicle, horizon, folder_);
                    })
         .value;
-}
-
-metrics::WayChoices WayTrials::result(core::Seconds horizon) const {
-    constexpr double level_s = 1.0;  // the longest step
-    metrics::WayChoices choices;
-    for (const Trial& trial : trials_) {
-        const auto arrived = arrived_s_.find(trial.vehicle);
-        const double chosen_s = arrived == arrived_s_.end() ? horizon.value : arrived->second;
-        const double regret_s = std::max(0.0, chosen_s - trial.best_s);
-        ++choices.decisions;
-        choices.ways += trial.ways;
-        choices.regret_s += regret_s;
-        choices.best += regret_s <= level_s ? 1 : 0;
-    }
-    return choices;
 }
 
 }  // namespace clearway::loop

@@ -8,9 +8,9 @@
 #include "core/ids.hpp"
 #include "core/units.hpp"
 #include "experiment/loop_config.hpp"
-#include "metrics/way_choices.hpp"
+#include "loop/trials.hpp"
+#include "metrics/tried_choices.hpp"
 #include "roads/route_search.hpp"
-#include "truth/events.hpp"
 
 namespace clearway::loop {
 
@@ -30,14 +30,9 @@ class WayTrials {
     /// core::EnvironmentError when no child can be made, core::SimulatorError when one fails.
     void look(ClosedLoop& loop, core::Seconds horizon);
     /// Once the run is over: an emergency vehicle that did not arrive counts with `horizon`.
-    metrics::WayChoices result(core::Seconds horizon) const;
+    metrics::TriedChoices result(core::Seconds horizon) const { return trials_.result(horizon); }
 
   private:
-    struct Trial {
-        core::VehicleKey vehicle;
-        double best_s = 0.0;  ///< When the fastest of the ways arrives.
-        std::uint64_t ways = 0;
-    };
     void try_ways(ClosedLoop& loop, std::uint32_t row, core::Seconds horizon);
     double arrival_s(ClosedLoop& loop, core::VehicleKey vehicle, const std::vector<core::EdgeIndex>& way,
                      core::Seconds horizon);
@@ -46,9 +41,8 @@ class WayTrials {
     experiment::LoopConfig config_;
     std::filesystem::path folder_;
     roads::RouteSearch search_;
-    std::map<core::VehicleKey, double> next_s_;     ///< When ways of a vehicle are tried next.
-    std::map<core::VehicleKey, double> arrived_s_;  ///< When vehicles arrived.
-    std::vector<Trial> trials_;
+    std::map<core::VehicleKey, double> next_s_;  ///< When ways of a vehicle are tried next.
+    Trials trials_;
 };
 
 }  // namespace clearway::loop

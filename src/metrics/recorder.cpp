@@ -424,13 +424,13 @@ RunSummary Recorder::finish(const RunEnd& end) const {
     metrics.incident_delay_s = end.incidents.delay_s;
     metrics.way_decisions = end.leases.ways.decisions;
     metrics.way_decisions_best = end.leases.ways.best;
-    metrics.ways_tried = end.leases.ways.ways;
+    metrics.ways_tried = end.leases.ways.tried;
     metrics.way_regret_s = end.leases.ways.mean_regret_s();
     metrics.units_sent = end.dispatch.sent;
     metrics.units_missing = end.dispatch.missing;
-    metrics.unit_decisions = end.dispatch.decisions;
-    metrics.wrong_unit_share = end.dispatch.wrong_share();
-    metrics.unit_regret_s = end.dispatch.mean_regret_s();
+    metrics.unit_decisions = end.dispatch.units.decisions;
+    metrics.wrong_unit_share = end.dispatch.units.wrong_share();
+    metrics.unit_regret_s = end.dispatch.units.mean_regret_s();
     describe_requests(end.leases.requests, metrics);
     describe_signal_requests(end.leases, metrics);
     metrics.links_true_positive = link_counts().true_positive;

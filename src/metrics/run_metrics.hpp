@@ -11,8 +11,8 @@
 #include "metrics/lease_row.hpp"
 #include "metrics/signal_event.hpp"
 #include "metrics/traffic_tables.hpp"
+#include "metrics/tried_choices.hpp"
 #include "metrics/vehicle_row.hpp"
-#include "metrics/way_choices.hpp"
 #include "traffic/request_counts.hpp"
 
 namespace clearway::metrics {
@@ -42,7 +42,7 @@ struct LeaseTotals {
     traffic::RequestCounts requests = {};
     traffic::SignalRequestCounts signal_requests = {};
     traffic::HeldGreenCounts greens = {};
-    WayChoices ways = {};
+    TriedChoices ways = {};
 
     bool operator==(const LeaseTotals&) const = default;
 };

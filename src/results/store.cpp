@@ -149,13 +149,17 @@ Store Store::create(const fs::path& folder, const Manifest& manifest) {
         core::write_atomically(file, to_json(manifest));
         return {folder, manifest};
     }
-    if (!core::is_absent_or_empty(folder))
-        throw core::InputError({folder.string(), "is not empty and not a run folder", "a new or empty folder",
-                                "Choose another folder with --out"});
+    refuse_others(folder);
     core::write_output(file, to_json(manifest));
     Store store(folder, manifest);
     core::flush_folder(fs::absolute(store.folder()).lexically_normal().parent_path());
     return store;
+}
+
+void Store::refuse_others(const fs::path& folder) {
+    if (fs::exists(folder / manifest_name) || core::is_absent_or_empty(folder)) return;
+    throw core::InputError({folder.string(), "is not empty and not a run folder", "a new or empty folder",
+                            "Choose another folder with --out"});
 }
 
 Store Store::open(const fs::path& folder) {

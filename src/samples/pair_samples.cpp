@@ -1,11 +1,11 @@
 #include "samples/pair_samples.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "core/csv.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/number.hpp"
@@ -38,15 +38,6 @@ SampleOrigin parse_origin(std::string_view line, const std::string& file) {
              fmt::format("{} version {}", schema.name, schema.version), cure_record_pairs});
     }
     return origin;
-}
-
-/// Splits off the first line.
-std::string_view take_line(std::string_view& text) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line;
 }
 
 /// Reads one row. Returns what is wrong with it, or an empty string.
@@ -92,14 +83,14 @@ PairSampleFile read_pair_samples(const std::filesystem::path& file) {
     const std::string content = core::read_file(file);
     std::string_view text = content;
     PairSampleFile samples;
-    samples.origin = parse_origin(take_line(text), file.string());
-    if (const std::string_view header = take_line(text); header != header_line()) {
+    samples.origin = parse_origin(core::take_line(text), file.string());
+    if (const std::string_view header = core::take_line(text); header != header_line()) {
         throw core::InputError({file.string() + ":2", fmt::format("the columns `{}`", header.substr(0, 200)),
                                 header_line(), cure_record_pairs});
     }
     std::vector<core::Problem> problems;
     for (std::size_t number = 3; !text.empty() && problems.size() < most_pair_problems; ++number) {
-        const std::string wrong = read_row(take_line(text), samples);
+        const std::string wrong = read_row(core::take_line(text), samples);
         if (!wrong.empty())
             problems.push_back({fmt::format("{}:{}", file.string(), number), wrong, "", cure_record_pairs});
     }

@@ -14,6 +14,7 @@
 #include "scenario/config.hpp"
 #include "scenario/detail/checks.hpp"
 #include "scenario/detail/road_place.hpp"
+#include "scenario/detail/way_out.hpp"
 
 namespace clearway::scenario {
 namespace {
@@ -138,6 +139,8 @@ class CallPlacing {
         put_stations();
         for (row_ = 0; row_ < config_.calls.size(); ++row_)
             put(config_.calls[row_]);
+        for (std::size_t station = 0; station < calls_.stations.size(); ++station)
+            check_way_out(station);
         if (!problems_.empty()) throw core::InputError(std::move(problems_));
         std::ranges::stable_sort(calls_.calls, {}, [](const PlacedCall& call) { return call.at.value; });
         return std::move(calls_);
@@ -156,6 +159,7 @@ class CallPlacing {
             if (!place) continue;
             calls_.stations.push_back(
                 {place->edge, kind_at(site.kind), static_cast<std::uint32_t>(site.ready())});
+            sites_.push_back(row);
         }
     }
 
@@ -238,11 +242,26 @@ class CallPlacing {
         return any;
     }
 
+    /// Whether an incident closes it when a call would send somebody.
+    void check_way_out(std::size_t station) {
+        const std::size_t found = problems_.size();
+        for (const PlacedCall& call : calls_.calls) {
+            const double leaves_s = call.at.value + call.turnout.value;
+            if (call.kind == calls_.stations[station].kind)
+                detail::check_way_out(config_, network_, incidents_,
+                                      {fmt::format("emergency_site[{}]", sites_[station]),
+                                       calls_.stations[station].edge, leaves_s, leaves_s, call.edge},
+                                      problems_);
+            if (problems_.size() > found) return;
+        }
+    }
+
     const ScenarioConfig& config_;
     const roads::Network& network_;
     const std::vector<PlacedIncident>& incidents_;
     roads::RouteSearch search_;
     Calls calls_;
+    std::vector<std::size_t> sites_;  ///< Of `calls_.stations` in the file.
     std::size_t row_ = 0;
     Problems problems_;
 };

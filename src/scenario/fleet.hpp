@@ -31,16 +31,16 @@ class Fleet {
     void send_from(std::size_t station) { --stations_[station].units; }
 
     /// Every station that has a unit for the call and leads there, with its fastest way, in the order of the
-    /// file. `edge_s` and `pace` as in roads::RouteSearch; the first edge counts.
+    /// file. `edge_s` as in roads::RouteSearch; the first edge counts.
     template <class EdgeTime>
     std::vector<Sending> candidates(const PlacedCall& call, roads::RouteSearch& search,
-                                    const EdgeTime& edge_s, double pace = 1.0) const {
+                                    const EdgeTime& edge_s) const {
         std::vector<Sending> found;
         for (std::size_t row = 0; row < stations_.size(); ++row) {
             const core::EdgeIndex from = stations_[row].edge;
             if (!can_answer(row, call)) continue;
             Sending sending{row};
-            sending.cost = search.search({from, call.edge, edge_s(from, 0.0), pace}, edge_s, sending.way);
+            sending.cost = search.search({from, call.edge, edge_s(from, 0.0)}, edge_s, sending.way);
             if (sending.cost != roads::no_way_s) found.push_back(std::move(sending));
         }
         return found;

@@ -9,12 +9,11 @@
 
 #include "core/error.hpp"
 #include "core/number.hpp"
-#include "roads/closure.hpp"
-#include "roads/exits.hpp"
 #include "roads/network.hpp"
 #include "scenario/config.hpp"
 #include "scenario/detail/checks.hpp"
 #include "scenario/detail/road_place.hpp"
+#include "scenario/detail/way_out.hpp"
 
 namespace clearway::scenario {
 namespace {
@@ -101,8 +100,7 @@ class Placing {
             .emergency_passes = incident.emergency_passes == 1};
         if (incident.known_after_s) placed.known_after = core::Seconds(*incident.known_after_s);
         if (placed.lanes.empty()) return;
-        placed_.push_back({std::move(placed), incident.reroute_share});
-        rows_.push_back(row_);
+        placed_.push_back({std::move(placed), incident.reroute_share, row_});
     }
 
     /// The lanes that an incident closes; empty after adding a problem.
@@ -152,9 +150,9 @@ class Placing {
             return;
         const auto shared = std::ranges::find_first_of(one.lanes, other.lanes);
         if (shared == one.lanes.end()) return;
-        problems_.push_back({config_.where(fmt::format("incident[{}]", rows_[later])),
+        problems_.push_back({config_.where(fmt::format("incident[{}]", placed_[later].row)),
                              fmt::format("blocks lane {} of edge \"{}\" while incident[{}] does, too",
-                                         *shared, network_.edge(one.edge).id, rows_[earlier]),
+                                         *shared, network_.edge(one.edge).id, placed_[earlier].row),
                              "one incident on a lane at a time", "change lanes, from_s or to_s"});
     }
 
@@ -174,9 +172,6 @@ class Placing {
                 check_start(fmt::format("flow[{}]", row), config_.flows[row].from, time.warm_up_s,
                             time.window_s);
         }
-        for (std::size_t row = 0; row < config_.emergency_sites.size(); ++row) {
-            if (config_.emergency_sites[row].ready() > 0) check_station(row);
-        }
         for (std::size_t row = 0; row < config_.emergency_trips.size(); ++row) {
             const EmergencyTrip& trip = config_.emergency_trips[row];
             const std::string from =
@@ -185,68 +180,15 @@ class Placing {
         }
     }
 
-    /// When calls may send somebody from a site.
-    void check_station(std::size_t row) {
-        const std::size_t found = problems_.size();
-        for (const Call& call : config_.calls) {
-            const double leaves_s = call.at_s.value_or(config_.time.warm_up_s) + call.turnout_s;
-            check_start(fmt::format("emergency_site[{}]", row), config_.emergency_sites[row].edge, leaves_s,
-                        leaves_s, edge_of(call));
-            if (problems_.size() > found) return;
-        }
-    }
-
-    /// Where a call is; nothing for a place that is reported with the calls.
-    std::optional<core::EdgeIndex> edge_of(const Call& call) const {
-        const auto row = static_cast<std::size_t>(call.incident.value_or(0));
-        if (call.incident)
-            return row < placed_.size() ? std::optional(placed_[row].closed.edge) : std::nullopt;
-        if (!call.edge.empty()) return network_.find_edge(call.edge);
-        if (!call.longitude || !call.latitude) return std::nullopt;
-        Problems none;
-        const auto place = detail::at_coordinates(network_, *call.longitude, *call.latitude, "", none);
-        return place ? std::optional(place->edge) : std::nullopt;
-    }
-
-    /// Follows the way out of a start as long as there is but one, up to `end`.
-    void check_start(const std::string& key, const std::string& id, double first_s, double last_s,
-                     std::optional<core::EdgeIndex> end = {}) {
+    void check_start(const std::string& key, const std::string& id, double first_s, double last_s) {
         const auto start = network_.find_edge(id);
         if (!start) return;  // reported with the demand
-        std::vector<core::EdgeIndex> passed;
-        double elapsed_s = 0.0;
-        for (std::optional<core::EdgeIndex> edge = start; edge; edge = only_way_out(*edge)) {
-            if (edge == end || std::ranges::find(passed, *edge) != passed.end()) return;
-            passed.push_back(*edge);
-            for (std::size_t at = 0; at < placed_.size(); ++at) {
-                const traffic::Incident& incident = placed_[at].closed;
-                // An EV that comes at the very moment counts as well.
-                constexpr double instant_s = 0.01;
-                if (incident.edge != *edge || !roads::closes_to_emergency(network_, incident) ||
-                    !overlap(incident.from.value, incident.to.value, first_s + elapsed_s,
-                             last_s + elapsed_s + instant_s))
-                    continue;
-                problems_.push_back({config_.where(fmt::format("incident[{}]", rows_[at])),
-                                     fmt::format("closes edge \"{}\", the only way out of {} at \"{}\"",
-                                                 network_.edge(*edge).id, key, id),
-                                     "an edge with a way round it, or times when no EV starts there",
-                                     "close another edge, leave a lane open, or set emergency_passes = 1"});
-                return;
-            }
-            const roads::Lane& lane = network_.lane(network_.lane_of(*edge, 0));
-            elapsed_s += lane.length_m / lane.speed_limit_mps;
-        }
-    }
-
-    std::optional<core::EdgeIndex> only_way_out(core::EdgeIndex from) const {
-        const auto exits = roads::exits(network_, from, roads::Driver::emergency);
-        return exits.size() == 1 ? std::optional(exits.front()) : std::nullopt;
+        detail::check_way_out(config_, network_, placed_, {key, *start, first_s, last_s}, problems_);
     }
 
     const ScenarioConfig& config_;
     const roads::Network& network_;
     std::vector<PlacedIncident> placed_;
-    std::vector<std::size_t> rows_;  ///< Of `placed_` in the file.
     std::size_t row_ = 0;
     Problems problems_;
 };

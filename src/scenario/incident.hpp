@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -60,6 +61,7 @@ struct Incident {
 struct PlacedIncident {
     traffic::Incident closed;
     double reroute_share = 0.0;  ///< Of them: who takes another way once it is known.
+    std::size_t row = 0;         ///< In the file.
 };
 
 /// The incidents of a scenario on its network, in the order of the file. Throws core::InputError with every

@@ -1,6 +1,5 @@
 #include "scenario/mean_times.hpp"
 
-#include <algorithm>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -24,15 +23,6 @@ constexpr double longest_s = 86400.0;
 /// Problems of rows that are told; a file of something else has one in every row.
 constexpr std::size_t most_problems = 20;
 constexpr const char* cure_write = "`clearway scenario mean-times SCENARIO --out FILE` writes it";
-
-/// Splits off the first line.
-std::string_view take_line(std::string_view& text) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line;
-}
 
 /// What stands behind `key ` up to the next comma.
 std::string_view word_after(std::string_view line, std::string_view key) {
@@ -101,14 +91,14 @@ MeanTimes read_mean_times(const std::filesystem::path& file, std::vector<Problem
     const std::string text = core::read_file(file);
     std::string_view rest = text;
     MeanTimes times;
-    const std::optional<std::size_t> edges = read_origin(take_line(rest), times);
+    const std::optional<std::size_t> edges = read_origin(core::take_line(rest), times);
     if (!edges) {
         problems.push_back({file.string() + ":1", "is no file of mean times of this version",
                             fmt::format("`{}network HASH, study seed N, runs N, edges N`", first_words),
                             cure_write});
         return times;
     }
-    if (const std::string_view header = take_line(rest); header != header_line) {
+    if (const std::string_view header = core::take_line(rest); header != header_line) {
         problems.push_back({file.string() + ":2", fmt::format("\"{}\" are not the columns", header),
                             std::string(header_line), cure_write});
         return times;

@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/leftovers.hpp"
+#include "results/store.hpp"
 
 namespace clearway::study {
 namespace {
@@ -45,9 +45,7 @@ struct flock whole_file() {
 FolderLock::FolderLock(const std::filesystem::path& folder) {
     core::make_folder(folder);
     // Before the lock's file lies among somebody else's.
-    if (!std::filesystem::exists(folder / "manifest.json") && !core::is_absent_or_empty(folder))
-        throw core::InputError({folder.string(), "is not empty and not a run folder", "a new or empty folder",
-                                "Choose another folder with --out"});
+    results::Store::refuse_others(folder);
     const std::filesystem::path file = folder / lock_name;
     descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
     if (descriptor_ < 0)

@@ -186,6 +186,7 @@ void check_roads(const Plan& plan) {
         detail::check_mean_times(plan.manifest.conditions, config, plan.manifest.study_seed, problems);
         detail::check_roads(plan.manifest.conditions, config, problems);
     }
+    detail::check_calls(plan.manifest.conditions, plan.scenarios, problems);
     if (!problems.empty()) throw core::InputError(problems);
 }
 

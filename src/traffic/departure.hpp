@@ -31,8 +31,8 @@ struct EmergencyDeparture {
     double rerouting_s = 0.0;  ///< Period of SUMO's `device.rerouting`; 0: none.
     /// Where the trip ends on the last edge, from its start; nothing: at its end.
     std::optional<core::Metres> arrival = {};
-    /// Row of the call that it answers, from where is decided in the run; nothing: it has a trip.
-    std::optional<std::uint32_t> call = {};
+    /// A call sends it: from where, and on which way, is decided in the run.
+    bool is_called = false;
 };
 
 /// Parameters of a SUMO vehicle type (`<param key= value=/>`) that a scenario writes and the gateway reads

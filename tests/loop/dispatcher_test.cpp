@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
+#include "loop/copy_of_run.hpp"
 #include "loop/study_folder.hpp"
 #include "loop/unit_run.hpp"
 #include "scenario/called_scenario.hpp"
@@ -149,6 +151,25 @@ TEST(Dispatcher, CopiesTellWhichUnitWasWrongAndDoNotChangeTheRun) {
     EXPECT_NEAR(wrong.record.metrics.unit_regret_s.value(), arrival_s(wrong) - arrival_s(right), 1e-6);
     EXPECT_EQ(outcome_of(one_call, by(Dispatch::straight_line)).record.provenance.trace_hash,
               wrong.record.provenance.trace_hash);
+}
+
+TEST(Dispatcher, ACopyOfTheRunIsNotCopiedAgain) {
+    const ConditionSpec tried = by(Dispatch::free_flow, {{"loop.units_tried", "2"}});
+    EXPECT_EQ(outcome_of(one_call, tried).record.metrics.unit_decisions, 1U);
+    const CalledScenario called(one_call);
+    const test::StudyFolder folder(called.file(), {}, {tried});
+    UnitRun run(folder.unit(0), folder.path() / "demand", folder.path() / "sumo");
+    ClosedLoop& loop = run.start(tried);
+    loop.run(core::Seconds(140.0));
+    // The call comes in while the copy runs, as where another way of a vehicle is tried.
+    const core::Seconds largest_kib = in_copy(folder.path() / "copy", [&] {
+        loop.arrival_after([] { return true; }, core::VehicleKey{1}, core::Seconds(160.0),
+                           folder.path() / "copy");
+        rusage children{};
+        getrusage(RUSAGE_CHILDREN, &children);
+        return core::Seconds(static_cast<double>(children.ru_maxrss));
+    });
+    EXPECT_EQ(largest_kib.value, 0.0) << "the copy had children of its own";
 }
 
 TEST(Dispatcher, UnitsWhoseWaysCrossAtASignalAllArrive) {

@@ -48,7 +48,7 @@ TEST_F(CallTest, vehicles_are_planned_from_the_stations_that_are_nearest_by_free
     EXPECT_EQ(planned.emergency[0].id, "emergency.call.0.0");
     EXPECT_EQ(planned.emergency[0].depart.value, 130.0);
     EXPECT_EQ(planned.emergency[0].arrival->value, 200.0);
-    EXPECT_EQ(planned.emergency[0].call, 0U);
+    EXPECT_TRUE(planned.emergency[0].is_called);
     EXPECT_THAT(planned.emergency[0].edges, ElementsAre("west", "straight", "place"));
     // West had one unit.
     EXPECT_THAT(planned.emergency[1].edges, ElementsAre("east", "detour", "back", "place"));

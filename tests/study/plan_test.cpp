@@ -178,6 +178,24 @@ TEST(Situation, RefusesAPolicyThatNeedsAShoulderWhereThereIsNone) {
     EXPECT_EQ(problems_on_the_road("rural", "pull_over", TrafficModel::standard, as_it_is), "none");
 }
 
+TEST(Situation, RefusesWhoAnswersCallsWhereNobodyCalls) {
+    experiment::ConditionSpec condition;
+    condition.name = "usual";
+    std::vector<scenario::ScenarioConfig> scenarios(2);
+    const auto problems_with = [&]() -> std::string {
+        std::vector<core::Problem> problems;
+        detail::check_calls({condition}, scenarios, problems);
+        return problems.empty() ? "none" : core::InputError(problems).what();
+    };
+    EXPECT_EQ(problems_with(), "none");
+    condition.dispatch = experiment::Dispatch::believed;
+    EXPECT_THAT(problems_with(), testing::HasSubstr("condition usual: dispatch: has no effect"));
+    condition.settings["loop.units_tried"] = "2";
+    EXPECT_THAT(problems_with(), testing::HasSubstr("condition usual: loop.units_tried: has no effect"));
+    scenarios[1].calls.emplace_back();
+    EXPECT_EQ(problems_with(), "none") << "one scenario with calls is enough";
+}
+
 TEST(Situation, RefusesMeanTimesThatTheScenarioDoesNotNameOrThatAreOfTheStudysOwnDays) {
     const support::TemporaryFolder folder;
     experiment::ConditionSpec condition;

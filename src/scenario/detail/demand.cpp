@@ -305,8 +305,7 @@ void add_calls(const DemandContext& context, const Calls& calls, PlannedDemand& 
     roads::RouteSearch search(context.network, roads::Driver::emergency);
     const auto free_s = [&](core::EdgeIndex edge, double) { return search.free_s(edge); };
     Fleet fleet(calls.stations);
-    for (std::size_t row = 0; row < calls.calls.size(); ++row) {
-        const PlacedCall& call = calls.calls[row];
+    for (const PlacedCall& call : calls.calls) {
         for (std::uint32_t unit = 0; unit < call.units; ++unit) {
             const std::vector<Sending> candidates = fleet.candidates(call, search, free_s);
             const Sending* const sent = cheapest(candidates);
@@ -315,7 +314,7 @@ void add_calls(const DemandContext& context, const Calls& calls, PlannedDemand& 
             traffic::EmergencyDeparture departure = plan_emergency(
                 context, call.vehicle(unit), call.kind, call.at.value + call.turnout.value, sent->way);
             departure.arrival = core::Metres(call.position_m);
-            departure.call = static_cast<std::uint32_t>(row);
+            departure.is_called = true;
             demand.emergency.push_back(std::move(departure));
         }
     }

@@ -116,6 +116,21 @@ void check_traffic_model(const ConditionSpec& condition, const scenario::Scenari
                             "traffic model \"sublane\", or privilege.between_lanes=0", sublane_cure});
 }
 
+void check_calls(const std::vector<ConditionSpec>& conditions,
+                 const std::vector<scenario::ScenarioConfig>& scenarios,
+                 std::vector<core::Problem>& problems) {
+    const auto has_calls = [](const scenario::ScenarioConfig& scenario) { return !scenario.calls.empty(); };
+    if (std::ranges::any_of(scenarios, has_calls)) return;
+    for (const ConditionSpec& condition : conditions) {
+        const bool tries = experiment::loop_config(condition).units_tried > 0;
+        if (!tries && condition.dispatch == ConditionSpec{}.dispatch) continue;
+        problems.push_back(
+            {fmt::format("condition {}: {}", condition.name, tries ? "loop.units_tried" : "dispatch"),
+             "has no effect: nobody is called in any scenario", "a scenario with [[call]]",
+             "leave it out, or add calls"});
+    }
+}
+
 void check_mean_times(const std::vector<ConditionSpec>& conditions, const scenario::ScenarioConfig& scenario,
                       std::uint64_t study_seed, std::vector<core::Problem>& problems) {
     const auto wants = [](const auto& setting) {

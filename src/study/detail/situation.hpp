@@ -20,6 +20,11 @@ void check_mean_times(const std::vector<experiment::ConditionSpec>& conditions,
                       const scenario::ScenarioConfig& scenario, std::uint64_t study_seed,
                       std::vector<core::Problem>& problems);
 
+/// A condition that says who answers calls, or tries units, in a study whose scenarios have none.
+void check_calls(const std::vector<experiment::ConditionSpec>& conditions,
+                 const std::vector<scenario::ScenarioConfig>& scenarios,
+                 std::vector<core::Problem>& problems);
+
 /// What the conditions need of the scenario's roads and do not find there: a shoulder, a gap between two
 /// lanes in which an emergency vehicle fits, or the signals that are equipped. Builds the network if one of
 /// them needs something.
