@@ -33,6 +33,17 @@ class Condition:
     set: Mapping[str, Any] = dataclasses.field(default_factory=dict)
     #: A model file for a learned predictor: of ``clearway links train``, or a ``.pth`` of the dissertation's net.
     model: str | Path | None = None
+    #: The others are keys of a condition in a study file (docs/reference/study-file.md); None: their default.
+    dispatch: str | None = None
+    traffic_model: str | None = None
+    bluelight: bool | None = None
+    safety_checks: bool | None = None
+    rerouting_s: float | None = None
+    rerouting_signal_penalty: float | None = None
+
+
+#: Those that go into a study file as they are.
+_PLAIN_KEYS = ("dispatch", "traffic_model", "bluelight", "safety_checks", "rerouting_s", "rerouting_signal_penalty")
 
 
 def part_name(part: Part) -> str:
@@ -178,4 +189,8 @@ def _study_text(scenario: str, name: str, names: list[str], own: list[Condition]
             lines.append(f"set = {_toml(dict(condition.set))}")
         if condition.model is not None:
             lines.append(f"model = {_toml(Path(condition.model).resolve())}")
+        for key in _PLAIN_KEYS:
+            value = getattr(condition, key)
+            if value is not None:
+                lines.append(f"{key} = {_toml({True: 'on', False: 'off'}[value] if isinstance(value, bool) else value)}")
     return "\n".join(lines) + "\n"

@@ -1,5 +1,6 @@
 """Runs, tables, paired differences and recordings, against the program's own tables and sums made here."""
 import csv
+import dataclasses
 import io
 import json
 import math
@@ -179,6 +180,19 @@ class ResultsTest(FolderCase):
             message = self.message_of(clearway.InputError, call)
             self.assertIn(says, message)
             self.assertNotIn("study.toml", message)  # nobody wrote that file
+
+    def test_a_condition_has_every_key_of_a_study_file(self) -> None:
+        given = {"traffic_model": "sublane", "bluelight": True, "safety_checks": False, "rerouting_s": 30, "rerouting_signal_penalty": 0.5}
+        conditions = [clearway.Condition("plain", traffic_model="sublane"), clearway.Condition("own", **given)]
+        results = clearway.run("intersection", conditions, seeds=1, baseline=False, out="runs")
+        stored = json.loads((results.folder / "manifest.json").read_text(encoding="utf-8"))["conditions"][1]
+        said = {key: {"on": True, "off": False}.get(value, value) for key, value in stored.items() if key in given}
+        self.assertEqual(said, given)
+        names = {field.name for field in dataclasses.fields(clearway.Condition)} | {"policies"}  # policy
+        self.assertEqual(set(stored) - names, set())
+        nobody_calls = self.message_of(clearway.InputError, lambda: clearway.run(
+            "intersection", [clearway.Condition("own", dispatch="believed")], seeds=1, out="other"))
+        self.assertIn("dispatch", nobody_calls)
 
     def test_numbers_of_numpy_are_numbers(self) -> None:
         results = clearway.run("intersection", [], seeds=np.int64(1), step_length_s=np.float64(0.5), out="runs")
