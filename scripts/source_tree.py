@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 import time
@@ -68,6 +69,7 @@ def remember_clean(check):
     """Notes that all changes up to this commit are clean, unless there are some that are not committed."""
     here = git("rev-parse", "HEAD")
     if here and not git("status", "--porcelain"):
+        CACHE.parent.mkdir(parents=True, exist_ok=True)
         clean_commit(check).write_text(here[0])
 
 
@@ -165,11 +167,29 @@ def arguments(description, of_prefixes):
     return parser.parse_args()
 
 
+def flags(entry):
+    """The words of a compile command but for the compiler, its launcher, source and output."""
+    words = shlex.split(entry["command"])
+    while "=" in words[0] or os.path.basename(words[0]) == "ccache":
+        del words[0]
+    at = words.index("-o")
+    del words[at:at + 2]
+    return tuple(word for word in words[1:] if word not in ("-c", entry["file"]))
+
+
+def is_clean(key):
+    return (CACHE / key).exists()
+
+
+def note_clean(key):
+    CACHE.mkdir(parents=True, exist_ok=True)
+    (CACHE / key).touch()
+
+
 def check_all(name, tasks, options):
     """Runs tasks (key of the state, function that returns what is wrong) side by side, prints what is wrong, remembers the
     clean ones. Returns the exit code."""
-    CACHE.mkdir(parents=True, exist_ok=True)
-    todo = [(key, task) for key, task in tasks if not (CACHE / key).exists()]
+    todo = [(key, task) for key, task in tasks if not is_clean(key)]
     start = last = time.monotonic()
     dirty = done = 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
@@ -180,7 +200,7 @@ def check_all(name, tasks, options):
                 dirty += 1
                 print(job.result(), flush=True)
             else:
-                (CACHE / running[job]).touch()
+                note_clean(running[job])
             if time.monotonic() - last >= 10:
                 last = time.monotonic()
                 print(f"{name}: {done} of {len(todo)}", file=sys.stderr, flush=True)
