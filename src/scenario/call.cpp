@@ -1,6 +1,7 @@
 #include "scenario/call.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "core/counted.hpp"
 #include "core/error.hpp"
 #include "core/number.hpp"
+#include "core/random.hpp"
 #include "core/spellings.hpp"
 #include "roads/closure.hpp"
 #include "roads/route_search.hpp"
@@ -81,12 +83,14 @@ void check_moment(const ScenarioConfig& config, std::size_t row, Problems& probl
     if (!at_s) {
         problems.push_back({where, "is not given", "when the call comes in, s",
                             call.incident ? "set it, or known_after_s of the incident" : "set it"});
-    } else if (*at_s < time.warm_up_s || *at_s + call.turnout_s >= time.horizon_s) {
+    } else if (*at_s < time.warm_up_s || *at_s + call.spread_s + call.turnout_s >= time.horizon_s) {
+        const std::string spread =
+            call.spread_s > 0.0 ? fmt::format(", spread_s, {},", call.spread_s) : std::string();
         problems.push_back(
             {where,
              *at_s < time.warm_up_s ? fmt::format("{} is before the warm-up ends", *at_s)
-                                    : fmt::format("{} and turnout_s, {}, are not before the end of the run",
-                                                  *at_s, call.turnout_s),
+                                    : fmt::format("{}{} and turnout_s, {}, are not before the end of the run",
+                                                  *at_s, spread, call.turnout_s),
              fmt::format("{} (time.warm_up_s) to below {} (time.horizon_s)", time.warm_up_s, time.horizon_s),
              "change it, or the times of the scenario"});
     }
@@ -125,6 +129,10 @@ void check_fleet(const ScenarioConfig& config, Problems& problems) {
     }
 }
 
+void sort_by_time(Calls& calls) {
+    std::ranges::stable_sort(calls.calls, {}, [](const PlacedCall& call) { return call.at.value; });
+}
+
 /// Puts calls and stations on the network, and collects what is wrong with them.
 class CallPlacing {
   public:
@@ -142,7 +150,7 @@ class CallPlacing {
         for (std::size_t station = 0; station < calls_.stations.size(); ++station)
             check_way_out(station);
         if (!problems_.empty()) throw core::InputError(std::move(problems_));
-        std::ranges::stable_sort(calls_.calls, {}, [](const PlacedCall& call) { return call.at.value; });
+        sort_by_time(calls_);
         return std::move(calls_);
     }
 
@@ -187,6 +195,7 @@ class CallPlacing {
                           .edge = place->edge,
                           .position_m = place->position_m,
                           .at = core::Seconds(*comes_in_s(config_, call)),
+                          .spread = core::Seconds(call.spread_s),
                           .turnout = core::Seconds(call.turnout_s),
                           .kind = *core::value_from<VehicleKind>(call.kind),
                           .units = static_cast<std::uint32_t>(call.units)};
@@ -248,10 +257,11 @@ class CallPlacing {
         for (const PlacedCall& call : calls_.calls) {
             const double leaves_s = call.at.value + call.turnout.value;
             if (call.kind == calls_.stations[station].kind)
-                detail::check_way_out(config_, network_, incidents_,
-                                      {fmt::format("emergency_site[{}]", sites_[station]),
-                                       calls_.stations[station].edge, leaves_s, leaves_s, call.edge},
-                                      problems_);
+                detail::check_way_out(
+                    config_, network_, incidents_,
+                    {fmt::format("emergency_site[{}]", sites_[station]), calls_.stations[station].edge,
+                     leaves_s, leaves_s + call.spread.value, call.edge},
+                    problems_);
             if (problems_.size() > found) return;
         }
     }
@@ -281,6 +291,14 @@ Calls place_calls(const ScenarioConfig& config, const roads::Network& network,
                   const std::vector<PlacedIncident>& incidents) {
     if (config.calls.empty()) return {};
     return CallPlacing(config, network, incidents).all();
+}
+
+void draw_times(Calls& calls, const core::KeyedRandom& random) {
+    for (PlacedCall& call : calls.calls) {
+        const double share = random.uniform(core::Purpose::emergency, core::fnv1a64(call.id));
+        call.at.value += std::floor(100.0 * share * call.spread.value) / 100.0;
+    }
+    sort_by_time(calls);
 }
 
 }  // namespace clearway::scenario

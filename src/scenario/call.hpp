@@ -11,6 +11,9 @@
 #include "core/units.hpp"
 #include "traffic/vehicle.hpp"
 
+namespace clearway::core {
+class KeyedRandom;
+}
 namespace clearway::roads {
 class Network;
 }
@@ -28,6 +31,7 @@ struct Call {
     std::optional<int> incident;
     std::optional<double> position_m;
     std::optional<double> at_s;
+    double spread_s = 0.0;
     int units = 1;
     std::string kind = "ambulance";
     double turnout_s = 60.0;
@@ -46,6 +50,8 @@ struct Call {
                         "none: its middle, or the coordinates"},
             core::Field{"at_s", "s", &S::at_s, 0.0, 604800.0, "When the call comes in.",
                         "none: when everybody knows of the incident"},
+            core::Field{"spread_s", "s", &S::spread_s, 0.0, 86400.0,
+                        "It comes in up to this much later, by the seed.", "0"},
             core::Field{"units", "1", &S::units, 1, 100, "How many are sent.", "1"},
             core::Field{"kind", "", &S::kind, 0, 0,
                         "ambulance, from ambulance stations and hospitals, or fire_engine, from fire "
@@ -62,6 +68,7 @@ struct PlacedCall {
     core::EdgeIndex edge;
     float position_m = 0.0F;  ///< Where the trip ends, from the start of the edge.
     core::Seconds at;
+    core::Seconds spread{0.0};  ///< It comes in from `at` on, before this has passed.
     core::Seconds turnout;
     traffic::VehicleKind kind = traffic::VehicleKind::ambulance;
     std::uint32_t units = 1;
@@ -88,5 +95,9 @@ struct Calls {
 /// closes the way to, a call that no station can answer or reach, and more units called than wait.
 Calls place_calls(const ScenarioConfig& config, const roads::Network& network,
                   const std::vector<PlacedIncident>& incidents);
+
+/// Draws when each call comes in, to 0.01 s, and puts them in that order. Every condition of a replication
+/// has the same times.
+void draw_times(Calls& calls, const core::KeyedRandom& random);
 
 }  // namespace clearway::scenario

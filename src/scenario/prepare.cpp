@@ -62,6 +62,7 @@ Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core
         config.measured ? detail::read_measured(context) : detail::generate(context);
     detail::add_emergency_trips(context, demand);
     Calls calls = place_calls(config, network.network, incidents);
+    draw_times(calls, context.random);
     detail::add_calls(context, calls, demand);
     detail::sort_by_departure(demand);
 

@@ -28,8 +28,8 @@ LIMIT_S = 120
 CHANGING = re.compile(r"/timing\.json$|^units/|/jobs/|^logs/|^\.lock$|^report\.html$|\.pdf$|/netconvert\.log$")
 # What a killed process leaves under a name that the next one does not take, and the log of a second attempt.
 LEFT = re.compile(r"\.\d+\.part$|^logs/.*\.\d+\.log$")
-# A message ends with what to do.
-CURE = re.compile(r"(again|[Cc]hoose|[Cc]heck|Free|Set|[Ii]nstall|[Rr]emove)\b[^.:]*$|error while loading shared libraries", re.M)
+# A message ends with what to do; the system's loader knows nothing better.
+CURE = re.compile(r"(again|[Cc]hoose|[Cc]heck|Free|Set|[Ii]nstall|[Rr]emove)\b[^.:]*$|error while loading shared libraries|Fatal glibc error", re.M)
 SILENCED = re.compile(r"write\(2, .*INJECTED")
 LOADED = re.compile(r'"[^"]*(\.so\b|/ld\.so\.cache)')
 STUDY = """name = "study"

@@ -1,5 +1,7 @@
 #include "scenario/call.hpp"
 
+#include <set>
+
 #include <gmock/gmock.h>
 
 #include "scenario/called_scenario.hpp"
@@ -23,10 +25,11 @@ class CallTest : public ScratchTest {
         write_called_roads(
             [&](const std::string& name, const std::string& text) { return write(name, text); });
     }
-    Prepared prepared(const std::string& rest, const std::string& head = called_head) const {
+    Prepared prepared(const std::string& rest, const std::string& head = called_head,
+                      std::uint32_t replication = 0) const {
         const ScenarioConfig config = load(write("scenario.toml", head + rest).string());
         return prepare(config, build_network(config, folder() / "net"), core::StudySeed{1},
-                       core::Replication{0}, folder() / "demand");
+                       core::Replication{replication}, folder() / "demand");
     }
     std::vector<std::string> wrong(const std::string& rest, const std::string& head = called_head) const {
         std::vector<std::string> lines;
@@ -57,16 +60,44 @@ TEST_F(CallTest, vehicles_are_planned_from_the_stations_that_are_nearest_by_free
 
 TEST_F(CallTest, every_key_is_read_and_written_back) {
     const std::string text =
-        "[[call]]\nedge = \"place\"\nposition_m = 30.0\nat_s = 20.0\nunits = 3\nkind = \"ambulance\"\n"
-        "turnout_s = 5.0\n";
+        "[[call]]\nedge = \"place\"\nposition_m = 30.0\nat_s = 20.0\nspread_s = 40.0\nunits = 3\n"
+        "kind = \"ambulance\"\nturnout_s = 5.0\n";
     prepared(text);
     const ScenarioConfig config = load((folder() / "scenario.toml").string());
     store(config, folder() / "stored");
     const ScenarioConfig again = load((folder() / "stored").string());
     EXPECT_EQ(configuration_hash(again), configuration_hash(config));
     EXPECT_EQ(again.calls.at(0).units, 3);
+    EXPECT_EQ(again.calls.at(0).spread_s, 40.0);
     EXPECT_EQ(again.emergency_sites.at(1).units, 2);
     EXPECT_FALSE(again.emergency_sites.at(0).units.has_value());
+}
+
+TEST_F(CallTest, come_in_later_by_the_seed) {
+    const std::string text =
+        "[[call]]\nedge = \"place\"\nat_s = 100.0\nspread_s = 60.0\nturnout_s = 5.0\n"
+        "[[call]]\nedge = \"place\"\nat_s = 130.0\nturnout_s = 5.0\n";
+    std::set<double> times;
+    bool is_second = false, is_first = false;
+    for (std::uint32_t replication = 0; replication < 20; ++replication) {
+        const Calls calls = prepared(text, called_head, replication).calls;
+        ASSERT_THAT(calls.calls, SizeIs(2));
+        EXPECT_LE(calls.calls[0].at.value, calls.calls[1].at.value);
+        const bool is_before = calls.calls[0].id == "emergency.call.0";
+        const double at_s = calls.calls[is_before ? 0 : 1].at.value;
+        EXPECT_TRUE(at_s >= 100.0 && at_s < 160.0) << at_s;
+        EXPECT_EQ(calls.calls[is_before ? 1 : 0].at.value, 130.0);
+        EXPECT_EQ(prepared(text, called_head, replication).calls.calls[0].at.value, calls.calls[0].at.value);
+        times.insert(at_s);
+        (is_before ? is_first : is_second) = true;
+    }
+    EXPECT_THAT(times, SizeIs(20));
+    EXPECT_TRUE(is_first && is_second);
+    EXPECT_THAT(
+        wrong("[[call]]\nedge = \"place\"\nat_s = 500.0\nspread_s = 40.0\n"),
+        ElementsAre("call[0].at_s 500, spread_s, 40, and turnout_s, 60, are not before the end of the run"));
+    // An incident that begins while the vehicle may leave.
+    EXPECT_THAT(wrong("[[incident]]\nedge = \"straight\"\nfrom_s = 140.0\n" + text), SizeIs(1));
 }
 
 TEST_F(CallTest, without_one_sites_and_configuration_are_as_they_were) {

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/read_failure.hpp"
 
 namespace clearway::sumo::detail {
 namespace {
@@ -22,8 +23,9 @@ bool is_written_file(int descriptor) {
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file, const char* verb) {
+    const int reason = errno;
     throw core::EnvironmentError(std::string("cannot ") + verb + " " + file.string() + ": " +
-                                 std::strerror(errno));
+                                 std::strerror(reason) + ". " + core::cure_of(reason));
 }
 
 /// A new file with `content`, positioned at its end, with the flags of `like`.
@@ -52,8 +54,10 @@ std::set<int> Outputs::open_descriptors() {
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", error))
         descriptors.insert(std::stoi(entry.path().filename().string()));
     if (error)
-        throw core::EnvironmentError("/proc/self/fd cannot be read: " + error.message() +
-                                     ". Mount /proc: the files that SUMO writes are found there");
+        throw core::EnvironmentError("/proc/self/fd cannot be read: " + error.message() + ". " +
+                                     (core::is_of_machine(error.value())
+                                          ? core::cure_of(error.value())
+                                          : "Mount /proc: the files that SUMO writes are found there"));
     // The descriptor of the listing itself is among them, but closed by now.
     std::erase_if(descriptors, [](int descriptor) { return ::fcntl(descriptor, F_GETFD) < 0; });
     return descriptors;
