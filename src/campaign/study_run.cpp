@@ -248,9 +248,10 @@ StudyResult run_part(const study::Plan& plan, const results::Store& store, const
     workers.limits = options.limits;
     workers.retried = options.retried;
     workers.on_set_aside = [&store](const results::SetAside& damaged) {
-        fmt::print(stderr,
-                   "clearway: {}: the record is damaged: {}. It is kept in {}, and the run is made again\n",
-                   results::run_name(store.folder(), damaged.key), damaged.why, damaged.place.string());
+        fmt::print(stderr, "clearway: {}: the {} is damaged: {}. It is kept in {}, and the run is {}\n",
+                   results::run_name(store.folder(), damaged.key),
+                   damaged.is_recording ? "recording" : "record", damaged.why, damaged.place.string(),
+                   damaged.is_recording ? "recorded again with --record" : "made again");
     };
     const std::unique_ptr<python::Nursery> nursery = nursery_for(plan);
     StudyResult result = run_units(plan, store, workers, on_progress);

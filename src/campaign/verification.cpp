@@ -180,6 +180,7 @@ Verification verify(const results::Store& stored, const results::Store& again,
     verification.run = results::run_name(stored.folder(), key);
     std::optional<results::RunRecord> record;
     try {
+        stored.check(key);
         record = stored.read(key);
     } catch (const core::InputError& error) {
         verification.verdict = Verdict::damaged;

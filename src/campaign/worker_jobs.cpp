@@ -138,7 +138,7 @@ WorkerResult record_jobs(const std::vector<experiment::DatasetJob>& jobs, unsign
                         .job = job,
                         .file = file,
                         .log = std::filesystem::path(file).replace_extension(".log"),
-                        .work = {job.output / fmt::format("work-{}-{}", job.scenario, job.replication)}});
+                        .work = {samples::work_folder(job)}});
     }
     WorkerResult result = work_on(work, processes, "recordings");
     // Libraries write to the same streams.

@@ -18,6 +18,7 @@
 #include "prediction/repair_net.hpp"
 #include "samples/dataset_plan.hpp"
 #include "scenario/network.hpp"
+#include "study/folder_lock.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -104,6 +105,7 @@ core::ExitCode record(Arguments arguments, const Invocation& invocation) {
     if (std::filesystem::exists(std::filesystem::path(arguments.folder) / "manifest.json"))
         throw core::InputError({"--out", fmt::format("{} holds the runs of a study", arguments.folder),
                                 "a folder of data sets, or a new one", "Choose another folder"});
+    const study::FolderLock lock(arguments.folder);
     scenario::store(config, jobs.front().scenario_file.parent_path());
     scenario::build_network(config, jobs.front().network_folder);
     const campaign::WorkerResult result = campaign::record_jobs(jobs, arguments.jobs);

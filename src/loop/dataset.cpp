@@ -100,7 +100,7 @@ void record_edge_times(const experiment::DatasetJob& job, UnitRun& run) {
 
 core::ExitCode record_dataset(const experiment::DatasetJob& job) {
     core::make_folder(job.output);
-    const core::TemporaryFolder work(job.output / fmt::format("work-{}-{}", job.scenario, job.replication));
+    const core::TemporaryFolder work(samples::work_folder(job));
     UnitRun run(job, work.path());
     const graph::LinkRules rules = job.rules();
     if (job.dataset == experiment::DatasetKind::published) {

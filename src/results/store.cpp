@@ -126,12 +126,12 @@ fs::path free_place(const fs::path& target) {
     return place;
 }
 
-void move_into(const fs::path& folder, const fs::path& source) {
+void move_to(const fs::path& target, const fs::path& source) {
     std::error_code error;
-    fs::rename(source, folder / (fs::is_directory(source) ? "run" : "error.json"), error);
+    fs::rename(source, target, error);
     if (error)
         throw core::EnvironmentError(fmt::format("{}: is damaged and cannot be moved to {}: {}",
-                                                 source.string(), folder.string(), error.message()));
+                                                 source.string(), target.string(), error.message()));
 }
 
 }  // namespace
@@ -217,7 +217,7 @@ Store::Written Store::write(const RunRecord& record, const RunTiming& timing) co
 }
 
 Store::Written Store::adopt(const Store& other, const experiment::RunKey& key) const {
-    other.check(key);
+    other.check_record(key);
     const fs::path source = other.run_folder(key);
     const fs::path target = run_folder(key);
     bool first = false;
@@ -234,7 +234,6 @@ Store::Written Store::adopt(const Store& other, const experiment::RunKey& key) c
                         "both folders and compare versions and machines",
                         to_text(key), source.string(), target.string(), name));
     }
-    adopt_recording(other, key);
     forget_error(key);
     return first ? Written::first : Written::already_there;
 }
@@ -242,10 +241,9 @@ Store::Written Store::adopt(const Store& other, const experiment::RunKey& key) c
 void Store::adopt_recording(const Store& other, const experiment::RunKey& key) const {
     const fs::path recording = trace::recording_file(other.folder_, key);
     const fs::path place = trace::recording_file(folder_, key);
-    if (!fs::exists(recording)) return;
-    if (fs::exists(place) && fs::file_size(place) == fs::file_size(recording)) return;
+    if (fs::exists(place) || !fs::exists(recording)) return;
+    trace::check_recording(recording);
     core::make_folder(place.parent_path());
-    fs::remove(place);
     core::copy_file(recording, place, core::Copying::links);
     core::flush_folder(place.parent_path());
 }
@@ -346,7 +344,17 @@ std::optional<RunRecord> Store::read(const experiment::RunKey& key, VehicleRows 
     }
 }
 
+void Store::check_recording(const experiment::RunKey& key) const {
+    const fs::path file = trace::recording_file(folder_, key);
+    if (fs::exists(file)) trace::check_recording(file);
+}
+
 void Store::check(const experiment::RunKey& key) const {
+    check_record(key);
+    check_recording(key);
+}
+
+void Store::check_record(const experiment::RunKey& key) const {
     std::string vehicles;
     const fs::path folder = run_folder(key);
     if (fs::exists(folder)) {
@@ -357,18 +365,30 @@ void Store::check(const experiment::RunKey& key) const {
     read_error(key);
 }
 
+fs::path Store::make_place(const experiment::RunKey& key) const {
+    const fs::path place = free_place(folder_ / "damaged" / key.scenario / key.condition /
+                                      fmt::format("{:05}", key.replication));
+    core::make_folder(place);
+    return place;
+}
+
 std::vector<SetAside> Store::set_damaged_aside(const std::vector<experiment::RunKey>& keys) const {
     std::vector<SetAside> moved;
     for (const experiment::RunKey& key : keys) {
         try {
-            check(key);
+            check_record(key);
         } catch (const core::InputError& error) {
-            const fs::path place = free_place(folder_ / "damaged" / key.scenario / key.condition /
-                                              fmt::format("{:05}", key.replication));
-            core::make_folder(place);
-            if (fs::exists(run_folder(key))) move_into(place, run_folder(key));
-            if (fs::exists(error_file(key))) move_into(place, error_file(key));
-            moved.push_back({key, place, error.what()});
+            const fs::path place = make_place(key);
+            if (fs::exists(run_folder(key))) move_to(place / "run", run_folder(key));
+            if (fs::exists(error_file(key))) move_to(place / "error.json", error_file(key));
+            moved.push_back({key, place, error.what(), false});
+        }
+        try {
+            check_recording(key);
+        } catch (const core::InputError& error) {
+            const fs::path place = make_place(key);
+            move_to(place / "recording.h5", trace::recording_file(folder_, key));
+            moved.push_back({key, place, error.what(), true});
         }
     }
     return moved;

@@ -17,7 +17,8 @@ namespace clearway::results {
 struct SetAside {
     experiment::RunKey key;
     std::filesystem::path place;
-    std::string why;  ///< What is wrong, and in which file.
+    std::string why;    ///< What is wrong, and in which file.
+    bool is_recording;  ///< Of a run whose other files are whole.
 };
 
 /// The run folder of a study.
@@ -71,6 +72,9 @@ class Store {
     /// flushed if they cannot be linked; `flush` flushes their entries. Throws core::InputError for a damaged
     /// record, which is not adopted. As with `write`, the first wins and a second must be equal.
     Written adopt(const Store& other, const experiment::RunKey& key) const;
+    /// Likewise its recording, where the other store has one and this has none. Throws core::InputError for a
+    /// damaged one.
+    void adopt_recording(const Store& other, const experiment::RunKey& key) const;
     /// Complete runs, and failed runs that are not complete; in no particular order.
     std::vector<experiment::RunKey> complete_runs() const;
     std::vector<experiment::RunKey> failed_runs() const;
@@ -99,8 +103,11 @@ class Store {
     std::optional<RunError> read_error(const experiment::RunKey& key) const;
     /// Forgets an error so that the run can be tried again.
     void forget_error(const experiment::RunKey& key) const;
+    /// Throws core::InputError when a file of the run does not match its hash; its recording counts.
+    void check(const experiment::RunKey& key) const;
     /// Checks the files of these runs against their hashes and moves what is damaged to `damaged`, so that
-    /// such a run counts as missing. Reads all of them. No other process may write meanwhile. Throws
+    /// such a run, or its recording, counts as missing. Reads all of them. No other process may write
+    /// meanwhile. Throws
     /// core::EnvironmentError when a file cannot be moved.
     std::vector<SetAside> set_damaged_aside(const std::vector<experiment::RunKey>& keys) const;
     /// Removes what killed writers left behind. No other process may write meanwhile.
@@ -116,8 +123,10 @@ class Store {
     /// The record without its vehicles, and their text. Throws core::InputError unless both match their
     /// hashes and the record was made in the study of the manifest.
     RunRecord read_checked(const experiment::RunKey& key, std::string& vehicles) const;
-    void check(const experiment::RunKey& key) const;
-    void adopt_recording(const Store& other, const experiment::RunKey& key) const;
+    void check_record(const experiment::RunKey& key) const;
+    void check_recording(const experiment::RunKey& key) const;
+    /// A new place below `damaged`.
+    std::filesystem::path make_place(const experiment::RunKey& key) const;
 
     std::filesystem::path folder_;
     Manifest manifest_;

@@ -37,6 +37,10 @@ std::filesystem::path job_file(const experiment::DatasetJob& job) {
            fmt::format("{:04}{}.json", job.replication, experiment::under_policies(job));
 }
 
+std::filesystem::path work_folder(const experiment::DatasetJob& job) {
+    return job.scenario_file.parent_path() / "work" / job_file(job).stem();
+}
+
 std::vector<std::filesystem::path> files_of(const experiment::DatasetJob& job) {
     if (job.dataset == experiment::DatasetKind::published) {
         return {job.output / edge_list_file, job.output / vehicle_features_file, job.output / target_file};

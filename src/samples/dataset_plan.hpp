@@ -23,6 +23,9 @@ std::vector<experiment::DatasetJob> dataset_jobs(const experiment::DatasetJob& s
 /// The file that keeps the job of a recording, next to the data set.
 std::filesystem::path job_file(const experiment::DatasetJob& job);
 
+/// Where a job works; removed at its end.
+std::filesystem::path work_folder(const experiment::DatasetJob& job);
+
 /// The files that a job will write.
 std::vector<std::filesystem::path> files_of(const experiment::DatasetJob& job);
 

@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "results/store.hpp"
+#include "core/read_failure.hpp"
 
 namespace clearway::study {
 namespace {
@@ -44,12 +44,11 @@ struct flock whole_file() {
 
 FolderLock::FolderLock(const std::filesystem::path& folder) {
     core::make_folder(folder);
-    // Before the lock's file lies among somebody else's.
-    results::Store::refuse_others(folder);
     const std::filesystem::path file = folder / lock_name;
     descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
     if (descriptor_ < 0)
-        throw core::EnvironmentError(fmt::format("{}: {}", file.string(), std::strerror(errno)));
+        throw core::EnvironmentError(
+            fmt::format("{}: {}. {}", file.string(), std::strerror(errno), core::cure_of(errno)));
     struct flock lock = whole_file();
     if (::fcntl(descriptor_, F_OFD_SETLK, &lock) != 0) {
         const int reason = errno;

@@ -7,8 +7,9 @@
 
 namespace clearway::study {
 
-/// Allows one study at a time in a run folder. Held while this object lives; the system releases it when the
-/// process dies, however it dies.
+/// Allows one study at a time in a folder, or one recording of data sets. Held while this object lives; the
+/// system releases it when the process dies, however it dies. Leaves a file there: ask first whether the
+/// folder is ours (results::Store::refuse_others).
 class FolderLock {
   public:
     /// Throws core::EnvironmentError when the folder is taken (naming the other process), not writable, or on

@@ -100,6 +100,7 @@ void adopt_runs(const std::vector<fs::path>& folders, std::size_t number, const 
         try {
             const bool first = target.adopt(source, key) == results::Store::Written::first;
             ++(first ? result.adopted : result.duplicates);
+            target.adopt_recording(source, key);
         } catch (const core::InputError& error) {
             result.damaged.push_back(fmt::format("{}. It is left out", error.what()));
         } catch (const core::ConflictError& error) {
@@ -172,6 +173,7 @@ MergeResult merge(const std::vector<fs::path>& sources, const fs::path& out,
     for (const fs::path& folder : folders)
         require_same_study(first, results::Store::open(folder));
     claim(out, {});
+    results::Store::refuse_others(out);
     const FolderLock lock(out);
     const results::Store target = results::Store::create(out, first.manifest());
     MergeResult result;

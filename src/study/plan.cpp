@@ -206,6 +206,7 @@ void require_unchanged(const results::Store& store) {
 results::Store prepare_folder(const Plan& plan, const fs::path& folder) {
     check_roads(plan);
     if (fs::exists(folder / "manifest.json")) core::require_plain_files(folder);
+    results::Store::refuse_others(folder);
     const FolderLock lock(folder);
     results::Store store = results::Store::create(folder, plan.manifest);
     require_unchanged(store);

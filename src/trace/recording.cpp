@@ -231,8 +231,12 @@ auto reading(const std::filesystem::path& file, double time_s, const Action& act
 
 }  // namespace
 
-RecordingReader::RecordingReader(const std::filesystem::path& file) {
+void check_recording(const std::filesystem::path& file) {
     detail::check_seal(file);
+}
+
+RecordingReader::RecordingReader(const std::filesystem::path& file) {
+    check_recording(file);
     state_ = reading(file, 0.0, [&] { return std::make_unique<State>(file); });
 }
 RecordingReader::~RecordingReader() = default;

@@ -123,6 +123,10 @@ class RecordingReader {
     std::unique_ptr<State> state_;
 };
 
+/// Throws core::InputError for a file that is missing, not a recording, of another version, cut short or
+/// damaged. Reads it to its end.
+void check_recording(const std::filesystem::path& file);
+
 /// Path of a run's recording in a run folder: `recordings/SCENARIO/CONDITION/REPLICATION.h5`.
 std::filesystem::path recording_file(const std::filesystem::path& run_folder, const experiment::RunKey& key);
 

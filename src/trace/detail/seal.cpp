@@ -12,6 +12,7 @@
 
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
+#include "core/open_file.hpp"
 #include "core/read_failure.hpp"
 #include "core/running_hash.hpp"
 
@@ -71,6 +72,7 @@ std::string seal_of(const std::filesystem::path& file) {
 }
 
 void check_seal(const std::filesystem::path& file) {
+    const core::OpenFile is_a_file(file);  // a stream waits at a pipe
     std::ifstream stream(file, std::ios::binary);
     std::error_code error;
     const std::uint64_t size = std::filesystem::file_size(file, error);
