@@ -15,6 +15,7 @@
 #include "campaign/detail/run_cost.hpp"
 #include "campaign/equip_rounds.hpp"
 #include "campaign/names.hpp"
+#include "campaign/printout.hpp"
 #include "core/error.hpp"
 #include "core/leftovers.hpp"
 #include "core/progress.hpp"

@@ -10,6 +10,7 @@
 
 #include "campaign/detail/abort_cure.hpp"
 #include "campaign/detail/way_findings.hpp"
+#include "campaign/printout.hpp"
 #include "core/counted.hpp"
 #include "core/files.hpp"
 #include "core/terminal.hpp"

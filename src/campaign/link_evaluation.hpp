@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "campaign/printout.hpp"
+#include "campaign/printing.hpp"
 #include "campaign/publication.hpp"
 #include "core/error.hpp"
 #include "experiment/loop_config.hpp"

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "campaign/printout.hpp"
 #include "campaign/worker_jobs.hpp"
 #include "core/counted.hpp"
 #include "core/leftovers.hpp"

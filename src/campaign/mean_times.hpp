@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "campaign/printout.hpp"
+#include "campaign/printing.hpp"
 #include "core/error.hpp"
 #include "scenario/config.hpp"
 

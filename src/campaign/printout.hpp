@@ -1,15 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "campaign/printing.hpp"
 #include "core/json.hpp"
 
 namespace clearway::campaign {
-
-/// How results are printed on standard output.
-enum class Printing : std::uint8_t { text, json };
 
 /// A column of a table. JSON knows its values by `key`, which ends in their unit; text by `title`. JSON
 /// leaves a column without a key out, text one without a title.

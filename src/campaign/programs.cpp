@@ -12,6 +12,7 @@
 #include "core/build_stamp.hpp"
 #include "core/error.hpp"
 #include "core/process.hpp"
+#include "study/plan.hpp"
 
 namespace clearway::campaign {
 namespace {

@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "study/plan.hpp"
+namespace clearway::study {
+struct Versions;
+}  // namespace clearway::study
 
 namespace clearway::campaign {
 

@@ -14,6 +14,7 @@
 #include "analysis/summary.hpp"
 #include "campaign/detail/abort_cure.hpp"
 #include "campaign/names.hpp"
+#include "campaign/printout.hpp"
 #include "campaign/programs.hpp"
 #include "campaign/stored_folder.hpp"
 #include "core/counted.hpp"

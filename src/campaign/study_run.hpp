@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/printout.hpp"
+#include "campaign/printing.hpp"
 #include "campaign/report_replays.hpp"
 #include "campaign/workers.hpp"
 #include "core/error.hpp"

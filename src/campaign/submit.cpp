@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "campaign/plan_text.hpp"
+#include "campaign/printout.hpp"
 #include "campaign/study_run.hpp"
 #include "core/counted.hpp"
 #include "core/files.hpp"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "campaign/printout.hpp"
+#include "campaign/printing.hpp"
 #include "core/error.hpp"
 #include "experiment/run_job.hpp"
 #include "study/config.hpp"

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "campaign/printout.hpp"
 #include "campaign/programs.hpp"
 #include "campaign/signal_audit.hpp"
 #include "campaign/study_run.hpp"

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "campaign/printout.hpp"
+#include "campaign/printing.hpp"
 #include "campaign/stored_folder.hpp"
 #include "core/error.hpp"
 

@@ -1,12 +1,12 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "campaign/names.hpp"
 #include "campaign/study_run.hpp"
 #include "campaign/worker_jobs.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/verb.hpp"
@@ -74,27 +74,27 @@ core::ExitCode attach(const Arguments& arguments) {
 
 }  // namespace
 
-Action configure_attach(CLI::App& app) {
+Action configure_attach(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     arguments->described.condition.name = "attached";
     experiment::AttachJob& job = arguments->job;
     app.add_option("place", arguments->place, "Where SUMO waits for a client (its --remote-port)")
-        ->required()
-        ->option_text("HOST:PORT (required)");
+        .required()
+        .option_text("HOST:PORT (required)");
     {
         const OptionGroup group(app, "Condition (names: clearway list)");
         add_condition_options(app, arguments->described, "none");
     }
     app.add_option("--automated", job.automated,
                    "Vehicle types that are automated, besides those that declare it (clearway.class)")
-        ->option_text("TYPE ... [none]");
+        .option_text("TYPE ... [none]");
     app.add_option("--emergency", job.emergency,
                    "Vehicle types that are emergency vehicles, besides those of vClass emergency")
-        ->option_text("TYPE ... [none]");
+        .option_text("TYPE ... [none]");
     app.add_option("--network", job.network, "Its network file, if it is not at the path that SUMO reports")
-        ->option_text("FILE [as SUMO says]");
+        .option_text("FILE [as SUMO says]");
     add_seed_option(app, job.study_seed);
-    app.add_option("--out", arguments->folder, "Run folder")->option_text("DIR [runs/attached-PORT]");
+    app.add_option("--out", arguments->folder, "Run folder").option_text("DIR [runs/attached-PORT]");
     add_json_option(app, arguments->publish.printing, "the tables");
     add_tables_option(app, arguments->publish.tables);
     return [arguments](const Invocation&) { return attach(*arguments); };

@@ -1,16 +1,15 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "campaign/fitness.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 
 namespace clearway::cli {
 
-Action configure_check(CLI::App& app) {
+Action configure_check(App& app) {
     struct Arguments {
         std::string scenario;
         std::uint64_t seed = 1;
@@ -24,8 +23,8 @@ Action configure_check(CLI::App& app) {
     app.add_option(
            "--lock-trials", arguments->lock_trials,
            "Also look for locks: makes N more runs with time.ignore_junction_blocker_s, and N without")
-        ->check(CLI::Range(0U, 1000U))
-        ->option_text("N, 0 to 1000 [0]");
+        .range(0U, 1000U)
+        .option_text("N, 0 to 1000 [0]");
     add_limit_options(app, arguments->run.limits);
     add_json_option(app, arguments->run.publish.printing, "the findings");
     add_scenario_options(app, arguments->options);

@@ -13,6 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/detail/app.hpp"
 #include "cli/verb.hpp"
 #include "core/build_stamp.hpp"
 #include "core/error.hpp"
@@ -216,7 +217,8 @@ void declare(CLI::App& app, std::span<const Verb> verbs, Action& action) {
             command->require_subcommand(1);
             continue;
         }
-        const Action own = verb.configure(*command);
+        App options(*command);
+        const Action own = verb.configure(options);
         const std::vector<CLI::Option*> required =
             verb.parts.empty() ? std::vector<CLI::Option*>{} : waived_options(*command);
         // The callbacks of parts come first.

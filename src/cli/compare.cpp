@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "analysis/summary.hpp"
 #include "campaign/names.hpp"
+#include "campaign/publication.hpp"
 #include "campaign/stored_folder.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
 #include "core/error.hpp"
@@ -157,24 +158,24 @@ core::ExitCode compare(Arguments arguments) {
 
 }  // namespace
 
-Action configure_compare(CLI::App& app) {
+Action configure_compare(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.add_option("run", arguments->first, "Run folder; its conditions are compared with their baseline")
-        ->required()
-        ->option_text("DIR (required)");
+        .required()
+        .option_text("DIR (required)");
     app.add_option("other", arguments->second,
                    "Second run folder: its runs are compared with the same runs of the first")
-        ->option_text("DIR [none]");
+        .option_text("DIR [none]");
     app.add_option("--against", arguments->against,
                    "Condition of the run folder that the others are compared with")
-        ->option_text("NAME [the baselines]");
+        .option_text("NAME [the baselines]");
     app.add_option("--metric", arguments->metrics, "Metric to compare, a column of runs.csv; may be repeated")
-        ->allow_extra_args(false)
-        ->option_text("NAME [EV and others' times, collisions, teleports]");
+        .allow_extra_args(false)
+        .option_text("NAME [EV and others' times, collisions, teleports]");
     app.add_option("--tolerance", arguments->tolerances,
                    "Exit with 6 if it may be worse by more than this (95 %), or if more EVs are lost")
-        ->allow_extra_args(false)
-        ->option_text("[METRIC=]NUMBER ... [none]");
+        .allow_extra_args(false)
+        .option_text("[METRIC=]NUMBER ... [none]");
     add_response_option(app, arguments->response_threshold_s);
     add_publish_options(app, arguments->publication);
     add_json_option(app, arguments->printing, "the comparison");

@@ -1,18 +1,17 @@
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "campaign/names.hpp"
+#include "campaign/printout.hpp"
 #include "campaign/worker_jobs.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
-#include "core/number_range.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/dataset_job.hpp"
 #include "prediction/repair_net.hpp"
@@ -118,84 +117,74 @@ core::ExitCode record(Arguments arguments, const Invocation& invocation) {
     return result.exit_code;
 }
 
-void add_published_options(CLI::App& app, experiment::DatasetJob& job, CLI::Option* samples) {
+void add_published_options(App& app, experiment::DatasetJob& job, Option samples) {
     const OptionGroup group(app, "As published (three CSV files)");
-    static const std::map<std::string, experiment::ListedPairs> pairs = {
-        {"true-links", experiment::ListedPairs::true_links},
-        {"candidates", experiment::ListedPairs::candidates}};
-    app.add_option_function<std::string>(
-           "--pairs", [&job](const std::string& name) { job.pairs = pairs.at(name); },
-           "Pairs in the list: only linked ones, or all within reach")
-        ->check(CLI::IsMember(pairs))
-        ->option_text("true-links|candidates [candidates]")
-        ->excludes(samples);
+    app.add_choice("--pairs", job.pairs,
+                   {{"true-links", experiment::ListedPairs::true_links},
+                    {"candidates", experiment::ListedPairs::candidates}},
+                   "Pairs in the list: only linked ones, or all within reach")
+        .option_text("true-links|candidates [candidates]")
+        .excludes(samples);
     app.add_option("--features", job.feature_count, "Features of a vehicle: position alone, or all five")
-        ->check(CLI::IsMember({2, 5}))
-        ->option_text("2|5 [5]")
-        ->excludes(samples);
+        .one_of({2, 5})
+        .option_text("2|5 [5]")
+        .excludes(samples);
 }
 
-CLI::Option* add_sample_options(CLI::App& app, Arguments& arguments) {
+Option add_sample_options(App& app, Arguments& arguments) {
     const OptionGroup group(app, "Many snapshots (for the other trainings)");
     experiment::DatasetJob& job = arguments.job;
-    CLI::Option* const samples = app.add_flag_callback(
+    const Option samples = app.add_flag_callback(
         "--samples", [&job] { job.dataset = experiment::DatasetKind::samples; },
         "Inputs of predictors at many moments, with the true links [one snapshot]");
-    static const std::map<std::string, experiment::DatasetKind> nets = {
-        {"corrected", experiment::DatasetKind::samples},
-        {"graphsage", experiment::DatasetKind::repair},
-        {"logistic", experiment::DatasetKind::pair_samples}};
-    app.add_option_function<std::string>(
-           "--net", [&job](const std::string& name) { job.dataset = nets.at(name); },
-           "Predictor to record for: graphsage_corrected, graphsage or the pair model (CSV)")
-        ->check(CLI::IsMember(nets))
-        ->option_text("corrected|graphsage|logistic [corrected]")
-        ->needs(samples);
-    app.add_option_function<std::string>(
-           "--exits",
-           [&job](const std::string& word) { job.exits = *core::value_from<failures::Exits>(word); },
-           "Whether it is known that a vehicle has left the network")
-        ->check(CLI::IsMember({"known", "unknown"}))
-        ->option_text("known|unknown [known]")
-        ->needs(samples);
+    app.add_choice("--net", job.dataset,
+                   {{"corrected", experiment::DatasetKind::samples},
+                    {"graphsage", experiment::DatasetKind::repair},
+                    {"logistic", experiment::DatasetKind::pair_samples}},
+                   "Predictor to record for: graphsage_corrected, graphsage or the pair model (CSV)")
+        .option_text("corrected|graphsage|logistic [corrected]")
+        .needs(samples);
+    app.add_choice("--exits", job.exits, "Whether it is known that a vehicle has left the network")
+        .option_text("known|unknown [known]")
+        .needs(samples);
     app.add_option("--failure", job.failures, "Sensor failures, one file each (clearway list)")
-        ->option_text("NAME ... [B10]")
-        ->needs(samples);
-    CLI::Option* const policy =
+        .option_text("NAME ... [B10]")
+        .needs(samples);
+    const Option policy =
         app.add_option("--policy", job.policies,
                        "Policies that act on the traffic, in this order; they know everything")
-            ->option_text("NAME ... [none]")
-            ->needs(samples);
+            .option_text("NAME ... [none]")
+            .needs(samples);
     app.add_option("--set", arguments.settings, "A setting of the policies (clearway list settings)")
-        ->option_text("COMPONENT.NAME=VALUE ... [defaults]")
-        ->needs(policy);
+        .option_text("COMPONENT.NAME=VALUE ... [defaults]")
+        .needs(policy);
     app.add_option("--interval", job.interval_s, "Simulation time between two snapshots, s")
-        ->check(core::NumberRange{0.1, 3600.0})
-        ->option_text(fmt::format("SECONDS, 0.1 to 3600 [{}]", job.interval_s))
-        ->needs(samples);
-    for (CLI::Option* const option : add_link_options(app, job))
-        option->needs(samples);
+        .range(0.1, 3600.0)
+        .option_text(fmt::format("SECONDS, 0.1 to 3600 [{}]", job.interval_s))
+        .needs(samples);
+    for (const Option& option : add_link_options(app, job))
+        option.needs(samples);
     return samples;
 }
 
 }  // namespace
 
-Action configure_dataset(CLI::App& app) {
+Action configure_dataset(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     add_scenario_argument(app, arguments->scenario);
     app.add_option("--out", arguments->folder, "Folder of the data set; made when absent")
-        ->required()
-        ->option_text("DIR (required)");
+        .required()
+        .option_text("DIR (required)");
     app.add_option("--seeds", arguments->seeds.count, "Replications to record; more than one with --samples")
-        ->check(CLI::Range(1U, most_replications))
-        ->option_text(fmt::format("N, 1 to {} [1]", most_replications));
+        .range(1U, most_replications)
+        .option_text(fmt::format("N, 1 to {} [1]", most_replications));
     app.add_option("--first-seed", arguments->seeds.first, "Number of the first replication")
-        ->check(CLI::Range(0U, 4000000000U))
-        ->option_text("N, 0 to 4000000000 [0]");
+        .range(0U, 4000000000U)
+        .option_text("N, 0 to 4000000000 [0]");
     add_seed_option(app, arguments->job.study_seed);
     add_jobs_option(app, arguments->jobs);
     add_json_option(app, arguments->printing, "the list of files");
-    CLI::Option* const samples = add_sample_options(app, *arguments);
+    const Option samples = add_sample_options(app, *arguments);
     add_published_options(app, arguments->job, samples);
     add_scenario_options(app, arguments->options);
     return [arguments](const Invocation& invocation) { return record(*arguments, invocation); };

@@ -7,14 +7,16 @@
 #include <thread>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "campaign/printout.hpp"
 #include "campaign/programs.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
 #include "core/build_stamp.hpp"
+#include "study/plan.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -153,7 +155,7 @@ campaign::Printout printout_of(const std::vector<Check>& checks) {
 
 }  // namespace
 
-Action configure_doctor(CLI::App& app) {
+Action configure_doctor(App& app) {
     const auto printing = std::make_shared<Printing>(Printing::text);
     add_json_option(app, *printing, "the findings");
     return [printing](const Invocation&) {

@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "campaign/names.hpp"
 #include "campaign/programs.hpp"
 #include "campaign/study_run.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/detail/scenario_options.hpp"
@@ -71,7 +71,7 @@ core::ExitCode serve(const Arguments& arguments, const Invocation& invocation) {
 
 }  // namespace
 
-Action configure_environment(CLI::App& app) {
+Action configure_environment(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     add_scenario_argument(app, arguments->scenario);
     {
@@ -80,14 +80,14 @@ Action configure_environment(CLI::App& app) {
     }
     add_seed_option(app, arguments->seed);
     app.add_option("--replication", arguments->replication, "Which replication of that seed")
-        ->option_text("N [0]");
+        .option_text("N [0]");
     app.add_option("--out", arguments->folder, "Folder for its network and files")
-        ->required()
-        ->option_text("DIR (required)");
+        .required()
+        .option_text("DIR (required)");
     app.add_option("--channel", arguments->channel, "Descriptors of the shared memory and of two pipes")
-        ->required()
-        ->expected(3)
-        ->option_text("MEMORY READ WRITE (required)");
+        .required()
+        .expected(3)
+        .option_text("MEMORY READ WRITE (required)");
     add_override_option(app, arguments->options);
     return [arguments](const Invocation& invocation) { return serve(*arguments, invocation); };
 }

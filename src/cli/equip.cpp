@@ -3,9 +3,9 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/detail/scenario_options.hpp"
@@ -27,16 +27,16 @@ struct Arguments {
     campaign::EquipRequest request;
 };
 
-void add_study_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
+void add_study_options(App& app, const std::shared_ptr<Arguments>& arguments) {
     campaign::EquipRequest& request = arguments->request;
     app.add_option("--budget", request.budget, "How many signals to equip")
-        ->required()
-        ->check(CLI::Range(std::size_t{1}, most_signals))
-        ->option_text(fmt::format("N, 1 to {} (required)", most_signals));
+        .required()
+        .range(std::size_t{1}, most_signals)
+        .option_text(fmt::format("N, 1 to {} (required)", most_signals));
     add_condition_words(app, arguments->conditions);
     app.add_option("--candidates", request.most_candidates, "Try only the N signals that most EVs pass")
-        ->check(CLI::Range(std::size_t{1}, most_signals))
-        ->option_text(fmt::format("N, 1 to {} [all that EVs pass]", most_signals));
+        .range(std::size_t{1}, most_signals)
+        .option_text(fmt::format("N, 1 to {} [all that EVs pass]", most_signals));
     app.add_flag_callback(
         "--thorough", [&request] { request.search = analysis::Search::thorough; },
         "Race all signals for every place [for later places those that could still be the best]");
@@ -45,12 +45,12 @@ void add_study_options(CLI::App& app, const std::shared_ptr<Arguments>& argument
         "Print numbers of runs and estimated time, and run nothing [off]");
     app.add_option("--seeds", request.replications,
                    "Replications that decide, and fresh ones that estimate; all sets share their demand")
-        ->check(CLI::Range(2U, most_replications))
-        ->option_text(fmt::format("N, 2 to {} [{}]", most_replications, request.replications));
+        .range(2U, most_replications)
+        .option_text(fmt::format("N, 2 to {} [{}]", most_replications, request.replications));
     add_seed_option(app, request.seed);
     app.add_option("--out", request.run.folder,
                    "Folder of the result and of the runs; what was interrupted there is continued")
-        ->option_text("DIR [runs/equip-SCENARIO-xxxxxx, a hash of what is run]");
+        .option_text("DIR [runs/equip-SCENARIO-xxxxxx, a hash of what is run]");
     add_jobs_option(app, request.run.workers);
     add_limit_options(app, request.run.limits);
     add_retry_option(app, request.run.retried);
@@ -59,7 +59,7 @@ void add_study_options(CLI::App& app, const std::shared_ptr<Arguments>& argument
 
 }  // namespace
 
-Action configure_equip(CLI::App& app) {
+Action configure_equip(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     arguments->request.replications = usual_seeds;
     add_scenario_argument(app, arguments->scenario);

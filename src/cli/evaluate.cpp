@@ -2,10 +2,10 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "campaign/link_evaluation.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/detail/scenario_options.hpp"
@@ -20,40 +20,40 @@ struct Arguments {
     std::vector<std::string> models;    ///< `graphsage=FILE`.
 };
 
-void add_what(CLI::App& app, Arguments& arguments) {
+void add_what(App& app, Arguments& arguments) {
     app.add_option("scenario", arguments.request.scenarios,
                    "Names (clearway list), folders or TOML files; with --benchmark, names of its scenarios")
-        ->option_text("SCENARIO ... [those of the benchmark]");
+        .option_text("SCENARIO ... [those of the benchmark]");
     app.add_option("--benchmark", arguments.request.benchmark,
                    "Scenarios, seeds and failures of a benchmark: eval_v1, eval_v2 or a TOML file")
-        ->option_text("NAME|FILE [none]");
+        .option_text("NAME|FILE [none]");
     app.add_option("--failure", arguments.request.failures, "Sensor failures (clearway list)")
-        ->option_text("NAME ... [all]");
+        .option_text("NAME ... [all]");
     app.add_option("--exits", arguments.request.exits,
                    "Whether it is known that a vehicle has left the network")
-        ->check(CLI::IsMember({"known", "unknown", "both"}))
-        ->option_text("known|unknown|both [both]");
+        .one_of({"known", "unknown", "both"})
+        .option_text("known|unknown|both [both]");
     app.add_option("--predictor", arguments.request.predictors,
                    "Predictors (clearway list, FILE.py:CLASS, FILE.pt)")
-        ->option_text("NAME ... [all, or the benchmark's]");
+        .option_text("NAME ... [all, or the benchmark's]");
     app.add_option("--model", arguments.models, "Model file of a learned predictor")
-        ->option_text("PREDICTOR=FILE ... [as shipped]");
+        .option_text("PREDICTOR=FILE ... [as shipped]");
     app.add_option("--set", arguments.settings, "A setting of all predictors, or of one")
-        ->option_text("[PREDICTOR.]NAME=NUMBER ... [defaults]");
+        .option_text("[PREDICTOR.]NAME=NUMBER ... [defaults]");
     app.add_option("--against", arguments.request.against,
                    "Predictor to compare errors with; by default the best kinematic one present")
-        ->option_text("PREDICTOR [route_rule, kalman, ...]");
+        .option_text("PREDICTOR [route_rule, kalman, ...]");
 }
 
-void add_seeds(CLI::App& app, Arguments& arguments) {
+void add_seeds(App& app, Arguments& arguments) {
     const OptionGroup group(app, "Seeds (a benchmark has its own)");
     const auto declare = [&](const char* name, std::uint32_t& value, const char* doc, std::uint32_t least) {
         app.add_option(name, value, doc)
-            ->check(CLI::Range(least, 4000000000U))
-            ->option_text(fmt::format("N, from {} [{}]", least, value))
-            ->excludes("--benchmark");
+            .range(least, 4000000000U)
+            .option_text(fmt::format("N, from {} [{}]", least, value))
+            .excludes("--benchmark");
     };
-    add_seed_option(app, arguments.request.study_seed)->excludes("--benchmark");
+    add_seed_option(app, arguments.request.study_seed).excludes("--benchmark");
     declare("--seeds", arguments.request.test.count, "Replications to test on", 0U);
     declare("--first-seed", arguments.request.test.first, "Number of the first of them", 0U);
     declare("--validation-seeds", arguments.request.validation.count,
@@ -62,25 +62,20 @@ void add_seeds(CLI::App& app, Arguments& arguments) {
     app.add_flag("--quick", arguments.request.quick,
                  fmt::format("At most {} test and {} validation seeds, or what the benchmark says [all]",
                              links::QuickBenchmark{}.test, links::QuickBenchmark{}.validation));
-    app.add_option_function<std::string>(
-           "--split",
-           [&arguments](const std::string& name) {
-               arguments.request.split =
-                   name == "test" ? links::LinkSplit::test : links::LinkSplit::validation;
-           },
-           "Seeds whose results are printed; tune settings only on `validation`")
-        ->check(CLI::IsMember({"test", "validation"}))
-        ->option_text("test|validation [test]");
+    app.add_choice("--split", arguments.request.split,
+                   {{"test", links::LinkSplit::test}, {"validation", links::LinkSplit::validation}},
+                   "Seeds whose results are printed; tune settings only on `validation`")
+        .option_text("test|validation [test]");
 }
 
 }  // namespace
 
-Action configure_evaluate(CLI::App& app) {
+Action configure_evaluate(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     add_what(app, *arguments);
     app.add_option("--out", arguments->request.folder,
                    "Folder of runs and results; runs that it already holds are not repeated")
-        ->option_text("DIR [runs/BENCHMARK, or runs/links]");
+        .option_text("DIR [runs/BENCHMARK, or runs/links]");
     add_jobs_option(app, arguments->request.workers);
     add_publish_options(app, arguments->request.publication);
     add_json_option(app, arguments->request.printing, "all figures");
@@ -91,9 +86,9 @@ Action configure_evaluate(CLI::App& app) {
         add_link_options(app, arguments->request.links);
     }
     add_scenario_options(app, arguments->request.options);
-    const std::vector<CLI::Option*> options = app.get_options();
+    const std::vector<Option> options = app.get_options();
     for (std::size_t i = own_options; i < options.size(); ++i)
-        options[i]->excludes("--benchmark");
+        options[i].excludes("--benchmark");
     app.footer(
         "Examples:\n  clearway links evaluate --benchmark eval_v1\n"
         "  clearway links evaluate city --dense --failure B10 B20 --predictor dead_reckoning last_seen "

@@ -2,16 +2,15 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "campaign/programs.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/verb.hpp"
 #include "core/counted.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/leftovers.hpp"
-#include "core/number_range.hpp"
 #include "core/process.hpp"
 #include "core/temporary_folder.hpp"
 #include "report/figure_files.hpp"
@@ -97,22 +96,22 @@ core::ExitCode write(const Arguments& arguments) {
 
 }  // namespace
 
-Action configure_figures(CLI::App& app) {
+Action configure_figures(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.add_option("folder", arguments->folder, "Folder of run, study or equip")
-        ->required()
-        ->option_text("DIR (required)");
+        .required()
+        .option_text("DIR (required)");
     app.add_option("--out", arguments->output, "Folder for the files; made if it does not exist")
-        ->required()
-        ->option_text("DIR (required)");
+        .required()
+        .option_text("DIR (required)");
     app.add_option("--least-difference", arguments->least_relevant_s,
                    "Smallest difference of an EV's time that counts as an effect, s; 0: any")
-        ->check(core::NumberRange{0.0, 1e6})
-        ->option_text(fmt::format("SECONDS, 0 to 1e6 [{}]", arguments->least_relevant_s));
+        .range(0.0, 1e6)
+        .option_text(fmt::format("SECONDS, 0 to 1e6 [{}]", arguments->least_relevant_s));
     app.add_flag_callback(
            "--svg-only", [arguments] { arguments->formats = Formats::svg; },
            "Write no PDF and no PNG files, which need the program rsvg-convert")
-        ->option_text("[off]");
+        .option_text("[off]");
     return [arguments](const Invocation&) { return write(*arguments); };
 }
 

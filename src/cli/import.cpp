@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <stop_token>
@@ -10,13 +9,12 @@
 #include <thread>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
 #include "core/interruption.hpp"
-#include "core/number_range.hpp"
 #include "core/process.hpp"
 #include "core/progress.hpp"
 #include "core/terminal.hpp"
@@ -101,55 +99,44 @@ core::ExitCode import(Arguments& arguments) {
 
 }  // namespace
 
-Action configure_import(CLI::App& app) {
+Action configure_import(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     scenario_import::ImportRequest& request = arguments->request;
     app.add_option("files", arguments->files,
                    "A map (.osm, .gz, .bz2, .pbf), a .sumocfg, or a .net.xml with its files")
-        ->required()
-        ->option_text("FILE ... (required)");
+        .required()
+        .option_text("FILE ... (required)");
     app.add_option("--name", arguments->name, "Name of the scenario and of its new folder")
-        ->required()
-        ->option_text("NAME (required)");
-    static const std::map<std::string, scenario_import::DrivingSide> sides = {
-        {"auto", scenario_import::DrivingSide::by_country},
-        {"right", scenario_import::DrivingSide::right},
-        {"left", scenario_import::DrivingSide::left}};
-    app.add_option_function<std::string>(
-           "--driving-side", [&request](const std::string& side) { request.side = sides.at(side); },
-           "For a map: side on which traffic drives; auto: by country")
-        ->check(CLI::IsMember(sides))
-        ->option_text("auto|right|left [auto]");
+        .required()
+        .option_text("NAME (required)");
+    app.add_choice("--driving-side", request.side,
+                   {{"auto", scenario_import::DrivingSide::by_country},
+                    {"right", scenario_import::DrivingSide::right},
+                    {"left", scenario_import::DrivingSide::left}},
+                   "For a map: side on which traffic drives; auto: by country")
+        .option_text("auto|right|left [auto]");
     app.add_option("--av-share", request.automated_share, "Share of automated cars, drawn by vehicle id")
-        ->check(core::NumberRange{0.0, 1.0})
-        ->option_text("SHARE, 0 to 1 [0.35]");
+        .range(0.0, 1.0)
+        .option_text("SHARE, 0 to 1 [0.35]");
     app.add_option("--pedestrians", request.pedestrians_per_hour,
                    "Pedestrians per hour at each crossing with signals; a map's roads get sidewalks")
-        ->check(core::NumberRange{0.0, 2000.0})
-        ->option_text("NUMBER, 0 to 2000 [0]");
-    static const std::map<std::string, scenario::CarFollowing> models = {
-        {"own", scenario::CarFollowing::own}, {"idm", scenario::CarFollowing::idm}};
-    app.add_option_function<std::string>(
-           "--car-following",
-           [&request](const std::string& name) { request.car_following = models.at(name); },
-           "For a SUMO scenario's vehicles: their own model, or IDM")
-        ->check(CLI::IsMember(models))
-        ->option_text("own|idm [own]");
-    static const std::map<std::string, scenario_import::OwnEmergency> roles = {
-        {"traffic", scenario_import::OwnEmergency::traffic},
-        {"measure", scenario_import::OwnEmergency::measure}};
-    app.add_option_function<std::string>(
-           "--own-emergency", [&request](const std::string& role) { request.own_emergency = roles.at(role); },
-           "For a SUMO scenario: its emergency vehicles are traffic beside ours, or those measured")
-        ->check(CLI::IsMember(roles))
-        ->option_text("traffic|measure [traffic]");
+        .range(0.0, 2000.0)
+        .option_text("NUMBER, 0 to 2000 [0]");
+    app.add_choice("--car-following", request.car_following,
+                   "For a SUMO scenario's vehicles: their own model, or IDM")
+        .option_text("own|idm [own]");
+    app.add_choice("--own-emergency", request.own_emergency,
+                   {{"traffic", scenario_import::OwnEmergency::traffic},
+                    {"measure", scenario_import::OwnEmergency::measure}},
+                   "For a SUMO scenario: its emergency vehicles are traffic beside ours, or those measured")
+        .option_text("traffic|measure [traffic]");
     app.add_option("--begin", request.begin_s,
                    "For a SUMO scenario: the time in it at which the new scenario begins, s")
-        ->option_text("SECONDS [its begin; after two hours of demand the busiest time]");
+        .option_text("SECONDS [its begin; after two hours of demand the busiest time]");
     app.add_option("--program-limit", request.program_limit_s,
                    "Wall time after which a program is ended that the import starts, such as a trial run, s")
-        ->check(core::NumberRange{1.0, 1e7})
-        ->option_text(fmt::format("SECONDS, 1 to 1e7 [{:g}]", request.program_limit_s));
+        .range(1.0, 1e7)
+        .option_text(fmt::format("SECONDS, 1 to 1e7 [{:g}]", request.program_limit_s));
     app.add_flag_callback(
         "--leave-out-bad-vehicles",
         [&request] { request.bad_vehicles = scenario_import::BadVehicles::leave_out; },

@@ -2,26 +2,26 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/detail/app.hpp"
 #include "cli/verb.hpp"
 #include "core/process.hpp"
 #include "scenario/config.hpp"
 
 namespace clearway::cli {
 
-Action configure_init(CLI::App& app) {
+Action configure_init(App& app) {
     struct Arguments {
         std::string folder;
         std::string from = "intersection";
     };
     const auto arguments = std::make_shared<Arguments>();
     app.add_option("folder", arguments->folder, "New or empty folder; its name becomes the scenario's")
-        ->required()
-        ->option_text("DIR (required)");
+        .required()
+        .option_text("DIR (required)");
     app.add_option("--from", arguments->from, "Scenario to copy: a name, a folder or a file")
-        ->option_text("SCENARIO [intersection]");
+        .option_text("SCENARIO [intersection]");
     return [arguments](const Invocation&) {
         scenario::init(arguments->folder, arguments->from);
         // A bare name could be that of a scenario shipped with Clearway.

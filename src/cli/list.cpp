@@ -4,10 +4,10 @@
 #include <type_traits>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/reference_pages.hpp"
 #include "cli/verb.hpp"
@@ -201,21 +201,21 @@ void list_alone(const Arguments& arguments) {
 
 }  // namespace
 
-Action configure_list(CLI::App& app) {
+Action configure_list(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.footer(app.get_footer() + "\n  clearway list settings preempt_signals");
     app.add_option("what", arguments->words,
                    "Settings of conditions, columns of tables, or keys of scenario.toml, in full")
-        ->expected(0, 2)
-        ->option_text("settings [NAME]|columns|scenario-keys [the names alone]");
+        .expected(0, 2)
+        .option_text("settings [NAME]|columns|scenario-keys [the names alone]");
     add_json_option(app, arguments->printing, "the lists");
     app.add_flag("--markdown", arguments->as_markdown,
                  "Print them as the page of docs/reference has them [off]")
-        ->excludes("--json");
+        .excludes("--json");
     app.add_flag("--reasons", arguments->with_reasons,
                  "With settings: what each is, and why it has its default [a line for each]")
-        ->excludes("--json")
-        ->excludes("--markdown");
+        .excludes("--json")
+        .excludes("--markdown");
     return [arguments](const Invocation&) {
         if (!arguments->words.empty() || arguments->as_markdown || arguments->with_reasons) {
             list_alone(*arguments);

@@ -5,14 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
-#include "core/number_range.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/settings.hpp"
 
@@ -69,36 +68,36 @@ core::ExitCode live(const Arguments& arguments, const Invocation& invocation) {
     return campaign::run_live(std::move(request));
 }
 
-void add_server_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
+void add_server_options(App& app, const std::shared_ptr<Arguments>& arguments) {
     const OptionGroup group(app, "The server");
     server::LiveConfig& server = arguments->server;
     app.add_option("--host", server.host,
                    "Address or name to listen at; beyond this machine a token is needed")
-        ->option_text(fmt::format("ADDRESS [{}]", server.host));
+        .option_text(fmt::format("ADDRESS [{}]", server.host));
     app.add_option("--port", server.port, "Port to listen at; 0: any that is free")
-        ->check(core::NumberRange{0.0, 65535.0})
-        ->option_text(fmt::format("PORT, 0 to 65535 [{}]", server.port));
+        .range(0.0, 65535.0)
+        .option_text(fmt::format("PORT, 0 to 65535 [{}]", server.port));
     app.add_option("--token", server.token,
                    "What viewers must know beyond this machine; at this machine only if given")
-        ->option_text("TEXT, 16 to 128 letters [random beyond this machine]");
+        .option_text("TEXT, 16 to 128 letters [random beyond this machine]");
     app.add_flag("--allow-control", server.allow_control, "Let viewers pause, step and set the speed [off]");
     constexpr double fastest = 1000.0;
     app.add_option("--speed", server.speed, "Times real time; 0: as fast as possible")
-        ->check(core::NumberRange{0.0, fastest})
-        ->option_text(fmt::format("NUMBER, 0 to {:g} [{:g}]", fastest, server.speed));
+        .range(0.0, fastest)
+        .option_text(fmt::format("NUMBER, 0 to {:g} [{:g}]", fastest, server.speed));
 }
 
 }  // namespace
 
-Action configure_live(CLI::App& app) {
+Action configure_live(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     add_scenario_argument(app, arguments->scenario);
     add_condition_words(app, arguments->conditions);
     app.add_option("--against", arguments->against, "What is shown beside it: a built-in condition, or none")
-        ->option_text("NAME|none [baseline]");
+        .option_text("NAME|none [baseline]");
     add_seed_option(app, arguments->seed);
     app.add_option("--out", arguments->run.folder, "Run folder")
-        ->option_text("DIR [runs/SCENARIO-xxxxxx, a hash of what is run]");
+        .option_text("DIR [runs/SCENARIO-xxxxxx, a hash of what is run]");
     add_json_option(app, arguments->run.publish.printing, "the tables");
     add_tables_option(app, arguments->run.publish.tables);
     add_own_condition_options(app, arguments->conditions.own);

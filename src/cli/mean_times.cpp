@@ -3,16 +3,16 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 
 namespace clearway::cli {
 
-Action configure_mean_times(CLI::App& app) {
+Action configure_mean_times(App& app) {
     struct Arguments {
         std::string scenario;
         campaign::MeanTimesOrder order;
@@ -22,13 +22,13 @@ Action configure_mean_times(CLI::App& app) {
     campaign::MeanTimesOrder& order = arguments->order;
     add_scenario_argument(app, arguments->scenario);
     app.add_option("--out", order.file, "The CSV to write; never over a file")
-        ->required()
-        ->option_text("FILE (required)");
+        .required()
+        .option_text("FILE (required)");
     app.add_option("--seeds", order.runs, "Runs to take the mean of")
-        ->check(CLI::Range(1U, most_replications))
-        ->option_text(fmt::format("N, 1 to {} [{}]", most_replications, order.runs));
+        .range(1U, most_replications)
+        .option_text(fmt::format("N, 1 to {} [{}]", most_replications, order.runs));
     add_seed_option(app, order.study_seed)
-        ->description("Study seed of these runs: another one than that of your studies");
+        .description("Study seed of these runs: another one than that of your studies");
     add_jobs_option(app, order.jobs);
     add_json_option(app, order.printing, "what was written");
     add_scenario_options(app, arguments->options);

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "campaign/printout.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
 #include "core/counted.hpp"
@@ -73,15 +74,15 @@ core::ExitCode merge(const Arguments& arguments) {
 
 }  // namespace
 
-Action configure_merge(CLI::App& app) {
+Action configure_merge(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.add_option("folders", arguments->sources,
                    "Run folders of the shards, or folders that hold them in shards/")
-        ->required()
-        ->option_text("DIR ... (required)");
+        .required()
+        .option_text("DIR ... (required)");
     app.add_option("--out", arguments->out, "Run folder of the whole study; may hold some runs already")
-        ->required()
-        ->option_text("DIR (required)");
+        .required()
+        .option_text("DIR (required)");
     add_json_option(app, arguments->printing, "what was merged");
     return [arguments](const Invocation&) { return merge(*arguments); };
 }

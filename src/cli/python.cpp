@@ -2,9 +2,8 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "campaign/programs.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/verb.hpp"
 #include "core/process.hpp"
 #include "core/shipped_files.hpp"
@@ -35,16 +34,16 @@ core::ExitCode install(const Arguments& arguments) {
 
 }  // namespace
 
-Action configure_python(CLI::App& app) {
+Action configure_python(App& app) {
     const auto arguments = std::make_shared<Arguments>();
-    CLI::Option* const venv = app.add_option("--venv", arguments->virtual_environment,
-                                             "Virtual environment; made if it is not there")
-                                  ->option_text("DIR [the user's site-packages]");
+    const Option venv = app.add_option("--venv", arguments->virtual_environment,
+                                       "Virtual environment; made if it is not there")
+                            .option_text("DIR [the user's site-packages]");
     app.add_option("--to", arguments->folder, "Folder for PYTHONPATH instead")
-        ->option_text("DIR [the user's site-packages]")
-        ->excludes(venv);
+        .option_text("DIR [the user's site-packages]")
+        .excludes(venv);
     app.add_option("--python", arguments->python, "The Python to install it for")
-        ->option_text("FILE [" + arguments->python + "]");
+        .option_text("FILE [" + arguments->python + "]");
     return [arguments](const Invocation&) { return install(*arguments); };
 }
 

@@ -9,17 +9,17 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "campaign/names.hpp"
+#include "campaign/printout.hpp"
 #include "campaign/replay_page.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/detail/trust_option.hpp"
 #include "cli/verb.hpp"
 #include "core/json.hpp"
-#include "core/number_range.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/settings.hpp"
 #include "results/run_name.hpp"
@@ -318,37 +318,37 @@ core::ExitCode replay_file(Arguments arguments) {
 }
 
 /// Returns what cannot be combined with another replay.
-CLI::Option* add_view_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
+Option add_view_options(App& app, const std::shared_ptr<Arguments>& arguments) {
     const OptionGroup group(app, "Watch, instead of a replay");
-    CLI::Option* const view =
+    const Option view =
         app.add_flag("--view", arguments->is_viewed,
                      "Write a page that plays the run, or two side by side, in a browser [off]");
     app.add_option("--out", arguments->page, "The page to write")
-        ->option_text("FILE [SCENARIO-CONDITION-N.html]")
-        ->needs(view);
+        .option_text("FILE [SCENARIO-CONDITION-N.html]")
+        .needs(view);
     return view;
 }
 
-void add_csv_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments,
-                     const std::vector<CLI::Option*>& others) {
+void add_csv_options(App& app, const std::shared_ptr<Arguments>& arguments,
+                     const std::vector<Option>& others) {
     const OptionGroup group(app, "Export as CSV, instead of a replay");
-    CLI::Option* const csv = app.add_option("--csv", arguments->table, "Table to print, see below")
-                                 ->check(CLI::IsMember(table_names()))
-                                 ->option_text("TABLE [replay]");
-    for (CLI::Option* const other : others)
-        csv->excludes(other);
-    const core::NumberRange times{0.0, 1e9};
+    const Option csv = app.add_option("--csv", arguments->table, "Table to print, see below")
+                           .one_of(table_names())
+                           .option_text("TABLE [replay]");
+    for (const Option& other : others)
+        csv.excludes(other);
+    constexpr double latest_s = 1e9;
     app.add_option("--from", arguments->from_s, "First simulation time of the table or page, s")
-        ->check(times)
-        ->option_text("SECONDS [beginning]");
+        .range(0.0, latest_s)
+        .option_text("SECONDS [beginning]");
     app.add_option("--to", arguments->to_s, "Last simulation time of the table or page, s")
-        ->check(times)
-        ->option_text("SECONDS [end]");
+        .range(0.0, latest_s)
+        .option_text("SECONDS [end]");
 }
 
 }  // namespace
 
-Action configure_replay(CLI::App& app) {
+Action configure_replay(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.footer(app.get_footer() +
                "\n  clearway replay RUN --csv belief --from 60 --to 90 > belief.csv\n"
@@ -357,27 +357,27 @@ Action configure_replay(CLI::App& app) {
     app.add_option(
            "run", arguments->runs,
            fmt::format("{} of a recorded run, or a recording; two with --view", results::run_name_form))
-        ->required()
-        ->expected(1, 2)
-        ->option_text("RUN (required)");
-    std::vector<CLI::Option*> thinking;
+        .required()
+        .expected(1, 2)
+        .option_text("RUN (required)");
+    std::vector<Option> thinking;
     thinking.push_back(app.add_option("--predictor", arguments->predictor, "How the graph is repaired")
-                           ->option_text("NAME [as recorded]"));
+                           .option_text("NAME [as recorded]"));
     app.add_option("--failure", arguments->failure,
                    "How sensors fail, with the draws of the recorded run; also for --csv failures")
-        ->option_text("NAME [as recorded]");
+        .option_text("NAME [as recorded]");
     thinking.push_back(app.add_option("--policy", arguments->policies, "Policies, in this order")
-                           ->option_text("NAME ... [as recorded]"));
+                           .option_text("NAME ... [as recorded]"));
     add_setting_options(app, arguments->settings, arguments->model, "as recorded");
     add_trust_option(app, arguments->trust);
     app.add_option("--network", arguments->network, "Network file on which the recording was made")
-        ->option_text("FILE [that of its run folder]");
+        .option_text("FILE [that of its run folder]");
     thinking.push_back(app.add_flag_callback(
         "--json", [arguments] { arguments->printing = Printing::json; },
         "Print the figures as JSON, with units in the field names [text]"));
-    CLI::Option* const view = add_view_options(app, arguments);
-    for (CLI::Option* const other : thinking)
-        view->excludes(other);
+    const Option view = add_view_options(app, arguments);
+    for (const Option& other : thinking)
+        view.excludes(other);
     thinking.push_back(view);
     add_csv_options(app, arguments, thinking);
     return [arguments](const Invocation&) { return replay_file(*arguments); };

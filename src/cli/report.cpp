@@ -1,18 +1,17 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "campaign/study_run.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/trust_option.hpp"
 #include "cli/verb.hpp"
-#include "core/number_range.hpp"
 
 namespace clearway::cli {
 
-Action configure_report(CLI::App& app) {
+Action configure_report(App& app) {
     struct Arguments {
         std::string folder;
         campaign::PublishOptions how;
@@ -20,12 +19,12 @@ Action configure_report(CLI::App& app) {
     };
     const auto arguments = std::make_shared<Arguments>();
     app.add_option("folder", arguments->folder, "Run folder of run or study, complete or not")
-        ->required()
-        ->option_text("DIR (required)");
+        .required()
+        .option_text("DIR (required)");
     app.add_option("--least-difference", arguments->how.least_relevant_s,
                    "Smallest difference of an EV's time that counts as an effect, s; 0: any")
-        ->check(core::NumberRange{0.0, 1e6})
-        ->option_text(fmt::format("SECONDS, 0 to 1e6 [{}]", arguments->how.least_relevant_s));
+        .range(0.0, 1e6)
+        .option_text(fmt::format("SECONDS, 0 to 1e6 [{}]", arguments->how.least_relevant_s));
     add_response_option(app, arguments->how.response_threshold_s);
     app.add_flag_callback(
         "--replays", [arguments] { arguments->how.replays = campaign::MakeReplays::yes; },

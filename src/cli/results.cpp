@@ -2,10 +2,10 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "campaign/stored_folder.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/verb.hpp"
 #include "core/error.hpp"
 #include "results/table_reader.hpp"
@@ -55,24 +55,24 @@ core::ExitCode print_results(const Arguments& arguments) {
 
 }  // namespace
 
-Action configure_results(CLI::App& app) {
+Action configure_results(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.add_option("folder", arguments->folder, "Run folder, complete or not")
-        ->required()
-        ->option_text("DIR (required)");
+        .required()
+        .option_text("DIR (required)");
     app.add_option("table,--table", arguments->table, "Table to print; --list names them")
-        ->option_text(fmt::format("TABLE [{}]", arguments->table));
-    auto* const csv = app.add_flag_callback(
+        .option_text(fmt::format("TABLE [{}]", arguments->table));
+    const Option csv = app.add_flag_callback(
         "--csv", [arguments] { arguments->format = results::TableFormat::csv; },
         "Print comma-separated values, column names first [on]");
-    auto* const json = app.add_flag_callback(
+    const Option json = app.add_flag_callback(
         "--json", [arguments] { arguments->format = results::TableFormat::json; },
         "Print a JSON array with an object for each row [off]");
-    csv->excludes(json);
+    csv.excludes(json);
     app.add_flag_callback(
            "--list", [arguments] { arguments->asked = Asked::names; }, "Print the names of the tables [off]")
-        ->excludes(csv)
-        ->excludes(json);
+        .excludes(csv)
+        .excludes(json);
     return [arguments](const Invocation&) { return print_results(*arguments); };
 }
 

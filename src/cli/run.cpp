@@ -3,16 +3,15 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "campaign/shown_run.hpp"
 #include "campaign/study_run.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
-#include "core/number_range.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/settings.hpp"
 
@@ -87,37 +86,37 @@ core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
     return campaign::show_and_print(plan, options, shown, window);
 }
 
-void add_window_options(CLI::App& app, const std::shared_ptr<Arguments>& arguments) {
+void add_window_options(App& app, const std::shared_ptr<Arguments>& arguments) {
     const OptionGroup group(app, "A window");
-    CLI::Option* const gui = app.add_flag(
+    const Option gui = app.add_flag(
         "--gui", arguments->is_shown,
         fmt::format("Show the first seed of one condition [{}] in sumo-gui", experiment::usual_condition));
     constexpr double longest_delay_ms = 60000.0;
     app.add_option("--gui-delay", arguments->delay_ms,
                    "Minimum wall time per step, from a minute before the first emergency vehicle, ms")
-        ->check(core::NumberRange{0.0, longest_delay_ms})
-        ->option_text(fmt::format("MS, 0 to {:g} [{:g}]", longest_delay_ms, arguments->delay_ms))
-        ->needs(gui);
+        .range(0.0, longest_delay_ms)
+        .option_text(fmt::format("MS, 0 to {:g} [{:g}]", longest_delay_ms, arguments->delay_ms))
+        .needs(gui);
     app.add_option("--gui-settings-file", arguments->window_settings, "View settings of sumo-gui")
-        ->option_text("FILE [Clearway's own]")
-        ->needs(gui);
+        .option_text("FILE [Clearway's own]")
+        .needs(gui);
 }
 
 }  // namespace
 
-Action configure_run(CLI::App& app) {
+Action configure_run(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     add_scenario_argument(app, arguments->scenario);
     add_condition_words(app, arguments->conditions);
     app.add_flag_callback(
         "--no-solo", [arguments] { arguments->floor = Floor::none; },
         "Leave out the runs of emergency vehicles alone and the gap closed [with them]");
-    const CLI::Option* const seeds = add_seeds_option(app, arguments->seeds);
+    const Option seeds = add_seeds_option(app, arguments->seeds);
     add_seed_option(app, arguments->seed);
     add_most_runs_option(app, arguments->most_runs);
     app.add_option("--out", arguments->run.folder,
                    "Run folder; a study that was interrupted there is continued")
-        ->option_text("DIR [runs/SCENARIO-xxxxxx, a hash of what is run]");
+        .option_text("DIR [runs/SCENARIO-xxxxxx, a hash of what is run]");
     add_jobs_option(app, arguments->run.workers);
     add_record_option(app, arguments->run.recording);
     add_limit_options(app, arguments->run.limits);
@@ -129,7 +128,7 @@ Action configure_run(CLI::App& app) {
     add_scenario_options(app, arguments->options);
     add_window_options(app, arguments);
     return [arguments, seeds](const Invocation& invocation) {
-        if (arguments->is_shown && seeds->count() == 0) arguments->seeds = 1;
+        if (arguments->is_shown && seeds.count() == 0) arguments->seeds = 1;
         return run(*arguments, invocation);
     };
 }

@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "campaign/printout.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
@@ -220,14 +221,14 @@ core::ExitCode show(const Arguments& arguments) {
 
 }  // namespace
 
-Action configure_signals(CLI::App& app) {
+Action configure_signals(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     add_scenario_argument(app, arguments->scenario);
     app.add_option("--svg", arguments->picture, "Write a map of the signals with their numbers")
-        ->option_text("FILE [none]");
+        .option_text("FILE [none]");
     app.add_option("--out", arguments->parameters,
                    "Write the CSV of preemption parameters to edit; never over a file")
-        ->option_text("FILE [none]");
+        .option_text("FILE [none]");
     add_json_option(app, arguments->printing, "the signals");
     add_scenario_options(app, arguments->options);
     return [arguments](const Invocation&) { return show(*arguments); };

@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "analysis/headline.hpp"
 #include "analysis/summary.hpp"
+#include "campaign/printout.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
 #include "core/counted.hpp"
@@ -141,15 +142,15 @@ core::ExitCode print_status(const std::filesystem::path& path, Printing printing
 
 }  // namespace
 
-Action configure_status(CLI::App& app) {
+Action configure_status(App& app) {
     struct Arguments {
         std::string folder;
         Printing printing = Printing::text;
     };
     const auto arguments = std::make_shared<Arguments>();
     app.add_option("folder", arguments->folder, "Run folder, or a folder with the shards of a study")
-        ->required()
-        ->option_text("DIR (required)");
+        .required()
+        .option_text("DIR (required)");
     add_json_option(app, arguments->printing, "the state");
     return [arguments](const Invocation&) { return print_status(arguments->folder, arguments->printing); };
 }

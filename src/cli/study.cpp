@@ -2,10 +2,9 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "campaign/plan_text.hpp"
 #include "campaign/study_run.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/verb.hpp"
@@ -52,22 +51,22 @@ core::ExitCode run_study(const Arguments& arguments, const Invocation& invocatio
 
 }  // namespace
 
-Action configure_study(CLI::App& app) {
+Action configure_study(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.add_option("file", arguments->file, "Study file, TOML: scenarios, conditions, factors, replications")
-        ->required()
-        ->option_text("FILE (required)");
-    CLI::Option* const out = app.add_option("--out", arguments->run.folder,
-                                            "Run folder; a study that was interrupted there is "
-                                            "continued")
-                                 ->option_text("DIR [runs/NAME, with the name in the file]");
+        .required()
+        .option_text("FILE (required)");
+    const Option out = app.add_option("--out", arguments->run.folder,
+                                      "Run folder; a study that was interrupted there is "
+                                      "continued")
+                           .option_text("DIR [runs/NAME, with the name in the file]");
     app.add_option("--shard", arguments->shard,
                    "Run only the I-th of N shards, into --out; `clearway study merge` merges them")
-        ->option_text("I/N [the whole]")
-        ->needs(out);
+        .option_text("I/N [the whole]")
+        .needs(out);
     app.add_option("--model", arguments->models,
                    "Net for the conditions whose predictor it is of; can be repeated")
-        ->option_text("[PREDICTOR=]FILE ... [as the study file says]");
+        .option_text("[PREDICTOR=]FILE ... [as the study file says]");
     app.add_flag_callback(
         "--dry-run", [arguments] { arguments->mode = Mode::dry_run; },
         "Print cells, runs, estimated time and disk, and run nothing [off]");

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "campaign/programs.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/verb.hpp"
 #include "core/error.hpp"
 
@@ -37,21 +37,20 @@ bool asks_for_help(const std::vector<std::string>& words) {
 }  // namespace
 
 /// clearway-train parses its own arguments, so that this program does not need libtorch.
-Action configure_train(CLI::App& app) {
+Action configure_train(App& app) {
     app.set_help_flag();  // clearway-train prints its own help
     app.prefix_command();
-    CLI::App* const command = &app;
-    return [command](const Invocation&) -> core::ExitCode {
+    return [command = app](const Invocation&) -> core::ExitCode {
         const std::string trainer = campaign::sister_program("clearway-train");
         const bool is_built = std::filesystem::exists(trainer);
-        if (!is_built && asks_for_help(command->remaining())) {
+        if (!is_built && asks_for_help(command.remaining())) {
             fmt::print("{}", help_without_trainer);
             return core::ExitCode::ok;
         }
         if (!is_built)
             throw core::EnvironmentError(
                 fmt::format("clearway-train is not built, because {}", campaign::why_no_trainer));
-        campaign::become(trainer, command->remaining());
+        campaign::become(trainer, command.remaining());
     };
 }
 

@@ -4,13 +4,12 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/detail/app.hpp"
 #include "cli/verb.hpp"
 #include "core/counted.hpp"
 #include "core/files.hpp"
-#include "core/number_range.hpp"
 #include "results/run_name.hpp"
 #include "scenario/sumo_files.hpp"
 
@@ -69,20 +68,20 @@ core::ExitCode write(const Arguments& arguments) {
 
 }  // namespace
 
-Action configure_trajectories(CLI::App& app) {
+Action configure_trajectories(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.add_option("run", arguments->run,
                    fmt::format("{} of a recorded run, or a recording", results::run_name_form))
-        ->required()
-        ->option_text("RUN (required)");
+        .required()
+        .option_text("RUN (required)");
     app.add_option("--out", arguments->folder, "Folder to write into")
-        ->option_text("DIR [trajectories-SCENARIO-CONDITION-N]");
+        .option_text("DIR [trajectories-SCENARIO-CONDITION-N]");
     app.add_option("--every", arguments->every_s, "Time between two positions of a vehicle, s")
-        ->check(core::NumberRange{0.01, 3600.0})
-        ->option_text("SECONDS, 0.01 to 3600 [1]");
+        .range(0.01, 3600.0)
+        .option_text("SECONDS, 0.01 to 3600 [1]");
     app.add_option("--reach", arguments->reach_m, "Vehicles nearer than this to an EV are its neighbours, m")
-        ->check(core::NumberRange{0.0, 10000.0})
-        ->option_text("METRES, 0 to 10000 [50]");
+        .range(0.0, 10000.0)
+        .option_text("METRES, 0 to 10000 [50]");
     return [arguments](const Invocation&) { return write(*arguments); };
 }
 

@@ -4,11 +4,11 @@
 #include <span>
 #include <string>
 
-#include <CLI/App.hpp>
-
 #include "core/error.hpp"
 
 namespace clearway::cli {
+
+class App;
 
 /// How this program was called.
 struct Invocation {
@@ -24,7 +24,7 @@ struct Verb {
     const char* name;
     const char* summary;               ///< One line for `clearway --help`.
     const char* example;               ///< Shown at the end of the verb's own help.
-    Action (*configure)(CLI::App&);    ///< Null: one of the parts must be named.
+    Action (*configure)(App&);         ///< Null: one of the parts must be named.
     std::span<const Verb> parts = {};  ///< `status` of `study status`.
 };
 
@@ -34,32 +34,32 @@ std::span<const Verb> verbs();
 /// The whole program: parses, runs the verb, prints errors on standard error. Returns the exit code.
 int run_command_line(int argument_count, const char* const* arguments);
 
-Action configure_run(CLI::App& app);
-Action configure_study(CLI::App& app);
-Action configure_submit(CLI::App& app);
-Action configure_merge(CLI::App& app);
-Action configure_status(CLI::App& app);
-Action configure_report(CLI::App& app);
-Action configure_figures(CLI::App& app);
-Action configure_compare(CLI::App& app);
-Action configure_results(CLI::App& app);
-Action configure_replay(CLI::App& app);
-Action configure_verify(CLI::App& app);
-Action configure_dataset(CLI::App& app);
-Action configure_train(CLI::App& app);
-Action configure_evaluate(CLI::App& app);
-Action configure_live(CLI::App& app);
-Action configure_list(CLI::App& app);
-Action configure_init(CLI::App& app);
-Action configure_import(CLI::App& app);
-Action configure_signals(CLI::App& app);
-Action configure_mean_times(CLI::App& app);
-Action configure_equip(CLI::App& app);
-Action configure_check(CLI::App& app);
-Action configure_attach(CLI::App& app);
-Action configure_trajectories(CLI::App& app);
-Action configure_environment(CLI::App& app);
-Action configure_python(CLI::App& app);
-Action configure_doctor(CLI::App& app);
+Action configure_run(App& app);
+Action configure_study(App& app);
+Action configure_submit(App& app);
+Action configure_merge(App& app);
+Action configure_status(App& app);
+Action configure_report(App& app);
+Action configure_figures(App& app);
+Action configure_compare(App& app);
+Action configure_results(App& app);
+Action configure_replay(App& app);
+Action configure_verify(App& app);
+Action configure_dataset(App& app);
+Action configure_train(App& app);
+Action configure_evaluate(App& app);
+Action configure_live(App& app);
+Action configure_list(App& app);
+Action configure_init(App& app);
+Action configure_import(App& app);
+Action configure_signals(App& app);
+Action configure_mean_times(App& app);
+Action configure_equip(App& app);
+Action configure_check(App& app);
+Action configure_attach(App& app);
+Action configure_trajectories(App& app);
+Action configure_environment(App& app);
+Action configure_python(App& app);
+Action configure_doctor(App& app);
 
 }  // namespace clearway::cli

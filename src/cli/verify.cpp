@@ -1,9 +1,9 @@
 #include <memory>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "campaign/verification.hpp"
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/trust_option.hpp"
 #include "cli/verb.hpp"
@@ -11,26 +11,25 @@
 
 namespace clearway::cli {
 
-Action configure_verify(CLI::App& app) {
+Action configure_verify(App& app) {
     const auto arguments = std::make_shared<campaign::VerifyRequest>();
     app.add_option("run", arguments->what,
                    fmt::format("Run to repeat: {}; with --all, --sample or --signals a folder",
                                results::run_name_form))
-        ->required()
-        ->option_text("RUN|DIR (required)");
-    CLI::Option* const all = app.add_flag("--all", arguments->all, "Every complete run of the folder [off]");
+        .required()
+        .option_text("RUN|DIR (required)");
+    const Option all = app.add_flag("--all", arguments->all, "Every complete run of the folder [off]");
     app.add_option("--sample", arguments->sample,
                    "Number of complete runs, evenly spread over the sorted list")
-        ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}))
-        ->option_text("N, 1 or more [off]")
-        ->excludes(all);
-    CLI::Option* const out =
-        app.add_option("--out", arguments->out, "New run folder that keeps the repeated runs")
-            ->option_text("DIR [a temporary one, removed at the end]");
+        .range(std::size_t{1}, std::size_t{1000000000})
+        .option_text("N, 1 or more [off]")
+        .excludes(all);
+    const Option out = app.add_option("--out", arguments->out, "New run folder that keeps the repeated runs")
+                           .option_text("DIR [a temporary one, removed at the end]");
     app.add_flag("--signals", arguments->signals,
                  "Audit signals instead: no yellow, red clearance or green below the "
                  "signal's own program in any event log [off]")
-        ->excludes(out);
+        .excludes(out);
     add_trust_option(app, arguments->trust);
     add_jobs_option(app, arguments->workers);
     add_json_option(app, arguments->printing, "the verdicts");

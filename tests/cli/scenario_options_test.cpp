@@ -1,8 +1,10 @@
 #include "cli/detail/scenario_options.hpp"
 
+#include <CLI/App.hpp>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "cli/detail/app.hpp"
 #include "core/error.hpp"
 #include "scenario/overrides.hpp"
 
@@ -10,12 +12,12 @@ namespace clearway::cli {
 namespace {
 
 /// What `app --friction 0.5` sets.
-scenario::Options parsed(void (*declare)(CLI::App&, scenario::Options&),
-                         const std::vector<std::string>& words) {
-    CLI::App app;
+scenario::Options parsed(void (*declare)(App&, scenario::Options&), const std::vector<std::string>& words) {
+    CLI::App parser;
+    App app(parser);
     scenario::Options options;
     declare(app, options);
-    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    parser.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     return options;
 }
 
@@ -49,11 +51,12 @@ TEST(ScenarioOptions, refuse_what_is_not_a_number_or_not_a_word_at_once) {
 }
 
 TEST(ScenarioOptions, show_unit_and_range_in_the_help) {
-    CLI::App app;
+    CLI::App parser;
+    App app(parser);
     scenario::Options options;
     add_scenario_options(app, options);
-    EXPECT_THAT(app.help(), testing::HasSubstr("--friction NUMBER, 0.1 to 1 [by scenario]"));
-    EXPECT_THAT(app.help(), testing::HasSubstr("--warm-up NUMBER, 0 to 86400 s [by scenario]"));
+    EXPECT_THAT(parser.help(), testing::HasSubstr("--friction NUMBER, 0.1 to 1 [by scenario]"));
+    EXPECT_THAT(parser.help(), testing::HasSubstr("--warm-up NUMBER, 0 to 86400 s [by scenario]"));
 }
 
 }  // namespace

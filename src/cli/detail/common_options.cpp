@@ -1,85 +1,90 @@
 #include "cli/detail/common_options.hpp"
 
+#include <limits>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "core/number_range.hpp"
+#include "campaign/publication.hpp"
+#include "campaign/workers.hpp"
+#include "cli/detail/app.hpp"
+#include "experiment/loop_config.hpp"
+#include "experiment/run_job.hpp"
+#include "report/console.hpp"
 
 namespace clearway::cli {
 
-void add_json_option(CLI::App& app, Printing& printing, const std::string& what) {
+void add_json_option(App& app, Printing& printing, const std::string& what) {
     app.add_flag_callback(
         "--json", [&printing] { printing = Printing::json; },
         fmt::format("Print {} as JSON, with units in the field names [text]", what));
 }
 
-void add_tables_option(CLI::App& app, report::Tables& tables) {
+void add_tables_option(App& app, report::Tables& tables) {
     app.add_flag_callback(
         "--tables", [&tables] { tables = report::Tables::all; },
         "Print the tables of all measures [verdicts and the two main measures]");
 }
 
-void add_response_option(CLI::App& app, std::optional<double>& threshold_s) {
+void add_response_option(App& app, std::optional<double>& threshold_s) {
     constexpr double longest_s = 86400.0;
     app.add_option("--response-threshold", threshold_s,
                    "An EV trip is in time if it takes no longer; one that does not arrive is late")
-        ->check(core::NumberRange{0.1, longest_s})
-        ->option_text("SECONDS, 0.1 to 86400 [100 s per km of the mean EV route]");
+        .range(0.1, longest_s)
+        .option_text("SECONDS, 0.1 to 86400 [100 s per km of the mean EV route]");
 }
 
-void add_record_option(CLI::App& app, experiment::StepRecording& recording) {
+void add_record_option(App& app, experiment::StepRecording& recording) {
     app.add_flag_callback(
         "--record", [&recording] { recording = experiment::StepRecording::on; },
         "Keep every step below recordings/, for clearway replay; changes no result [off]");
 }
 
-void add_jobs_option(CLI::App& app, unsigned& jobs) {
+void add_jobs_option(App& app, unsigned& jobs) {
     app.add_option("--jobs", jobs, "Worker processes at a time; 0: one per core. Changes no result")
-        ->check(CLI::Range(0U, 4096U))
-        ->option_text(fmt::format("N, 0 to 4096 [{}]", jobs));
+        .range(0U, 4096U)
+        .option_text(fmt::format("N, 0 to 4096 [{}]", jobs));
 }
 
-CLI::Option* add_seed_option(CLI::App& app, std::uint64_t& seed) {
+Option add_seed_option(App& app, std::uint64_t& seed) {
     constexpr std::int64_t greatest =
         std::numeric_limits<std::int64_t>::max();  // the greatest that TOML can write
     return app.add_option("--seed", seed, "Study seed: equal seeds, equal results")
-        ->check(CLI::Range(std::int64_t{0}, greatest))
-        ->option_text(fmt::format("N, 0 to 2^63-1 [{}]", seed));
+        .range(std::int64_t{0}, greatest)
+        .option_text(fmt::format("N, 0 to 2^63-1 [{}]", seed));
 }
 
-CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds) {
+Option add_seeds_option(App& app, std::uint32_t& seeds) {
     return app
         .add_option("--seeds", seeds,
                     "Replications; in each, all conditions share demand, drivers and failures")
-        ->check(CLI::Range(1U, most_replications))
-        ->option_text(fmt::format("N, 1 to {} [{}]", most_replications, seeds));
+        .range(1U, most_replications)
+        .option_text(fmt::format("N, 1 to {} [{}]", most_replications, seeds));
 }
 
-void add_limit_options(CLI::App& app, experiment::RunLimits& limits) {
+void add_limit_options(App& app, experiment::RunLimits& limits) {
     app.add_option("--run-time-limit", limits.wall_s, "Wall time after which a run is ended, s")
-        ->check(core::NumberRange{0.001, 1e7})
-        ->option_text(fmt::format("SECONDS, 0.001 to 1e7 [{:g}]", limits.wall_s));
+        .range(0.001, 1e7)
+        .option_text(fmt::format("SECONDS, 0.001 to 1e7 [{:g}]", limits.wall_s));
     app.add_option("--memory-limit", limits.memory_mib, "Memory above which a run is ended, MiB; 0: none")
-        ->check(CLI::Range(0L, 100000000L))
-        ->option_text(fmt::format("MIB, 0 to 1e8 [{}]", limits.memory_mib));
+        .range(0L, 100000000L)
+        .option_text(fmt::format("MIB, 0 to 1e8 [{}]", limits.memory_mib));
 }
 
-void add_most_runs_option(CLI::App& app, std::uint64_t& most_runs) {
+void add_most_runs_option(App& app, std::uint64_t& most_runs) {
     app.add_option("--most-runs", most_runs, "A study with more runs is refused")
-        ->check(CLI::Range(std::uint64_t{1}, results::greatest_most_runs))
-        ->option_text(fmt::format("N, 1 to {} [{}]", results::greatest_most_runs, most_runs));
+        .range(std::uint64_t{1}, results::greatest_most_runs)
+        .option_text(fmt::format("N, 1 to {} [{}]", results::greatest_most_runs, most_runs));
 }
 
-void add_retry_option(CLI::App& app, campaign::RetriedRuns& retried) {
+void add_retry_option(App& app, campaign::RetriedRuns& retried) {
     app.add_flag_callback(
         "--retry-failed", [&retried] { retried = campaign::RetriedRuns::all_failed; },
         "Try all failed runs in the run folder again [those that a signal or a limit ended]");
 }
 
-void add_publish_options(CLI::App& app, campaign::Publication& publication) {
+void add_publish_options(App& app, campaign::Publication& publication) {
     const auto digits = [](std::size_t least, std::size_t most) {
         return [least, most](const std::string& text) {
             const bool is_hexadecimal = text.find_first_not_of("0123456789abcdef") == std::string::npos;
@@ -88,24 +93,23 @@ void add_publish_options(CLI::App& app, campaign::Publication& publication) {
                        : fmt::format("`{}` is not {} to {} digits 0 to f", text, least, most);
         };
     };
-    CLI::Option* const file =
-        app.add_option("--publish", publication.file,
-                       "Write the results as rows of this CSV file, replacing earlier ones")
-            ->option_text("results/FILE.csv [none]");
+    const Option file = app.add_option("--publish", publication.file,
+                                       "Write the results as rows of this CSV file, replacing earlier ones")
+                            .option_text("results/FILE.csv [none]");
     app.add_option("--tree", publication.tree, "Commit of the tree that made the runs, for the rows")
-        ->needs(file)
-        ->check(digits(7, 40))
-        ->option_text("COMMIT [that of this tree]");
+        .needs(file)
+        .check(digits(7, 40))
+        .option_text("COMMIT [that of this tree]");
     app.add_option("--behaviour", publication.behaviour, "What scripts/render-docs --behaviour prints there")
-        ->needs(file)
-        ->check(digits(12, 12))
-        ->option_text("DIGITS [that of this tree]");
+        .needs(file)
+        .check(digits(12, 12))
+        .option_text("DIGITS [that of this tree]");
 }
 
-std::vector<CLI::Option*> add_link_options(CLI::App& app, experiment::LinkSettings& links) {
+std::vector<Option> add_link_options(App& app, experiment::LinkSettings& links) {
     return {app.add_option("--link-radius", links.link_radius_m, "Vehicles nearer than this are linked, m")
-                ->check(core::NumberRange{1.0, 1000.0})
-                ->option_text(fmt::format("METRES, 1 to 1000 [{}]", links.link_radius_m)),
+                .range(1.0, 1000.0)
+                .option_text(fmt::format("METRES, 1 to 1000 [{}]", links.link_radius_m)),
             app.add_flag_callback(
                 "--automated-links", [&links] { links.automated_links = 1; },
                 "Two automated vehicles may be linked, too [no]")};

@@ -5,65 +5,56 @@
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
-
-#include "campaign/printout.hpp"
-#include "campaign/publication.hpp"
-#include "campaign/workers.hpp"
-#include "experiment/loop_config.hpp"
-#include "experiment/run_job.hpp"
-#include "report/console.hpp"
+#include "campaign/printing.hpp"
+#include "cli/detail/app.hpp"
 #include "results/run_limit.hpp"
+
+// What verbs hand on. Its headers are long, and a verb needs few of them.
+namespace clearway::campaign {
+struct Publication;
+enum class RetriedRuns : std::uint8_t;
+}  // namespace clearway::campaign
+namespace clearway::experiment {
+struct LinkSettings;
+struct RunLimits;
+enum class StepRecording : std::uint8_t;
+}  // namespace clearway::experiment
+namespace clearway::report {
+enum class Tables : std::uint8_t;
+}  // namespace clearway::report
 
 namespace clearway::cli {
 
 using campaign::Printing;
-
-/// While it lives, options that are declared stand in this group of the help.
-class OptionGroup {
-  public:
-    OptionGroup(CLI::App& app, const std::string& name)
-        : defaults_(*app.option_defaults()), before_(defaults_.get_group()) {
-        defaults_.group(name);
-    }
-    ~OptionGroup() { defaults_.group(before_); }
-    OptionGroup(const OptionGroup&) = delete;
-    OptionGroup& operator=(const OptionGroup&) = delete;
-
-  private:
-    CLI::OptionDefaults& defaults_;
-    std::string before_;
-};
-
 using results::most_replications;
 
 /// Declares `--json`; `what` completes "Print ... as JSON".
-void add_json_option(CLI::App& app, Printing& printing, const std::string& what);
+void add_json_option(App& app, Printing& printing, const std::string& what);
 /// Declares `--tables`: every measure is printed.
-void add_tables_option(CLI::App& app, report::Tables& tables);
+void add_tables_option(App& app, report::Tables& tables);
 /// Declares `--response-threshold`.
-void add_response_option(CLI::App& app, std::optional<double>& threshold_s);
+void add_response_option(App& app, std::optional<double>& threshold_s);
 /// Declares `--record`: every step of every run is kept in a file.
-void add_record_option(CLI::App& app, experiment::StepRecording& recording);
+void add_record_option(App& app, experiment::StepRecording& recording);
 /// Declares `--jobs`: worker processes at a time, 0 for one per core.
-void add_jobs_option(CLI::App& app, unsigned& jobs);
+void add_jobs_option(App& app, unsigned& jobs);
 /// Declares `--seed`: the study seed, from which every random number of every replication follows.
-CLI::Option* add_seed_option(CLI::App& app, std::uint64_t& seed);
+Option add_seed_option(App& app, std::uint64_t& seed);
 /// Declares `--seeds`: number of replications; the help shows the current value as the default.
-CLI::Option* add_seeds_option(CLI::App& app, std::uint32_t& seeds);
+Option add_seeds_option(App& app, std::uint32_t& seeds);
 
 /// Declares `--run-time-limit` and `--memory-limit`: what a run may use before it is ended as failed.
-void add_limit_options(CLI::App& app, experiment::RunLimits& limits);
+void add_limit_options(App& app, experiment::RunLimits& limits);
 
 /// Declares `--most-runs`: a study with more is refused.
-void add_most_runs_option(CLI::App& app, std::uint64_t& most_runs);
+void add_most_runs_option(App& app, std::uint64_t& most_runs);
 /// Declares `--retry-failed`: runs that their input made fail are tried again, too.
-void add_retry_option(CLI::App& app, campaign::RetriedRuns& retried);
+void add_retry_option(App& app, campaign::RetriedRuns& retried);
 
 /// Declares `--publish`, `--tree` and `--behaviour`: rows of `results/`.
-void add_publish_options(CLI::App& app, campaign::Publication& publication);
+void add_publish_options(App& app, campaign::Publication& publication);
 
 /// `--link-radius` and `--automated-links`.
-std::vector<CLI::Option*> add_link_options(CLI::App& app, experiment::LinkSettings& links);
+std::vector<Option> add_link_options(App& app, experiment::LinkSettings& links);
 
 }  // namespace clearway::cli

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "cli/detail/common_options.hpp"
 #include "core/error.hpp"
-#include "core/number_range.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/settings.hpp"
@@ -164,73 +162,62 @@ experiment::ConditionSpec shown_condition(const std::vector<experiment::Conditio
                             "Name one with --condition, or describe one of your own (--policy ...)"});
 }
 
-void add_condition_words(CLI::App& app, ConditionWords& words) {
+void add_condition_words(App& app, ConditionWords& words) {
     app.add_option("--condition", words.names,
                    "A built-in condition; can be repeated. A baseline is always added")
-        ->option_text(
+        .option_text(
             fmt::format("NAME ... [{}, unless one of your own is described]", experiment::usual_condition));
 }
 
-void add_own_condition_options(CLI::App& app, DescribedCondition& described) {
+void add_own_condition_options(App& app, DescribedCondition& described) {
     const OptionGroup group(app, "A condition of your own (names: clearway list)");
     add_condition_options(app, described, experiment::usual_condition);
     experiment::ConditionSpec& own = described.condition;
     add_switch(app, "--bluelight", own.bluelight,
                "SUMO's device.bluelight on every emergency vehicle, for comparison")
-        ->option_text("on|off [off]");
+        .option_text("on|off [off]");
     app.add_option("--rerouting", own.rerouting_s,
                    "SUMO's device.rerouting on every emergency vehicle, with this period and true times, for "
                    "comparison")
-        ->check(core::NumberRange{0.0, 3600.0})
-        ->option_text("S [0: none]");
+        .range(0.0, 3600.0)
+        .option_text("S [0: none]");
     app.add_option("--rerouting-penalty", own.rerouting_signal_penalty,
                    "That device's penalty for signals (SUMO's weights.tls-penalty), in mean waits")
-        ->check(core::NumberRange{0.0, 100.0})
-        ->option_text("SHARE [0: none]");
-    static const auto dispatches = [] {
-        std::map<std::string, experiment::Dispatch> words;
-        for (const auto& [value, word] : spellings(experiment::Dispatch{}))
-            words.emplace(word, value);
-        return words;
-    }();
-    app.add_option_function<std::string>(
-           "--dispatch", [&own](const std::string& name) { own.dispatch = dispatches.at(name); },
-           "Which station answers a call of the scenario")
-        ->check(CLI::IsMember(dispatches))
-        ->option_text("free_flow|straight_line|believed|true_times [free_flow]");
-    static const std::map<std::string, experiment::TrafficModel> models = {
-        {"standard", experiment::TrafficModel::standard}, {"sublane", experiment::TrafficModel::sublane}};
-    app.add_option_function<std::string>(
-           "--traffic-model", [&own](const std::string& name) { own.traffic_model = models.at(name); },
+        .range(0.0, 100.0)
+        .option_text("SHARE [0: none]");
+    app.add_choice("--dispatch", own.dispatch, "Which station answers a call of the scenario")
+        .option_text("free_flow|straight_line|believed|true_times [free_flow]");
+    app.add_choice(
+           "--traffic-model", own.traffic_model,
+           {{"standard", experiment::TrafficModel::standard}, {"sublane", experiment::TrafficModel::sublane}},
            "SUMO's lateral model; sublane adds a baseline of its own")
-        ->check(CLI::IsMember(models))
-        ->option_text("standard|sublane [standard]");
+        .option_text("standard|sublane [standard]");
     app.add_option("--name", own.name, "Its name in tables and folders")
-        ->option_text("NAME [after its content: corridor_B10_graphsage]");
+        .option_text("NAME [after its content: corridor_B10_graphsage]");
 }
 
-void add_condition_options(CLI::App& app, DescribedCondition& described, const std::string& usual_policy) {
+void add_condition_options(App& app, DescribedCondition& described, const std::string& usual_policy) {
     experiment::ConditionSpec& condition = described.condition;
     app.add_option("--policy", condition.policies,
                    "Policies, in this order; none: the car-following model alone")
-        ->option_text("NAME ... [" + usual_policy + "]");
-    app.add_option("--failure", condition.failure, "How sensors fail")->option_text("NAME [perfect]");
+        .option_text("NAME ... [" + usual_policy + "]");
+    app.add_option("--failure", condition.failure, "How sensors fail").option_text("NAME [perfect]");
     app.add_option("--predictor", condition.predictor, "How the graph is repaired")
-        ->option_text("NAME [none]");
+        .option_text("NAME [none]");
     add_setting_options(app, described.settings, described.model, "as shipped");
     add_switch(app, "--safety-checks", condition.safety_checks,
                "SUMO's own checks of commanded speeds and lane changes")
-        ->option_text("on|off [on]");
+        .option_text("on|off [on]");
 }
 
-void add_setting_options(CLI::App& app, std::vector<std::string>& settings, std::string& model,
+void add_setting_options(App& app, std::vector<std::string>& settings, std::string& model,
                          const std::string& usual) {
     app.add_option("--set", settings, "A setting of the condition (clearway list settings); can be repeated")
-        ->option_text("COMPONENT.NAME=VALUE ... [defaults]");
+        .option_text("COMPONENT.NAME=VALUE ... [defaults]");
     app.add_option(option, model,
                    "Net of a learned predictor: a file of clearway links train or of torch.save")
-        ->check([](const std::string& file) { return file.empty() ? "is empty" : ""; })
-        ->option_text("FILE [" + usual + "]");
+        .check([](const std::string& file) { return file.empty() ? "is empty" : ""; })
+        .option_text("FILE [" + usual + "]");
 }
 
 std::pair<std::string, std::string> assignment(const std::string& option, const std::string& words,

@@ -4,8 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "cli/detail/app.hpp"
 #include "experiment/condition.hpp"
 
 namespace clearway::cli {
@@ -19,10 +18,10 @@ struct DescribedCondition {
 
 /// Declares `--policy`, `--failure`, `--predictor`, `--set`, `--model` and `--safety-checks`. Names are
 /// checked later (names.hpp). `usual_policy` is the default that the help shows.
-void add_condition_options(CLI::App& app, DescribedCondition& described, const std::string& usual_policy);
+void add_condition_options(App& app, DescribedCondition& described, const std::string& usual_policy);
 
 /// Declares only `--set` and `--model`; `usual` is the default that the help shows for `--model`.
-void add_setting_options(CLI::App& app, std::vector<std::string>& settings, std::string& model,
+void add_setting_options(App& app, std::vector<std::string>& settings, std::string& model,
                          const std::string& usual);
 
 /// Name and value of `NAME=VALUE`. Throws core::InputError, naming `option`.
@@ -45,11 +44,11 @@ void apply_models(const std::vector<std::string>& models, std::vector<experiment
 
 /// Declares an option that is `on` or `off`; returns it for its group and text.
 template <class Switch>
-CLI::Option* add_switch(CLI::App& app, const std::string& name, Switch& value, const std::string& help) {
+Option add_switch(App& app, const std::string& name, Switch& value, const std::string& help) {
     return app
         .add_option_function<std::string>(
             name, [&value](const std::string& word) { value = *core::value_from<Switch>(word); }, help)
-        ->check(CLI::IsMember({"on", "off"}));
+        .one_of({"on", "off"});
 }
 
 /// The conditions that a user names or describes on the command line.
@@ -59,9 +58,9 @@ struct ConditionWords {
 };
 
 /// Declares `--condition`.
-void add_condition_words(CLI::App& app, ConditionWords& words);
+void add_condition_words(App& app, ConditionWords& words);
 /// Declares the options that describe a condition of one's own.
-void add_own_condition_options(CLI::App& app, DescribedCondition& described);
+void add_own_condition_options(App& app, DescribedCondition& described);
 
 /// The conditions that the words mean; may be empty. Throws core::InputError.
 std::vector<experiment::ConditionSpec> chosen_conditions(const ConditionWords& words);

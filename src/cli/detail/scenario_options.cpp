@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "core/number.hpp"
@@ -25,7 +25,7 @@ std::string value_text(const scenario::Override& override) {
     return fmt::format("NUMBER, {} [by scenario]", core::range_text(value));
 }
 
-void add_override(CLI::App& app, const scenario::Override& override, scenario::Options& options) {
+void add_override(App& app, const scenario::Override& override, scenario::Options& options) {
     const core::SettingInfo& value = override.value;
     if (override.is_flag) {
         app.add_flag_callback(
@@ -34,11 +34,11 @@ void add_override(CLI::App& app, const scenario::Override& override, scenario::O
         return;
     }
     const auto set = [&options, &value](const std::string& text) { options.set(value.name, text); };
-    CLI::Option* const option = app.add_option_function<std::string>(override.option, set, value.doc)
-                                    ->option_text(value_text(override));
-    if (!value.words.empty()) option->check(CLI::IsMember(value.words));
+    const Option option = app.add_option_function<std::string>(override.option, set, value.doc)
+                              .option_text(value_text(override));
+    if (!value.words.empty()) option.one_of(value.words);
     if (!override.is_number()) return;
-    option->check([&value](const std::string& text) {
+    option.check([&value](const std::string& text) {
         if (core::number_from(text)) return std::string();
         return fmt::format("\"{}\" is not a number (allowed: {})", text, core::range_text(value));
     });
@@ -46,13 +46,13 @@ void add_override(CLI::App& app, const scenario::Override& override, scenario::O
 
 }  // namespace
 
-void add_scenario_options(CLI::App& app, scenario::Options& options) {
+void add_scenario_options(App& app, scenario::Options& options) {
     const OptionGroup group(app, group_name);
     for (const scenario::Override& override : scenario::overrides())
         add_override(app, override, options);
 }
 
-void add_override_option(CLI::App& app, scenario::Options& options) {
+void add_override_option(App& app, scenario::Options& options) {
     const OptionGroup group(app, group_name);
     app.add_option_function<std::vector<std::string>>(
            "--override",
@@ -63,13 +63,13 @@ void add_override_option(CLI::App& app, scenario::Options& options) {
                }
            },
            "A change to the scenario, as in [overrides] of a study file; can be repeated")
-        ->option_text("NAME=VALUE ...");
+        .option_text("NAME=VALUE ...");
 }
 
-void add_scenario_argument(CLI::App& app, std::string& scenario) {
+void add_scenario_argument(App& app, std::string& scenario) {
     app.add_option("scenario", scenario, "Name (clearway list), folder or TOML file")
-        ->required()
-        ->option_text("SCENARIO (required)");
+        .required()
+        .option_text("SCENARIO (required)");
 }
 
 }  // namespace clearway::cli
