@@ -1,14 +1,26 @@
 #include "cli/detail/app.hpp"
 
+#include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <type_traits>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "core/number_range.hpp"
 
 namespace clearway::cli {
+namespace {
+
+std::string without_leading_zeros(std::string word) {
+    const std::size_t first = word.find_first_not_of('0');
+    if (first == std::string::npos) return word.empty() ? word : "0";
+    return word[first] >= '1' && word[first] <= '9' ? word.substr(first) : word;
+}
+
+}  // namespace
 
 Option Option::required() const {
     return Option(option_->required());
@@ -40,7 +52,16 @@ Option Option::check(const std::function<std::string(const std::string&)>& probl
 
 template <class Number>
 Option Option::range(Number least, Number most) const {
-    return Option(option_->check(CLI::Range(least, most)));
+    return check([least, most](const std::string& word) {
+        const char* const end = word.data() + word.size();
+        Number number{};
+        const std::from_chars_result read = std::from_chars(word.data(), end, number);
+        const bool is_whole = read.ec == std::errc() && read.ptr == end;
+        // The words of CLI11, which takes the greatest number for one that is greater (core/usage.cpp).
+        return is_whole && least <= number && number <= most
+                   ? std::string()
+                   : fmt::format("Value {} not in range {} to {}", word, least, most);
+    });
 }
 
 Option Option::range(double least, double most) const {
@@ -73,7 +94,11 @@ std::size_t Option::count() const {
 
 template <class Value>
 Option App::add_option(const std::string& name, Value& value, const std::string& help) {
-    return Option(app_->add_option(name, value, help));
+    CLI::Option* const option = app_->add_option(name, value, help);
+    // CLI11 reads 010 as 8.
+    if constexpr (std::is_integral_v<Value> && !std::is_same_v<Value, bool>)
+        option->transform(without_leading_zeros);
+    return Option(option);
 }
 
 template <class Value>
