@@ -172,7 +172,11 @@ class Results:
         if name not in self._read:
             database = self.folder / "results.sqlite"
             try:
-                self._read[name] = Table(_read_table(database, name), self._names())
+                columns = _read_table(database, name)
+                # Levels of factors are names, too.
+                factors = {column: sorted(set(values.tolist())) for column, values in columns.items()
+                           if "." in column and values.dtype.kind == "U"}
+                self._read[name] = Table(columns, self._names() | factors)
             except sqlite3.Error as error:
                 raise _program.InputError(f"{database}: cannot be read: {error}. Remove it; `clearway report` on the folder "
                                          "writes it again") from None
@@ -229,6 +233,10 @@ class Results:
         in place of the baseline. Raises InputError for names that the folder does not have.
         """
         there = self.paired_differences(metric, against)
+        scenarios = self._names()["scenario"]
+        if scenario is not None and scenario not in scenarios:
+            raise _program.InputError(f"the study has no scenario {scenario!r}; it has {', '.join(scenarios)}"
+                                      f"{_program.did_you_mean(scenario, scenarios)}")
         found = [one for one in there if one.condition == condition]
         if scenario is not None:
             found = [one for one in found if one.scenario == scenario]
@@ -236,7 +244,8 @@ class Results:
             return found[0]
         compared = ", ".join(f"{one.scenario}/{one.condition}" for one in there)
         what = "several scenarios have it: name one" if found else f"is not compared with {against or 'a baseline'} here"
-        raise _program.InputError(f"condition {condition!r}: {what}; there are {compared}")
+        near = "" if found else _program.did_you_mean(condition, [one.condition for one in there])
+        raise _program.InputError(f"condition {condition!r}: {what}; there are {compared}{near}")
 
     def paired_differences(self, metric: str, against: str | None = None) -> list[Difference]:
         """All conditions of the folder against their baselines, or against the condition ``against``."""

@@ -59,6 +59,8 @@ class ResultsTest(FolderCase):
         with self.assertRaisesRegex(clearway.InputError, r"\. where\(\*\*\{'condition.failure': 'B10'\}\) chooses by factor"):
             results.runs.where(condition="B10")
         self.assertEqual(results.runs.where(**{"condition.failure": "B10", "scenario.friction": 0.4}).row_count, 1)
+        with self.assertRaisesRegex(clearway.InputError, "no condition.failure 'B1O'; it has B10, perfect"):
+            results.runs.where(**{"condition.failure": "B1O"})
 
     def check_factor(self, results: clearway.Results, column: str, kind: type, values: set[str]) -> None:
         """A column of factors has the same values in each row of each table, and all of ``values``."""
@@ -174,6 +176,8 @@ class ResultsTest(FolderCase):
                            (lambda: clearway.run("intersection", [clearway.Condition("a", policy=3)]), "is 3"),
                            (lambda: clearway.run("intersection", [clearway.Condition("a", set=["b"])]), "set is ['b']"),
                            (lambda: clearway.run("intersection", seeds=1, step_length_s=None), "None cannot be part of"),
+                           (lambda: self.results.paired_difference("collisions", "corridor", scenario="intersectoin"),
+                            "no scenario 'intersectoin'"),
                            (lambda: self.results.runs.where(condition=3), "compared with 3 (allowed: a text)"),
                            (lambda: self.results.paired_difference(3, "corridor"), "`3` is unknown"),
                            (lambda: clearway.open("--help"), "is not a run folder")):
