@@ -79,15 +79,15 @@ std::string estimate_or_dash(const analysis::MaybeEstimate& value) {
     return estimate(value, {});
 }
 
-/// What the others lose or, where that is shown, save.
+/// What the others lose or save.
 std::string others_words(const analysis::MaybeEstimate& loss) {
-    const analysis::Interval* const interval = analysis::shown_interval(loss);
-    if (interval == nullptr || interval->high >= 0.0)
+    if (!loss || loss->mean >= 0.0)
         return fmt::format("lose {} s each ({})", estimate_or_dash(loss), shown_word(loss));
     analysis::MaybeEstimate saving = loss;
     saving->mean = -loss->mean;
-    saving->interval = analysis::Interval{-interval->high, -interval->low};
-    return fmt::format("save {} s each (shown)", estimate_or_dash(saving));
+    if (loss->interval)
+        saving->interval = analysis::Interval{-loss->interval->high, -loss->interval->low};
+    return fmt::format("save {} s each ({})", estimate_or_dash(saving), shown_word(saving));
 }
 
 std::string together_sentence(const EquipmentFacts& facts) {
@@ -238,7 +238,8 @@ std::vector<std::string> circumstances_of(const EquipmentFacts& facts) {
         left_out_sentence(facts.not_passed, "no EV passes in these seeds"),
         left_out_sentence(facts.seldom_passed, "fewer EVs pass than the candidates"),
         left_out_sentence(facts.switched_off, "the scenario's preemption parameters switch off"),
-        fmt::format("EV time, s: baseline {}, no signal equipped {}, all signals {}, alone {}.",
+        fmt::format("EV time, s: baseline {}, no signal equipped {}, all signals {}, alone {}. Gains count from no "
+                    "signal equipped.",
                     estimate_or_dash(facts.baseline_s), estimate_or_dash(facts.none_s),
                     estimate_or_dash(facts.all_s), estimate_or_dash(facts.alone_s)),
         fmt::format("{}.", counted(facts.runs, "run"))};

@@ -99,7 +99,7 @@ TEST(Equipment, SaysThatTheOthersSaveTimeWhereThatIsShown) {
     facts.ranked.back().others = about(-3.0, 1.0);
     EXPECT_THAT(flat_text(facts), HasSubstr("the others save 3.0 [2.0, 4.0] s each (shown)"));
     facts.ranked.back().others = about(-3.0, 4.0);
-    EXPECT_THAT(flat_text(facts), HasSubstr("the others lose -3.0 [-7.0, 1.0] s each (not shown)"));
+    EXPECT_THAT(flat_text(facts), HasSubstr("the others save 3.0 [-1.0, 7.0] s each (not shown)"));
 }
 
 TEST(Equipment, HasPairsThatWereTriedTogether) {
