@@ -72,8 +72,7 @@ class Store {
     /// flushed if they cannot be linked; `flush` flushes their entries. Throws core::InputError for a damaged
     /// record, which is not adopted. As with `write`, the first wins and a second must be equal.
     Written adopt(const Store& other, const experiment::RunKey& key) const;
-    /// Likewise its recording, where the other store has one and this has none. Throws core::InputError for a
-    /// damaged one.
+    /// Likewise its recording, unless this store has one. Throws core::InputError for one that is damaged.
     void adopt_recording(const Store& other, const experiment::RunKey& key) const;
     /// Complete runs, and failed runs that are not complete; in no particular order.
     std::vector<experiment::RunKey> complete_runs() const;
