@@ -9,6 +9,7 @@
 #include "core/build_stamp.hpp"
 #include "core/error.hpp"
 #include "core/machine_failure.hpp"
+#include "core/process.hpp"
 #include "loop/episodes.hpp"
 #include "loop/worker.hpp"
 #include "sumo/session.hpp"
@@ -32,6 +33,7 @@ int fail_usage() {
 
 int main(int argument_count, char** arguments) {
     namespace core = clearway::core;
+    core::open_standard_streams();
     std::signal(SIGXFSZ, SIG_IGN);  // a file over `ulimit -f` is then an error that names it
     const std::string_view word = argument_count == 2 ? arguments[1] : "";
     try {

@@ -14,6 +14,7 @@
 #include "common.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/process.hpp"
 #include "core/usage.hpp"
 
 namespace clearway::training {
@@ -120,6 +121,7 @@ int run(int argument_count, char** argument_values) {
 
 int main(int argument_count, char** argument_values) {
     using clearway::core::ExitCode;
+    clearway::core::open_standard_streams();
     std::signal(SIGXFSZ, SIG_IGN);  // a file over `ulimit -f` is then an error that names it
     try {
         return clearway::training::run(argument_count, argument_values);

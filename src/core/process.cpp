@@ -9,6 +9,7 @@
 #include <deque>
 #include <fstream>
 #include <string_view>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -85,14 +86,23 @@ std::string quoted(const std::string& word) {
     return text + "'";
 }
 
+/// In the child: `stream` is `output` from now on, also in the program that the child becomes.
+void take_over(int output, int stream) {
+    if (output == stream) {
+        fcntl(stream, F_SETFD, 0);  // dup2 would do nothing, and the descriptor would be closed
+    } else {
+        dup2(output, stream);
+    }
+}
+
 [[noreturn]] void become(const Command& command, int output, pid_t parent, char** arguments,
                          char** environment) {
     // Only calls which are safe after a fork in a program with threads are allowed here.
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(128 + SIGTERM);  // The parent died before prctl took effect.
     if (output >= 0) {
-        dup2(output, STDOUT_FILENO);
-        dup2(output, STDERR_FILENO);
+        take_over(output, STDOUT_FILENO);
+        take_over(output, STDERR_FILENO);
     }
     if (!command.folder.empty() && chdir(command.folder.c_str()) != 0) _exit(127);
     execvpe(command.program.c_str(), arguments, environment);
@@ -153,6 +163,14 @@ std::optional<long> resident_kib(pid_t process) {
 
 Exit run(const Command& command) {
     return wait(start(command));
+}
+
+void open_standard_streams() {
+    for (const auto& [stream, access] :
+         {std::pair{STDIN_FILENO, O_RDONLY}, std::pair{STDOUT_FILENO, O_RDONLY},
+          std::pair{STDERR_FILENO, O_WRONLY}}) {
+        if (fcntl(stream, F_GETFD) < 0) open("/dev/null", access);  // takes the lowest number that is free
+    }
 }
 
 std::string shell_text(const std::vector<std::string>& words) {

@@ -56,6 +56,11 @@ std::optional<long> resident_kib(pid_t process);
 /// Starts and waits.
 Exit run(const Command& command);
 
+/// Opens /dev/null for those of the standard streams that are closed, so that no file which this process
+/// opens becomes one: messages would be written into it. Writing to standard output then fails. For the
+/// begin of a program, before it opens anything.
+void open_standard_streams();
+
 /// Words as one shell command, quoted where necessary.
 std::string shell_text(const std::vector<std::string>& words);
 

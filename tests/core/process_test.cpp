@@ -5,7 +5,9 @@
 #include <fstream>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -145,6 +147,49 @@ TEST_F(ProcessTest, ChildrenEndWithTheirParent) {
     EXPECT_TRUE(state == 'X' || state == 'Z') << state;
     close(ends[0]);
     close(ends[1]);
+}
+
+/// How a process ends in which these streams are closed first; it ends with 0 if `holds`.
+template <class Holds>
+int end_with_closed(const std::vector<int>& streams, const Holds& holds) {
+    const pid_t child = fork();
+    if (child == 0) {
+        for (const int stream : streams)
+            close(stream);
+        _exit(holds() ? 0 : 1);
+    }
+    int status = -1;
+    waitpid(child, &status, 0);
+    return status;
+}
+
+TEST_F(ProcessTest, ClosedStandardStreamsAreOpenedAndAreNoFiles) {
+    for (const std::vector<int>& streams : {std::vector{0, 1, 2}, std::vector{2}, std::vector{0, 2}}) {
+        EXPECT_EQ(end_with_closed(streams,
+                                  [] {
+                                      open_standard_streams();
+                                      return open("/dev/null", O_RDONLY) > STDERR_FILENO &&
+                                             write(STDERR_FILENO, "x", 1) == 1;
+                                  }),
+                  0);
+    }
+    EXPECT_EQ(end_with_closed({1},
+                              [] {
+                                  open_standard_streams();
+                                  return write(STDOUT_FILENO, "x", 1) < 0;
+                              }),
+              0)
+        << "output that is lost must be told";
+}
+
+TEST_F(ProcessTest, AFileWithTheNumberOfAClosedStreamStillTakesTheOutputOfAChild) {
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
+        Command command = shell("echo out; echo err >&2");
+        command.output = folder_.path() / "output";
+        std::filesystem::remove(command.output);
+        EXPECT_EQ(end_with_closed({stream}, [&] { return run(command).ok(); }), 0);
+        EXPECT_EQ(read_file(command.output), "out\nerr\n");
+    }
 }
 
 TEST_F(ProcessTest, TailGivesTheLastLines) {
