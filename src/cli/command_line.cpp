@@ -143,7 +143,8 @@ std::string meant(const std::string& word) {
 std::optional<std::string> part_problem(const Verb& verb, const std::string& word) {
     const std::vector<std::string> names = core::texts_of(verb.parts, &Verb::name);
     const std::string near = core::nearest(word, names);
-    if (near.empty() || near == word || word.starts_with('-') || std::filesystem::exists(word))
+    std::error_code unknown;
+    if (near.empty() || near == word || word.starts_with('-') || std::filesystem::exists(word, unknown))
         return std::nullopt;
     return fmt::format("`{0} {1}` is not a verb, and {1} is not a file. Did you mean '{0} {2}'?", verb.name,
                        word, near);
@@ -262,9 +263,8 @@ core::ExitCode act(const Action& action, const Invocation& invocation) {
         return code;
     } catch (const std::system_error& error) {
         if (std::ferror(stdout) != 0) return complain(no_output(), core::ExitCode::environment);
-        return complain(
-            core::EnvironmentError(fmt::format("{}. {}", error.what(), core::cure_of(error.code().value()))),
-            core::ExitCode::environment);
+        const core::Error told = core::error_of(error);
+        return complain(told, told.exit_code());
     } catch (const core::Error& error) {
         return complain(error, error.exit_code());
     } catch (const std::bad_alloc&) {

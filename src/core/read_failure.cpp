@@ -7,12 +7,15 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
-
 namespace clearway::core {
 namespace {
 
 constexpr std::array reasons_of_machine = {EIO, EMFILE, ENFILE, ENOMEM, ENOSPC, EDQUOT, EFBIG, ESTALE};
+
+bool has_working_folder() {
+    std::error_code gone;
+    return !std::filesystem::current_path(gone).empty();
+}
 
 }  // namespace
 
@@ -50,10 +53,24 @@ const char* cure_of(int reason) {
         case EAGAIN:
             return "The machine failed: give the same command again";
         case ENOENT:
-            return "Make its folder first, or choose another place";
+            return has_working_folder() ? "Make its folder first, or choose another place"
+                                        : "The working folder was removed: change to a folder that exists";
+        case ELOOP:
+            return "A symbolic link there leads to itself: remove it, or choose another place";
         default:
             return "Choose another place, or change its permissions";
     }
+}
+
+Error error_of(const std::system_error& fault) {
+    const int reason = fault.code().value();
+    const auto* const call = dynamic_cast<const std::filesystem::filesystem_error*>(&fault);
+    if (call == nullptr || (reason != ELOOP && reason != ENAMETOOLONG))
+        return {ExitCode::environment, fmt::format("{}. {}", fault.what(), cure_of(reason))};
+    return {
+        ExitCode::bad_input,
+        format_problem({call->path1().string(), fmt::format("cannot be looked at: {}", std::strerror(reason)),
+                        "", cure_of(reason)})};
 }
 
 bool is_of_machine(int reason) {

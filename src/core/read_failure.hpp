@@ -2,6 +2,9 @@
 
 #include <filesystem>
 #include <string_view>
+#include <system_error>
+
+#include "core/error.hpp"
 
 namespace clearway::core {
 
@@ -12,6 +15,9 @@ namespace clearway::core {
 
 /// What to do after a call on a path failed with `reason`, an `errno`: one sentence without its full stop.
 const char* cure_of(int reason);
+
+/// What to tell of a call that threw, on a path perhaps: bad input where only another path helps.
+Error error_of(const std::system_error& fault);
 
 /// Whether `reason`, an `errno`, is a failure of the machine that may pass.
 bool is_of_machine(int reason);

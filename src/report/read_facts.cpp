@@ -220,7 +220,8 @@ std::vector<LossCurve> curves_in(const fs::path& folder) {
     std::set<fs::path> trainings;
     if (fs::is_directory(folder)) {
         for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-            if (fs::exists(entry.path() / "losses.csv")) trainings.insert(entry.path());
+            std::error_code unknown;
+            if (fs::exists(entry.path() / "losses.csv", unknown)) trainings.insert(entry.path());
         }
     }
     std::vector<LossCurve> curves;

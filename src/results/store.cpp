@@ -110,7 +110,8 @@ std::string run_folders_in(const fs::path& folder) {
     std::vector<std::string> found;
     std::error_code unreadable;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, unreadable)) {
-        if (fs::exists(entry.path() / manifest_name)) found.push_back(entry.path().string());
+        std::error_code unknown;
+        if (fs::exists(entry.path() / manifest_name, unknown)) found.push_back(entry.path().string());
     }
     if (found.empty()) return "";
     const std::string first = *std::ranges::min_element(found);

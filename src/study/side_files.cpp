@@ -102,7 +102,8 @@ void keep_titles(const results::Store& store, const core::Settings& titles) {
 
 void copy_trainings(const std::filesystem::path& source, const results::Store& store) {
     for (const auto& training : std::filesystem::directory_iterator(source)) {
-        if (!std::filesystem::exists(training.path() / "losses.csv")) continue;
+        std::error_code unknown;
+        if (!std::filesystem::exists(training.path() / "losses.csv", unknown)) continue;
         const std::filesystem::path target = store.folder() / "training" / training.path().filename();
         core::make_folder(target);
         for (const char* const name : {"losses.csv", "summary.json"}) {

@@ -1,5 +1,7 @@
 // What is wrong in the user's files, and what the machine refuses.
 
+#include <fmt/format.h>
+
 #include "core/files.hpp"
 #include "user.hpp"
 
@@ -59,6 +61,53 @@ TEST_F(BadInputTest, a_map_is_sent_to_the_import_and_a_misspelt_folder_to_its_ne
     EXPECT_EQ(map.code, 3);
     EXPECT_THAT(map.err, HasSubstr("`clearway scenario import ./city.osm.gz --name NAME` makes one"));
     EXPECT_THAT(clearway({"run", "./linne"}).err, HasSubstr("Did you mean './line'?"));
+}
+
+TEST_F(BadInputTest, a_link_that_leads_to_itself_disturbs_only_who_names_it) {
+    write_line_scenario();
+    write("my.toml", "replications = 1\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n");
+    for (const char* const name : {"loop", "submt"})
+        std::filesystem::create_symlink(name, folder() / name);
+    EXPECT_THAT(clearway({"run", "linne"}).err, HasSubstr("Did you mean 'line'?"));
+    const Ended submitted = clearway({"study", "submit", "my.toml", "--out", "out"});
+    EXPECT_EQ(submitted.code, 0) << submitted.err;
+    EXPECT_THAT(clearway({"study", "submt"}).err, HasSubstr("Did you mean 'study submit'?"));
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"run", "loop"},
+                                                  {"run", "line", "--out", "loop"},
+                                                  {"report", "loop"},
+                                                  {"verify", "loop", "--all"},
+                                                  {"verify", "loop/line/baseline/0"},
+                                                  {"compare", "loop", "loop"},
+                                                  {"replay", "loop"},
+                                                  {"study", "status", "loop"},
+                                                  {"study", "merge", "loop", "--out", "new"},
+                                                  {"study", "my.toml", "--out", "loop"},
+                                                  {"scenario", "init", "loop"},
+                                                  {"scenario", "import", "loop", "--name", "x"},
+                                                  {"links", "evaluate", "loop"},
+                                                  {"attach", "localhost:1", "--out", "loop"}}) {
+        const Ended ended = clearway(words);
+        EXPECT_EQ(ended.code, 3) << words[0] << ' ' << words[1] << ended.err;
+        EXPECT_THAT(ended.err,
+                    AllOf(HasSubstr("clearway: loop"), HasSubstr(": Too many levels of symbolic links. "),
+                          Not(HasSubstr("filesystem error"))));
+    }
+}
+
+TEST_F(BadInputTest, a_working_folder_that_was_removed_is_told) {
+    for (const char* const words :
+         {"run merge --seeds 1", "scenario init mine", "links dataset merge --out x"}) {
+        const core::Exit exit = core::run(
+            {"/bin/sh",
+             {"-c",
+              fmt::format("cd \"$1\" && mkdir gone && cd gone && rmdir ../gone && exec \"$0\" {}", words),
+              CLEARWAY_BINARY_DIR "/bin/clearway", folder().string()},
+             {},
+             folder() / "said.txt"});
+        EXPECT_EQ(exit.code, 4) << words;
+        EXPECT_THAT(read("said.txt"),
+                    HasSubstr("The working folder was removed: change to a folder that exists"));
+    }
 }
 
 TEST_F(BadInputTest, words_at_the_wrong_place_are_sent_to_the_right_one) {

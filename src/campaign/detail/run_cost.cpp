@@ -79,7 +79,8 @@ std::optional<double> measured_vehicles(const scenario::ScenarioConfig& config) 
 }
 
 bool holds_runs(const fs::path& folder) {
-    return fs::exists(folder / "manifest.json") && fs::exists(folder / "runs");
+    std::error_code unknown;  // such as a link that leads to itself
+    return fs::exists(folder / "manifest.json", unknown) && fs::exists(folder / "runs", unknown);
 }
 
 }  // namespace

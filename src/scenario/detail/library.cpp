@@ -23,7 +23,8 @@ std::vector<std::string> scenarios_here(const std::string& like) {
     std::error_code none;
     for (auto entry = std::filesystem::directory_iterator(".", none);
          !none && entry != std::filesystem::directory_iterator(); entry.increment(none)) {
-        if (std::filesystem::is_regular_file(entry->path() / file_name))
+        std::error_code unknown;  // such as a link that leads to itself
+        if (std::filesystem::is_regular_file(entry->path() / file_name, unknown))
             names.push_back((like.starts_with("./") ? "./" : "") + entry->path().filename().string());
     }
     return names;
