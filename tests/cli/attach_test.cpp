@@ -78,6 +78,14 @@ TEST_F(AttachTest, what_cannot_work_is_told_and_leaves_no_run_folder) {
     refused({"localhost:99999", "--out", "out"}, 3, "1 to 65535");
     refused({"localhost:8813", "--policy", "coridor", "--out", "out"}, 3, "corridor");
     refused({"localhost:1", "--out", "out"}, 4, "no SUMO answers");
+    for (const std::string& answer :
+         {std::string(16, '\0'), std::string(16, '\xff'), std::string("HTTP/1.1 400 Bad Request"),
+          std::string("\0\0\0\x04\0\0\0\0", 8), std::string("\0\0\0\x08\x01\x02\x03\x04", 8)}) {
+        const test::Listener listener;
+        std::thread other([&] { listener.answer_once(answer); });
+        refused({place(listener.port()), "--out", "out"}, 4, "no SUMO answers at localhost:");
+        other.join();
+    }
     {
         const WaitingSumo silent({"-n", network(), "-r", folder() / "routes.rou.xml"}, folder() / "sumo.log");
         refused({place(silent.port()), "--out", "out"}, 3, "--tripinfo-output");

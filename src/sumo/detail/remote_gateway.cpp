@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <libsumo/libtraci.h>
+#include <unistd.h>
 
 #include "sumo/detail/api_gateway.hpp"
 
@@ -145,11 +146,38 @@ class RemoteGateway : public libtraci::ApiGateway {
     std::unordered_set<std::string> signals_;  ///< Subscribed.
 };
 
+std::string words_at_abort;  // a signal handler has no other way to them
+
+extern "C" void tell_and_end(int) {
+    const ssize_t told = ::write(STDERR_FILENO, words_at_abort.data(), words_at_abort.size());
+    ::_exit(static_cast<int>(told < 0 ? core::ExitCode::runs_failed : core::ExitCode::environment));
+}
+
+/// SUMO's client asserts that the first answer is one of SUMO. As long as this object lives, a process that
+/// aborts says so last and ends with the exit code of an EnvironmentError.
+class AbortIsTold {
+  public:
+    explicit AbortIsTold(const std::string& words) {
+        words_at_abort = words + "\n";
+        std::signal(SIGABRT, tell_and_end);
+    }
+    ~AbortIsTold() { std::signal(SIGABRT, SIG_DFL); }
+    AbortIsTold(const AbortIsTold&) = delete;
+    AbortIsTold& operator=(const AbortIsTold&) = delete;
+};
+
+std::string no_sumo(const std::string& host, int port, const std::string& reason) {
+    return fmt::format(
+        "no SUMO answers at {}:{}: {}. Start it with --remote-port {}, and give its host and port", host,
+        port, reason, port);
+}
+
 /// The version that the SUMO at this address reports. libtraci waits for ever for an answer, so this runs in
 /// its own thread, which is abandoned when `patience` is over; the process ends then, too.
 std::string greet(const std::string& host, int port, core::Seconds patience) {
     auto promise = std::make_shared<std::promise<std::string>>();
     std::future<std::string> answer = promise->get_future();
+    const AbortIsTold told(no_sumo(host, port, "what answers there is another program"));
     std::thread([promise, host, port] {
         try {
             promise->set_value(api::Simulation::init(port, 0, host).second);
@@ -165,9 +193,7 @@ std::string greet(const std::string& host, int port, core::Seconds patience) {
     try {
         return answer.get();
     } catch (const std::exception& fault) {
-        throw core::EnvironmentError(fmt::format(
-            "no SUMO answers at {}:{}: {}. Start it with --remote-port {}, and give its host and port", host,
-            port, fault.what(), port));
+        throw core::EnvironmentError(no_sumo(host, port, fault.what()));
     }
 }
 
