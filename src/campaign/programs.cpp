@@ -1,7 +1,6 @@
 #include "campaign/programs.hpp"
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -12,40 +11,18 @@
 #include "core/build_stamp.hpp"
 #include "core/error.hpp"
 #include "core/process.hpp"
+#include "core/temporary_folder.hpp"
 #include "study/plan.hpp"
 
 namespace clearway::campaign {
-namespace {
-
-/// An empty file that is removed when this object is destroyed.
-class TemporaryFile {
-  public:
-    TemporaryFile() : path_((std::filesystem::temp_directory_path() / "clearway-XXXXXX").string()) {
-        const int descriptor = ::mkstemp(path_.data());
-        if (descriptor < 0) {
-            throw core::EnvironmentError(
-                fmt::format("{}: cannot write there. Set TMPDIR to a writable folder",
-                            std::filesystem::temp_directory_path().string()));
-        }
-        ::close(descriptor);
-    }
-    ~TemporaryFile() { ::unlink(path_.c_str()); }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    const std::string& path() const { return path_; }
-
-  private:
-    std::string path_;
-};
-
-}  // namespace
 
 std::optional<std::string> output_of(const std::string& program, const std::vector<std::string>& arguments) {
-    const TemporaryFile file;
+    const core::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "answer";
     const core::Exit exit =
-        core::run({.program = program, .arguments = arguments, .environment = {}, .output = file.path()});
+        core::run({.program = program, .arguments = arguments, .environment = {}, .output = file});
     if (!exit.ok()) return std::nullopt;
-    return core::tail(file.path(), 100);
+    return core::tail(file, 100);
 }
 
 std::string cure_of_no_start() {

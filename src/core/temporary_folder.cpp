@@ -21,6 +21,8 @@
 namespace clearway::core {
 namespace {
 
+constexpr const char* usual_prefix = "clearway-";
+
 /// The process that a folder is named after; nothing for other names.
 std::optional<pid_t> process_of(const std::string& name, const std::string& prefix) {
     if (!name.starts_with(prefix)) return std::nullopt;
@@ -69,7 +71,8 @@ std::filesystem::path temporary_place() {
 
 TemporaryFolder::TemporaryFolder() {
     const std::filesystem::path place = temporary_place();
-    std::string pattern = (place / "clearway-XXXXXX").string();
+    remove_left_behind(place, usual_prefix);
+    std::string pattern = (place / fmt::format("{}{}-XXXXXX", usual_prefix, ::getpid())).string();
     if (::mkdtemp(pattern.data()) == nullptr) throw no_folder(place.string(), errno);
     path_ = pattern;
 }

@@ -17,7 +17,9 @@ std::filesystem::path temporary_place();
 /// A folder that is removed with its contents when this object is destroyed.
 class TemporaryFolder {
   public:
-    /// A new folder in the system's temporary folder. Throws EnvironmentError when it cannot be made.
+    /// A new folder in the system's temporary folder, named after this process as those of process_folder:
+    /// what a killed process left goes when the next one is made. Throws EnvironmentError when it cannot be
+    /// made.
     TemporaryFolder();
     /// Takes over `folder`, which is made with its parents if missing. Throws as make_folder does.
     explicit TemporaryFolder(std::filesystem::path folder);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -44,15 +45,21 @@ TEST(TemporaryFolderTest, MakesTheFolderThatItIsGivenAndLeavesItsParents) {
 TEST(TemporaryFolderTest, SaysWhatToDoWhereNoneCanBeMade) {
     const char* const before = std::getenv("TMPDIR");
     const std::string kept = before == nullptr ? "" : before;
-    ::setenv("TMPDIR", "/proc", 1);
-    std::string message;
-    try {
-        const TemporaryFolder folder;
-    } catch (const EnvironmentError& error) {
-        message = error.what();
+    std::vector<std::string> messages;
+    for (const char* const place : {"/proc", "/nonexistent", "/dev/null", ""}) {
+        ::setenv("TMPDIR", place, 1);
+        try {
+            const TemporaryFolder folder;
+        } catch (const EnvironmentError& error) {
+            messages.emplace_back(error.what());
+        }
     }
     before == nullptr ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", kept.c_str(), 1);
-    EXPECT_THAT(message, AllOf(HasSubstr("/proc: cannot make a folder there: "), HasSubstr(". Set TMPDIR")));
+    ASSERT_EQ(messages.size(), 4U);
+    EXPECT_THAT(messages[0], HasSubstr("/proc: cannot make a folder there: "));
+    for (std::size_t at = 1; at < messages.size(); ++at)
+        EXPECT_THAT(messages[at], HasSubstr("TMPDIR: cannot make a folder there: "));
+    EXPECT_THAT(messages, ::testing::Each(HasSubstr(". Set TMPDIR to a writable folder")));
 }
 
 /// A process that has ended, and that nobody has begun anew.
@@ -61,6 +68,23 @@ pid_t ended_process() {
     if (child == 0) ::_exit(0);
     ::waitpid(child, nullptr, 0);
     return child;
+}
+
+TEST(TemporaryFolderTest, RemovesWhatAKilledProcessLeft) {
+    const TemporaryFolder place;
+    const std::filesystem::path left = place.path() / fmt::format("clearway-{}-a1b2c3", ended_process());
+    std::filesystem::create_directories(left / "below");
+    const char* const before = std::getenv("TMPDIR");
+    const std::string kept = before == nullptr ? "" : before;
+    ::setenv("TMPDIR", place.path().c_str(), 1);
+    {
+        const TemporaryFolder folder;
+        EXPECT_EQ(folder.path().parent_path(), place.path());
+        EXPECT_THAT(folder.path().filename().string(),
+                    testing::StartsWith(fmt::format("clearway-{}-", ::getpid())));
+    }
+    before == nullptr ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", kept.c_str(), 1);
+    EXPECT_FALSE(std::filesystem::exists(left));
 }
 
 TEST(ProcessFolderTest, RemovesWhatKilledProcessesLeftAndNothingElse) {
