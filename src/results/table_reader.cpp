@@ -56,7 +56,11 @@ std::string study_value(const Database& database, const char* key) {
 /// Opens `results.sqlite` of a run folder read-only and checks that it is of this version.
 Database open_database(const Store& store) {
     const std::filesystem::path file = store.folder() / database_name;
-    const core::OpenFile is_a_file(file);  // SQLite waits at a pipe
+    const core::OpenFile is_no_pipe(file);  // SQLite waits at one
+    std::error_code unknown;
+    if (std::filesystem::is_directory(file, unknown))
+        throw core::InputError({file.string(), "is a folder", "a database that this version wrote",
+                                "Remove it, or move it elsewhere: the tables are made from the runs"});
     Database database(file, SQLITE_OPEN_READONLY, fail);
     const std::string format = study_value(database, "format");
     if (format != fmt::format("{}", store.manifest().format))

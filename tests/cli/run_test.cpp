@@ -153,6 +153,18 @@ TEST_F(RunTest, results_prints_every_table_it_lists) {
     EXPECT_THAT(unknown.err, AllOf(HasSubstr("`vehicle`"), HasSubstr("vehicles")));
 }
 
+TEST_F(RunTest, a_folder_in_place_of_the_database_is_named) {
+    ASSERT_EQ(clearway(two_conditions("out", 1)).code, 0);
+    std::filesystem::remove(folder() / "out/results.sqlite");
+    std::filesystem::create_directory(folder() / "out/results.sqlite");
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"report", "out"}, {"export", "results", "out"}}) {
+        const Ended ended = clearway(words);
+        EXPECT_EQ(ended.code, 3) << words[0];
+        EXPECT_THAT(ended.err, AllOf(HasSubstr("out/results.sqlite: is a folder"), HasSubstr("Remove it")));
+    }
+}
+
 TEST_F(RunTest, results_of_a_folder_that_cannot_be_written_are_those_that_are_there) {
     ASSERT_EQ(clearway(two_conditions("out", 1)).code, 0);
     const std::string errors = clearway({"export", "results", "out", "errors"}).out;
