@@ -37,7 +37,9 @@ bool CsvReader::read_cell() {
         if (text_[at_] == '"') return read_quoted_cell(start);
         ++at_;
     }
-    cells_.push_back(text_.substr(start, at_ - start));
+    std::string_view cell = text_.substr(start, at_ - start);
+    if (is_at_end_of_row() && cell.ends_with('\r')) cell.remove_suffix(1);
+    cells_.push_back(cell);
     return pass_separator();
 }
 
@@ -56,8 +58,13 @@ bool CsvReader::read_quoted_cell(std::size_t start) {
         }
     }
     if (quoted) throw std::runtime_error("a quote is not closed");
+    if (is_at_end_of_row() && text_[at_ - 1] == '\r') cell.pop_back();
     cells_.emplace_back(cell);
     return pass_separator();
+}
+
+bool CsvReader::is_at_end_of_row() const {
+    return at_ >= text_.size() || text_[at_] == '\n';
 }
 
 bool CsvReader::pass_separator() {

@@ -52,8 +52,8 @@ void append_empty_cells(std::string& line) {
 /// Splits off the first line, without its end.
 std::string_view take_line(std::string_view& text);
 
-/// Splits a CSV text row by row. Only quoted cells are copied, because a report spends most of its time
-/// reading runs. The text must outlive the reader.
+/// Splits a CSV text row by row; rows end with a line feed, or with a carriage return before it. Only quoted
+/// cells are copied, because a report spends most of its time reading runs. The text must outlive the reader.
 class CsvReader {
   public:
     explicit CsvReader(std::string_view text) : text_(text) {}
@@ -68,6 +68,7 @@ class CsvReader {
     bool read_cell();
     bool read_quoted_cell(std::size_t start);
     bool pass_separator();
+    bool is_at_end_of_row() const;
 
     std::string_view text_;
     std::size_t at_ = 0;

@@ -90,6 +90,8 @@ std::string mean_times_csv(const MeanTimes& times) {
 MeanTimes read_mean_times(const std::filesystem::path& file, std::vector<Problem>& problems) {
     const std::string text = core::read_file(file);
     std::string_view rest = text;
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // spreadsheets write it
+    if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
     MeanTimes times;
     const std::optional<std::size_t> edges = read_origin(core::take_line(rest), times);
     if (!edges) {

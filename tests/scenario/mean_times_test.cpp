@@ -50,6 +50,16 @@ TEST_F(MeanTimesFile, gives_each_edge_what_was_written_and_nothing_to_the_others
     EXPECT_EQ(mean_s[measured_crossings().find_edge("B_east").value().value], 0.0);
 }
 
+TEST_F(MeanTimesFile, may_have_the_line_ends_and_the_mark_of_a_spreadsheet) {
+    std::string text = "\xEF\xBB\xBF" + std::string(head) + columns + "A_B,12,31.5\nB_A,5,8.25\n";
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2)
+        text.replace(at, 1, "\r\n");
+    const MeanTimes times = read(text);
+    ASSERT_EQ(times.edges.size(), 2U);
+    EXPECT_EQ(times.edges[0].time_s, 31.5);
+    EXPECT_EQ(times.edges[1].time_s, 8.25);
+}
+
 TEST_F(MeanTimesFile, is_refused_for_another_network) {
     const MeanTimes times = read(std::string(head) + columns + "A_B,12,31.5\nB_A,5,8\n");
     const auto problems =
