@@ -5,11 +5,11 @@
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "core/build_stamp.hpp"
 #include "core/error.hpp"
+#include "core/machine_failure.hpp"
 #include "core/process.hpp"
 #include "core/temporary_folder.hpp"
 #include "study/plan.hpp"
@@ -26,13 +26,7 @@ std::optional<std::string> output_of(const std::string& program, const std::vect
 }
 
 std::string cure_of_no_start() {
-    rlimit memory{};
-    if (::getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY)
-        return fmt::format(
-            "Its memory is limited to {} KiB, perhaps too few: raise the limit of `ulimit -v` "
-            "and give the same command again",
-            memory.rlim_cur / 1024);
-    return "Give the same command again; `clearway doctor` shows what is missing";
+    return core::cure_of_no_start("Give the same command again; `clearway doctor` shows what is missing");
 }
 
 std::string sister_program(const std::string& name) {

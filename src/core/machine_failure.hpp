@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -13,6 +14,17 @@ namespace clearway::core {
 inline EnvironmentError no_memory() {
     return EnvironmentError(
         "out of memory. Free some, or raise the limit of `ulimit -v`, and give the same command again");
+}
+
+/// What to do about a program that does not start: names the limit that a shell sets on memory (`ulimit -v`),
+/// where there is one.
+inline std::string cure_of_no_start(const std::string& otherwise) {
+    rlimit memory{};
+    if (::getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY) return otherwise;
+    return fmt::format(
+        "Its memory is limited to {} KiB, perhaps too few: raise the limit of `ulimit -v` and give the same "
+        "command again",
+        memory.rlim_cur / 1024);
 }
 
 /// The error to throw where another program or a library wrote only a part of `file` and does not say why.

@@ -154,7 +154,8 @@ bool ScenarioConfig::has_pedestrians() const {
 std::string ScenarioConfig::where(const std::string& key) const {
     const auto found = origins.find(key);
     if (found != origins.end()) return found->second;
-    return name.empty() ? key : fmt::format("scenario {}: {}", name, key);
+    if (name.empty()) return folder.empty() ? key : fmt::format("scenario in {}: {}", folder.string(), key);
+    return fmt::format("scenario {}: {}", name, key);
 }
 
 ScenarioConfig load(const std::string& name_or_path, const Options& options) {

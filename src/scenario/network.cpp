@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/machine_failure.hpp"
 #include "core/open_file.hpp"
 #include "core/process.hpp"
 #include "core/read_failure.hpp"
@@ -41,8 +42,9 @@ void run_netconvert(const ScenarioConfig& config, std::vector<std::string> argum
     constexpr int not_found = 127;
     if (exit.code == not_found)
         throw core::EnvironmentError(
-            "netconvert does not start. Install the package sumo, or give the same command again if the "
-            "machine failed");
+            "netconvert does not start. " +
+            core::cure_of_no_start(
+                "Install the package sumo, or give the same command again if the machine failed"));
     if (exit.ok()) return require_whole(*(std::ranges::find(command.arguments, "--output-file") + 1));
     const std::string complaint =
         detail::complaint_in(command.output, folder, resolve(config, config.network.file).string());

@@ -90,8 +90,11 @@ void set_members(const std::string& text, const std::string& where, Struct& targ
 /// Kinds that are not named get no weight.
 template <class Kinds>
 void set_kinds(const Given& given, Kinds& target, Problems& problems) {
-    core::for_each_field<Kinds>([&](const auto& field) { target.*field.member = 0.0; });
-    set_members(given.text, given.where, target, problems);
+    const std::size_t known = problems.size();
+    Kinds kinds;
+    core::for_each_field<Kinds>([&](const auto& field) { kinds.*field.member = 0.0; });
+    set_members(given.text, given.where, kinds, problems);
+    if (problems.size() == known) target = kinds;  // weights that were refused would be called 0
 }
 
 /// Incidents in place of those of the file.

@@ -251,6 +251,25 @@ TEST_F(BadInputTest, a_benchmark_that_is_given_as_a_scenario_is_named_with_its_o
                                      "files of scenarios). Say --benchmark eval_v1"));
 }
 
+TEST_F(BadInputTest, an_empty_scenario_names_its_folder) {
+    write("empty/scenario.toml", "");
+    const Ended ended = clearway({"run", "./empty", "--out", "out"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, HasSubstr("scenario in ./empty: name: is missing or empty"));
+}
+
+TEST_F(BadInputTest, weights_of_kinds_that_are_refused_are_not_called_0_too) {
+    write_line_scenario();
+    for (const char* const kinds : {"car=1e308,truck=1e308", "car=nan", "car=inf"}) {
+        const Ended ended = clearway({"run", "line", "--kinds", kinds, "--out", "out"});
+        EXPECT_EQ(ended.code, 3) << kinds;
+        EXPECT_THAT(ended.err, AllOf(HasSubstr("--kinds car: "), HasSubstr("is out of range"),
+                                     Not(HasSubstr("all weights are 0"))));
+    }
+    EXPECT_THAT(clearway({"run", "line", "--kinds", "car=0", "--out", "out"}).err,
+                HasSubstr("--kinds: all weights are 0"));
+}
+
 TEST_F(BadInputTest, kinds_given_twice_are_refused) {
     write_line_scenario();
     const Ended ended = clearway({"run", "line", "--kinds", "car=8,truck=2,car=3", "--out", "out"});
@@ -431,7 +450,13 @@ TEST_F(BadInputTest, a_missing_netconvert_exits_with_4) {
         clearway({"run", "line", "--seeds", "1", "--out", "out"},
                  {.environment = {{"PATH", folder().string()}, {"SUMO_HOME", folder().string()}}});
     EXPECT_EQ(ended.code, 4);
-    EXPECT_THAT(ended.err, HasSubstr("netconvert"));
+    EXPECT_THAT(ended.err, HasSubstr("netconvert does not start. Install the package sumo"));
+    const Ended limited =
+        clearway({"run", "line", "--seeds", "1", "--out", "out"},
+                 {.environment = {{"PATH", folder().string()}, {"SUMO_HOME", folder().string()}},
+                  .before = "ulimit -v 1000000000000"});
+    EXPECT_EQ(limited.code, 4);
+    EXPECT_THAT(limited.err, HasSubstr("netconvert does not start. Its memory is limited to 1000000000000 KiB"));
 }
 
 TEST_F(BadInputTest, a_published_data_set_is_one_snapshot) {
