@@ -6,6 +6,9 @@ from __future__ import annotations
 
 import argparse
 import base64
+import contextlib
+import errno
+import fcntl
 import hashlib
 import importlib.util
 import json
@@ -16,10 +19,12 @@ import site
 import subprocess
 import sys
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 
 EXIT_BAD_INPUT, EXIT_ENVIRONMENT = 3, 4
 HERE = Path(__file__).resolve().parent
+MARK = "_installed.json"  # in the package: where the programs are, and that an installation made it
 ENTRY_POINTS = "[gymnasium.envs]\nClearway = clearway._spec:register\n"
 
 
@@ -67,27 +72,114 @@ def target_of(arguments: argparse.Namespace) -> Path:
     return Path(told.stdout.strip())
 
 
-def install(source: Path, programs: Path, target: Path, version: str) -> None:
-    """Copies the package beside its place and swaps it in, so that no import ever sees half of it."""
-    package, fresh, old = target / "clearway", target / ".clearway.new", target / ".clearway.old"
-    for leftover in (fresh, old):
-        shutil.rmtree(leftover, ignore_errors=True)
-    target.mkdir(parents=True, exist_ok=True)
-    shutil.copytree(source, fresh, ignore=shutil.ignore_patterns("__pycache__"))
-    (fresh / "_installed.json").write_text(json.dumps({"programs": str(programs)}) + "\n")
-    if package.exists():
-        package.rename(old)
-    fresh.rename(package)
-    shutil.rmtree(old, ignore_errors=True)
-    for info in target.glob("clearway-*.dist-info"):
-        shutil.rmtree(info)
-    info = target / f"clearway-{version}.dist-info"
+def is_ours(package: Path) -> bool:
+    """Whether this is a folder that an installation of Clearway made, not a link to one."""
+    return not package.is_symlink() and (package / MARK).is_file()
+
+
+def is_our_record(info: Path) -> bool:
+    record = info / "RECORD"
+    return not info.is_symlink() and record.is_file() and f"clearway/{MARK}," in record.read_text(encoding="utf-8", errors="replace")
+
+
+def is_running(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (PermissionError, OverflowError):
+        pass
+    return True
+
+
+def remove_leftovers(target: Path) -> None:
+    """What installations left here that were killed. Those of running ones stay."""
+    for path in target.iterdir():
+        leftover = re.fullmatch(r"\.clearway\.([0-9]+)\.part", path.name)
+        if leftover and not path.is_symlink() and not is_running(int(leftover[1])):
+            shutil.rmtree(path, ignore_errors=True)
+
+
+@contextlib.contextmanager
+def alone_in(target: Path) -> Iterator[None]:
+    """Lets one installation after another into the folder, where its file system has locks."""
+    descriptor = os.open(target, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        with contextlib.suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(descriptor)
+
+
+def copy(source: Path, target: Path) -> None:
+    """As shutil.copytree, which collects errors; this raises the first."""
+    target.mkdir()
+    for path in sorted(source.iterdir()):
+        if path.is_dir():
+            if path.name != "__pycache__":
+                copy(path, target / path.name)
+        else:
+            shutil.copyfile(path, target / path.name)
+
+
+def prepare(source: Path, programs: Path, part: Path, version: str) -> Path:
+    """Fills a folder with the package and what pip reads of it, whose folder is returned."""
+    copy(source, part / "clearway")
+    (part / "clearway" / MARK).write_text(json.dumps({"programs": str(programs)}) + "\n")
+    info = part / f"clearway-{version}.dist-info"
     info.mkdir()
     (info / "METADATA").write_text(metadata(version))
     (info / "entry_points.txt").write_text(ENTRY_POINTS)
     (info / "INSTALLER").write_text("clearway\n")
-    files = sorted(file.relative_to(target).as_posix() for folder in (package, info) for file in folder.rglob("*"))
+    files = sorted(file.relative_to(part).as_posix() for file in part.rglob("*"))
     (info / "RECORD").write_text("".join(f"{file},,\n" for file in files) + f"{info.name}/RECORD,,\n")
+    return info
+
+
+def swap_in(part: Path, info: Path, target: Path) -> None:
+    """Puts the prepared folders in place of an earlier installation, which comes back if that fails."""
+    old = part / "old"
+    old.mkdir()
+    try:
+        for earlier in [target / "clearway", *target.glob("clearway-*.dist-info")]:
+            if is_ours(earlier) or is_our_record(earlier):
+                earlier.rename(old / earlier.name)
+        (part / "clearway").rename(target / "clearway")
+    except BaseException:
+        for earlier in old.iterdir():
+            earlier.rename(target / earlier.name)
+        raise
+    info.rename(target / info.name)
+
+
+def install(source: Path, programs: Path, target: Path, version: str) -> None:
+    """Fills a folder beside the package's place and swaps it in, so that no import ever sees half of it. What is there is replaced
+    only if it is an earlier installation."""
+    if target.exists() and not target.is_dir():
+        fail(EXIT_ENVIRONMENT, f"{target}: cannot be written: it is not a folder. Choose another with --to or --venv")
+    target.mkdir(parents=True, exist_ok=True)
+    with alone_in(target):
+        remove_leftovers(target)
+        for place, is_known in ((target / "clearway", is_ours), (target / f"clearway-{version}.dist-info", is_our_record)):
+            if os.path.lexists(place) and not is_known(place):
+                fail(EXIT_BAD_INPUT, f"{place}: is not an installation of Clearway and stays as it is (allowed: a folder that "
+                                     "`clearway python` made, or none). Choose another folder with --to or --venv, or rename it")
+        part = target / f".clearway.{os.getpid()}.part"
+        part.mkdir()
+        try:
+            swap_in(part, prepare(source, programs, part, version), target)
+        finally:
+            shutil.rmtree(part, ignore_errors=True)
+
+
+def told(error: OSError, target: Path) -> str:
+    """What failed, where, and what to do."""
+    cures = {errno.EFBIG: "Raise the limit of `ulimit -f` and give the same command again",
+             errno.ENOSPC: "Free some space there and give the same command again",
+             errno.EDQUOT: "Free some space there and give the same command again"}
+    cure = cures.get(error.errno or 0, "Choose another folder with --to or --venv, or change its permissions")
+    return f"{target}: cannot be written: {error.strerror or error}. {cure}"
 
 
 def build_wheel(wheel_directory: str, config_settings: dict | None = None, metadata_directory: str | None = None) -> str:
@@ -99,7 +191,7 @@ def build_wheel(wheel_directory: str, config_settings: dict | None = None, metad
     info = f"clearway-{version}.dist-info"
     content = {f"clearway/{file.relative_to(HERE / 'clearway').as_posix()}": file.read_bytes()
                for file in sorted((HERE / "clearway").rglob("*")) if file.is_file() and "__pycache__" not in file.parts}
-    texts = {"clearway/_installed.json": json.dumps({"programs": programs}) + "\n", f"{info}/METADATA": metadata(version),
+    texts = {f"clearway/{MARK}": json.dumps({"programs": programs}) + "\n", f"{info}/METADATA": metadata(version),
              f"{info}/WHEEL": "Wheel-Version: 1.0\nGenerator: clearway\nRoot-Is-Purelib: true\nTag: py3-none-any\n",
              f"{info}/entry_points.txt": ENTRY_POINTS}
     content.update((name, text.encode()) for name, text in texts.items())
@@ -127,7 +219,7 @@ def main() -> None:
     try:
         install(HERE / "clearway", Path(arguments.programs).resolve(), target, arguments.version)
     except OSError as error:
-        fail(EXIT_ENVIRONMENT, f"{target}: cannot be written: {error}")
+        fail(EXIT_ENVIRONMENT, told(error, target))
     print(f"clearway {arguments.version} is installed in {target}")
     if arguments.venv:
         print(f"    {arguments.venv}/bin/python3 -c 'import clearway; help(clearway)'")

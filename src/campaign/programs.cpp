@@ -9,6 +9,7 @@
 
 #include "core/build_stamp.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/machine_failure.hpp"
 #include "core/process.hpp"
 #include "core/temporary_folder.hpp"
@@ -31,6 +32,18 @@ std::string cure_of_no_start() {
 
 std::string sister_program(const std::string& name) {
     return core::program_folder() / name;
+}
+
+void require_python(const std::string& program) {
+    const core::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "answer";
+    const core::Exit exit = core::run({.program = program,
+                                       .arguments = {"-c", "import sys; print(sys.version_info.major * 6)"},
+                                       .environment = {},
+                                       .output = file});
+    if (exit.code == program_not_started || core::read_file(file) == "18\n") return;
+    throw core::InputError({"--python", fmt::format("{} is no Python 3", program),
+                            "a Python, such as /usr/bin/python3", "Leave the option out for that one"});
 }
 
 void become(const std::string& program, const std::vector<std::string>& arguments) {

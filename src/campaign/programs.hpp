@@ -29,6 +29,10 @@ inline constexpr const char* why_no_trainer =
     "and "
     "build again";
 
+/// Throws core::InputError for a program that is no Python 3: it may well end without an error and do
+/// nothing. One that cannot be started is not refused here.
+void require_python(const std::string& program);
+
 /// Replaces this process with `program`, a path. Throws core::EnvironmentError when it cannot be started.
 [[noreturn]] void become(const std::string& program, const std::vector<std::string>& arguments);
 

@@ -29,6 +29,7 @@ core::ExitCode install(const Arguments& arguments) {
     if (!arguments.virtual_environment.empty())
         words.insert(words.end(), {"--venv", arguments.virtual_environment});
     if (!arguments.folder.empty()) words.insert(words.end(), {"--to", arguments.folder});
+    campaign::require_python(arguments.python);
     campaign::become(arguments.python, words);
 }
 

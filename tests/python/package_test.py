@@ -1,6 +1,7 @@
 """Import, installation and what is said when something is missing."""
 import importlib.util
 import json
+import os
 import subprocess
 import sys
 import unittest
@@ -100,6 +101,71 @@ class InstallTest(FolderCase):
         ended = python(self.code, str(self.folder / "mine/bin/python3"), PYTHONPATH="", CLEARWAY_PROGRAMS="")
         self.assertEqual(ended.stdout.split()[1:], [str(PROGRAMS)], ended.stderr)
         self.assertTrue(ended.stdout.startswith(str(self.folder / "mine/lib")))
+
+    def installed(self, *words: str, limit: str = "true") -> subprocess.CompletedProcess:
+        """`clearway python --to packages`, under a limit of the shell."""
+        return subprocess.run(["bash", "-c", f'{limit}; exec "$@"', "bash", str(PROGRAMS / "clearway"), "python", *words, "--to",
+                               "packages"], capture_output=True, text=True, check=False)
+
+    def files(self) -> dict[str, str]:
+        return {str(path.relative_to(self.folder)): path.read_text() for path in self.folder.rglob("*") if path.is_file()}
+
+    def test_leaves_what_is_not_an_installation_as_it_is(self) -> None:
+        (self.folder / "packages").mkdir()
+        (self.folder / "elsewhere").mkdir()
+        for name in ("_installed.json", "RECORD"):  # as in an installation, but only a link leads there
+            self.write(f"elsewhere/{name}", "clearway/_installed.json,,")
+        theirs = {"a clone": lambda place: (place.mkdir(), (place / "thesis.txt").write_text("years")),
+                  "a file": lambda place: place.write_text("mine"),
+                  "a link": lambda place: place.symlink_to("../elsewhere"),
+                  "a link to nothing": lambda place: place.symlink_to("nowhere")}
+        for name in ("clearway", f"clearway-{clearway.__version__}.dist-info"):
+            for title, make in theirs.items():
+                with self.subTest(name=name, place=title):
+                    place = self.folder / "packages" / name
+                    make(place)
+                    before = self.files()
+                    for _ in range(2):
+                        ended = self.installed()
+                        self.assertEqual(ended.returncode, 3, ended.stdout)
+                        self.assertIn(f"packages/{name}: is not an installation of Clearway and stays as it is", ended.stderr)
+                        self.assertIn("--to", ended.stderr)
+                    self.assertEqual(self.files(), before)
+                    self.assertEqual(os.listdir("packages"), [name])
+                    subprocess.run(["rm", "-r", str(place)], check=True)
+
+    def test_removes_its_own_records_and_leftovers_alone(self) -> None:
+        program("python", "--to", "packages")
+        packages = self.folder / "packages"
+        own = packages / f"clearway-{clearway.__version__}.dist-info"
+        own.rename(packages / "clearway-0.0.1.dist-info")  # of an earlier version
+        kept = ["clearway-tools-1.dist-info", ".clearway.new", f".clearway.{os.getpid()}.part"]
+        for name in [*kept, ".clearway.2147483647.part"]:
+            (packages / name).mkdir()
+            (packages / name / "mine").write_text("kept")
+        program("python", "--to", "packages")
+        self.assertEqual(sorted(os.listdir(packages)), sorted(["clearway", own.name, *kept]))
+
+    def test_many_at_once_end_well(self) -> None:
+        calls = [subprocess.Popen([str(PROGRAMS / "clearway"), "python", "--to", "packages"], stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.PIPE, text=True) for _ in range(6)]
+        self.assertEqual([(call.communicate()[1], call.returncode) for call in calls], [("", 0)] * 6)
+        self.assertEqual(sorted(os.listdir("packages")), ["clearway", f"clearway-{clearway.__version__}.dist-info"])
+
+    def test_a_limit_of_files_is_told_and_an_earlier_installation_stays(self) -> None:
+        program("python", "--to", "packages")
+        before = self.files()
+        ended = self.installed(limit="ulimit -f 10")
+        self.assertEqual(ended.returncode, 4)
+        self.assertEqual(ended.stderr, "clearway: packages: cannot be written: File too large. Raise the limit of `ulimit -f` and give "
+                                       "the same command again\n")
+        self.assertEqual(self.files(), before)
+
+    def test_refuses_a_program_that_is_no_python(self) -> None:
+        for other in ("/bin/true", "/bin/echo", "/bin/false"):
+            ended = self.installed("--python", other)
+            self.assertEqual(ended.returncode, 3, other)
+            self.assertIn(f"--python: {other} is no Python 3", ended.stderr)
 
     def test_says_what_cannot_be_written(self) -> None:
         self.write("taken", "")
