@@ -18,6 +18,7 @@
 #include "campaign/printout.hpp"
 #include "core/error.hpp"
 #include "core/leftovers.hpp"
+#include "core/own_output.hpp"
 #include "core/progress.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
@@ -208,10 +209,7 @@ std::filesystem::path usual_folder(study::StudyConfig config, const experiment::
 
 /// It may hold nothing, or the rounds of an earlier call.
 void check_folder(const std::filesystem::path& folder) {
-    if (core::is_absent_or_empty(folder) || std::filesystem::exists(folder / EquipRounds::first_round))
-        return;
-    throw core::InputError({"--out", fmt::format("{} holds something else", folder.string()),
-                            "a new or empty folder, or one of clearway equip", "Choose another folder"});
+    core::require_own(folder, {"clearway equip", {EquipRounds::first_round}});
 }
 
 /// What both verbs begin with.

@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/leftovers.hpp"
+#include "core/own_output.hpp"
 #include "core/shipped_files.hpp"
 #include "experiment/link_job.hpp"
 #include "prediction/predictor.hpp"
@@ -342,7 +343,7 @@ core::ExitCode complete_runs(const links::LinkPlan& plan, const links::LinkRunFi
 
 core::ExitCode evaluate_links(const LinkRequest& request) {
     const links::LinkPlan plan = plan_of(request);
-    core::make_folder(plan.folder);
+    core::claim(plan.folder, {"clearway links evaluate", {".clearway-links", "evaluation.json"}});
     const links::LinkRunFiles files(plan, worker_hash());
     const core::ExitCode code = complete_runs(plan, files, request.workers);
     if (code != core::ExitCode::ok) {

@@ -7,7 +7,7 @@
 #include "campaign/printout.hpp"
 #include "campaign/worker_jobs.hpp"
 #include "core/counted.hpp"
-#include "core/leftovers.hpp"
+#include "core/own_output.hpp"
 #include "core/temporary_folder.hpp"
 #include "experiment/dataset_job.hpp"
 #include "samples/dataset_plan.hpp"
@@ -70,7 +70,7 @@ core::ExitCode write_mean_times(scenario::ScenarioConfig config, const MeanTimes
 
     const scenario::MeanTimes times{built.inputs_hash, order.study_seed, order.runs,
                                     means_of(sum_of(jobs), built.network)};
-    core::write_output(order.file, scenario::mean_times_csv(times));
+    core::write_new(order.file, scenario::mean_times_csv(times));
     const auto outside = std::ranges::count(built.network.edges(), false, &roads::Edge::internal);
     print({{{"scenario", config.name},
             {"file", order.file.string()},

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/leftovers.hpp"
+#include "core/own_output.hpp"
 #include "results/run_name.hpp"
 #include "scenario/config.hpp"
 #include "scenario/network.hpp"
@@ -117,7 +117,7 @@ core::ExitCode write_replay_page(const ReplayPage& page) {
         play.runs.push_back(view::view_of(*recording.reader, network, page.window, {}));
     const std::filesystem::path file = page.file.empty() ? usual_name(keys) : page.file;
     const std::string text = view::player_page(title, {{view::drawing_of(network)}, {play}});
-    core::write_output(file, text);
+    core::write_own(file, text, {"a page of clearway replay --view", view::page_mark});
     fmt::print("{}\n", file.string());
     fmt::print(stderr, "clearway: {}\n", written_words(file, text.size()));
     return core::ExitCode::ok;

@@ -16,12 +16,17 @@
 #include "campaign/study_run.hpp"
 #include "core/counted.hpp"
 #include "core/files.hpp"
+#include "core/leftovers.hpp"
+#include "core/own_output.hpp"
 #include "core/process.hpp"
 
 namespace clearway::campaign {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Holds the number of shards; the first file of a submission.
+constexpr const char* shards_file = "shards.txt";
 
 /// Work per shard, s, when the user gives no number of shards: long enough to outweigh its start, short
 /// enough to lose little with a node.
@@ -51,9 +56,9 @@ std::uint32_t shard_count(const SubmitRequest& request, const study::Plan& plan,
 
 /// Fixes the number of shards at the first submission: shards of two divisions would repeat much work.
 void claim(const fs::path& folder, std::uint32_t shards) {
-    const fs::path file = folder / "shards.txt";
+    const fs::path file = folder / shards_file;
     const std::string text = fmt::format("{}\n", shards);
-    if (!fs::exists(file)) return core::write_atomically(file, text);
+    if (!fs::exists(file)) return core::write_output(file, text);
     const std::string held = core::read_file(file);
     if (held == text) return;
     throw core::InputError(
@@ -107,7 +112,7 @@ study::Submission submission_of(const SubmitRequest& request, const study::Plan&
 void write_scripts(const study::Submission& submission) {
     for (const study::Script& script : study::scripts_of(submission)) {
         const fs::path file = submission.folder / script.name;
-        core::write_atomically(file, script.text);
+        core::write_output(file, script.text);
         fs::permissions(file, fs::perms::owner_exec | fs::perms::group_exec, fs::perm_options::add);
     }
 }
@@ -140,6 +145,7 @@ core::ExitCode submit(const study::StudyConfig& in_file, const study::StudyConfi
     if (config.most_runs != results::usual_most_runs)
         submission.study_options.insert(submission.study_options.end(),
                                         {"--most-runs", fmt::format("{}", config.most_runs)});
+    core::require_own(submission.folder, {"clearway study submit", {shards_file}});
     core::make_folder(submission.folder);
     claim(submission.folder, submission.shards);
     write_scripts(submission);

@@ -59,7 +59,7 @@ void convert(const std::vector<std::filesystem::path>& drawings, const std::stri
 /// Of a folder of clearway equip, which is no run folder.
 core::ExitCode write_equipment(const Arguments& arguments) {
     std::vector<std::filesystem::path> drawings;
-    core::make_folder(arguments.output);
+    core::claim(arguments.output, report::figure_folder());
     for (const char* const name : {"curve.svg", "map.svg"}) {
         const std::string drawing = core::read_file(arguments.folder / name);
         if (drawing.empty()) continue;

@@ -13,7 +13,7 @@
 #include "core/counted.hpp"
 #include "core/csv.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
+#include "core/own_output.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
 #include "report/text.hpp"
@@ -201,10 +201,11 @@ core::ExitCode show(const Arguments& arguments) {
     const scenario::BuiltNetwork built = scenario::build_network(config, folder.path());
     const std::vector<SignalSheet> sheets = scenario::signal_sheets(built.network, built.preemption);
     if (!arguments.picture.empty())
-        core::write_atomically(arguments.picture, scenario::signals_picture(built.network, config.title,
-                                                                            config.network.attribution));
+        core::write_own(arguments.picture,
+                        scenario::signals_picture(built.network, config.title, config.network.attribution),
+                        {"a picture of clearway scenario signals", scenario::picture_mark});
     if (!arguments.parameters.empty())
-        core::write_atomically(arguments.parameters, scenario::preemption_csv(built.network, to_edit(built)));
+        core::write_new(arguments.parameters, scenario::preemption_csv(built.network, to_edit(built)));
     campaign::print(printout_of(config.name, sheets), arguments.printing);
     if (!arguments.picture.empty())
         fmt::print(stderr, "clearway: map of the signals in {}\n", arguments.picture.string());

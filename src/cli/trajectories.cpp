@@ -10,6 +10,7 @@
 #include "cli/verb.hpp"
 #include "core/counted.hpp"
 #include "core/files.hpp"
+#include "core/own_output.hpp"
 #include "results/run_name.hpp"
 #include "scenario/sumo_files.hpp"
 
@@ -46,6 +47,7 @@ core::ExitCode write(const Arguments& arguments) {
         arguments.folder.empty()
             ? fmt::format("trajectories-{}-{}-{}", key.scenario, key.condition, key.replication)
             : arguments.folder;
+    core::claim(folder, {"clearway export trajectories", {".clearway-trajectories"}});
     core::make_folder(folder / "sumo");
     const trace::TrajectoryCounts counts = trace::write_trajectories(
         recording, network.network, {core::Seconds(arguments.every_s), core::Metres(arguments.reach_m)},

@@ -1,6 +1,7 @@
 #include "core/atomic_file.hpp"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -57,6 +58,26 @@ void AtomicFile::write(std::string_view bytes) {
 void AtomicFile::commit() {
     if (::fsync(descriptor_) != 0) fail();
     if (::rename(aside_.c_str(), file_.c_str()) != 0) fail();
+    finish();
+}
+
+bool AtomicFile::commit_new() {
+    if (::fsync(descriptor_) != 0) fail();
+    if (::renameat2(AT_FDCWD, aside_.c_str(), AT_FDCWD, file_.c_str(), RENAME_NOREPLACE) != 0) {
+        // Some file systems, such as NFS, have no such renaming. Their links do not replace either.
+        const bool is_unknown = errno == EINVAL || errno == ENOSYS;
+        if (is_unknown && ::link(aside_.c_str(), file_.c_str()) == 0) {
+            ::unlink(aside_.c_str());
+        } else {
+            if (errno == EEXIST) return false;
+            fail();
+        }
+    }
+    finish();
+    return true;
+}
+
+void AtomicFile::finish() {
     ::close(std::exchange(descriptor_, -1));
     flush_folder(file_.has_parent_path() ? file_.parent_path() : ".");
 }

@@ -25,8 +25,11 @@ class AtomicFile {
     const std::filesystem::path& aside() const { return aside_; }
     /// Puts the file in place of an earlier one. Nothing can be written afterwards.
     void commit();
+    /// Likewise where nothing is there. False if there is something, which stays.
+    bool commit_new();
 
   private:
+    void finish();
     [[noreturn]] void fail();
 
     std::filesystem::path file_;

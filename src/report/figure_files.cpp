@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/leftovers.hpp"
 #include "report/detail/figures.hpp"
@@ -30,13 +29,9 @@ constexpr const char* list_name = ".clearway-figures";
 /// Removes what an earlier export has written. Throws core::InputError for a folder that holds something
 /// else.
 void remove_former(const fs::path& folder) {
-    if (!fs::is_directory(folder)) return;
+    core::require_own(folder, figure_folder());
     core::remove_abandoned_parts(folder);
-    if (fs::is_empty(folder)) return;
-    if (!fs::exists(folder / list_name))
-        throw core::InputError({"--out", fmt::format("{} holds something else", folder.string()),
-                                "a new or empty folder, or one of clearway export figures",
-                                "Choose another folder"});
+    if (!fs::exists(folder / list_name)) return;
     std::istringstream names(core::read_file(folder / list_name));
     for (std::string name; std::getline(names, name);) {
         if (name.find_first_of("/.") != std::string::npos) continue;
@@ -149,6 +144,10 @@ void write_index(const FigureFiles& files, const std::filesystem::path& folder,
     }
     html += section.empty() ? "<p>Nothing to draw.</p>\n" : "</div>\n";
     core::write_output(folder / "index.html", html + "</main>\n</body>\n</html>\n");
+}
+
+core::OwnFolder figure_folder() {
+    return {"clearway export figures", {list_name}};
 }
 
 FigureFiles write_figures(const StudyFacts& study, const std::filesystem::path& folder) {

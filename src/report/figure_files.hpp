@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/own_output.hpp"
 #include "report/facts.hpp"
 
 namespace clearway::report {
@@ -25,6 +26,9 @@ struct FigureFiles {
     std::vector<std::filesystem::path> typeset;   ///< LaTeX, of tables.
     std::vector<FigureEntry> entries;             ///< In the order of the report.
 };
+
+/// By what `clearway export figures` knows the folders that it has written.
+core::OwnFolder figure_folder();
 
 /// Writes every figure of the report as NAME.svg, on white paper, and its data as NAME.csv; every table as
 /// NAME.csv and NAME.tex. Names are those of the page's downloads. Makes the folder, and removes what an

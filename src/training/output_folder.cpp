@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/leftovers.hpp"
+#include "core/own_output.hpp"
 
 namespace clearway::training {
 namespace {
@@ -49,7 +50,7 @@ void require_same_training(const nlohmann::ordered_json& found, const Identity& 
 
 OutputFolder::OutputFolder(std::filesystem::path folder, const Identity& identity)
     : folder_(std::move(folder)) {
-    core::make_folder(folder_);
+    core::claim(folder_, {"clearway links train", {".clearway-training", "summary.json", checkpoint_file}});
     core::remove_abandoned_parts(folder_);
     const std::initializer_list<std::pair<const char*, const char*>> files = {{"summary.json", cure},
                                                                               {checkpoint_file, cure_anew}};

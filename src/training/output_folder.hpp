@@ -27,7 +27,7 @@ void require_same_training(const nlohmann::ordered_json& found, const Identity& 
 class OutputFolder {
   public:
     /// Creates the folder and removes half-written files of killed writers. Throws core::EnvironmentError,
-    /// and core::InputError when results or a checkpoint of another training are there.
+    /// and core::InputError when results or a checkpoint of another training are there, or something else.
     OutputFolder(std::filesystem::path folder, const Identity& identity);
 
     const std::filesystem::path& path() const { return folder_; }

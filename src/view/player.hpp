@@ -30,6 +30,8 @@ std::string player_markup(const PlayList& list);
 /// The source that a Content-Security-Policy must allow for scripts: 'sha256-...'.
 std::string script_source();
 
+/// What the beginning of a page with a player holds, and no other page.
+inline constexpr std::string_view page_mark = "<div class=\"clearway-player\" data-mode=\"replay\">";
 /// A whole page with a player: one file that needs no server and loads nothing.
 std::string player_page(const std::string& title, const PlayList& list);
 

@@ -67,6 +67,11 @@ TEST_F(EquipTest, ranks_signals_and_continues_in_its_folder_without_new_runs) {
     EXPECT_EQ(clearway({"export", "figures", "out", "--out", "figures", "--svg-only"}).err,
               "clearway: written to figures: 2 figures as SVG\n");
     EXPECT_EQ(read("figures/map.svg"), read("out/map.svg"));
+    EXPECT_EQ(clearway({"export", "figures", "out", "--out", "figures", "--svg-only"}).code, 0);
+    std::filesystem::create_directory(folder() / "theirs");
+    write("theirs/map.svg", "mine");
+    EXPECT_EQ(clearway({"export", "figures", "out", "--out", "theirs", "--svg-only"}).code, 3);
+    EXPECT_EQ(read("theirs/map.svg"), "mine");
     EXPECT_THAT(read("out/report.html"), HasSubstr("<section id=\"equipment\">"));
     const std::string none = "out/round-01/runs/crossings/preempt_signals_none_equipped/00000/run.json";
     const auto made = std::filesystem::last_write_time(folder() / none);

@@ -77,6 +77,18 @@ TEST_F(LinksTest, judges_predictors_and_does_no_run_twice) {
     EXPECT_EQ(nlohmann::json::parse(again.out), judged);
 }
 
+TEST_F(LinksTest, of_a_folder_of_somebody_else_are_not_judged) {
+    std::filesystem::create_directory(folder() / "out");
+    write("out/evaluation.csv", "mine");
+    const Ended ended = clearway(evaluate({"--failure", "B10", "--predictor", "last_seen"}));
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err,
+                HasSubstr("--out: out holds something else (allowed: a new or empty folder, or one of "
+                          "clearway links evaluate)"));
+    EXPECT_EQ(read("out/evaluation.csv"), "mine");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder() / "out"), {}), 1);
+}
+
 TEST_F(LinksTest, one_and_two_jobs_give_the_same_files) {
     const auto run = [&](const char* jobs, const char* out) {
         return clearway({"links", "evaluate", "line", "--seeds", "2", "--validation-seeds", "2", "--failure",

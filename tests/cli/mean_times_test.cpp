@@ -1,4 +1,7 @@
 // Mean times of other days: written, named by a scenario, used, and refused.
+#include <chrono>
+#include <thread>
+
 #include "crossings.hpp"
 
 namespace clearway::cli {
@@ -6,9 +9,9 @@ namespace {
 
 class MeanTimesTest : public CrossingsTest {
   protected:
-    Ended make(const std::string& file) const {
-        return clearway(
-            {"scenario", "mean-times", "./crossings", "--out", file, "--seeds", "2", "--jobs", "1"});
+    Ended make(const std::string& file) const { return clearway(order(file)); }
+    static std::vector<std::string> order(const std::string& file) {
+        return {"scenario", "mean-times", "./crossings", "--out", file, "--seeds", "2", "--jobs", "1"};
     }
     Ended run(const std::string& out, const std::vector<std::string>& more = {}) const {
         std::vector<std::string> words = {"run",       "./crossings",
@@ -31,6 +34,14 @@ TEST_F(MeanTimesTest, are_made_on_other_days_and_used_by_a_run_and_its_replay) {
     EXPECT_THAT(read("crossings/mean.csv"),
                 AllOf(testing::StartsWith("# clearway mean times 1: network "), HasSubstr("\nA_B,16,")));
     EXPECT_EQ(make("crossings/mean.csv").code, 3) << "never over a file";
+    std::filesystem::create_directory(folder() / "tmp");
+    const core::Child late = start(order("late.csv"), {.environment = {{"TMPDIR", folder() / "tmp"}}});
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (std::filesystem::is_empty(folder() / "tmp") && std::chrono::steady_clock::now() < patience)
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    write("late.csv", "made meanwhile");
+    EXPECT_EQ(finish(late).code, 3);
+    EXPECT_EQ(read("late.csv"), "made meanwhile");
     write_scenario("B_east", "mean_times = \"mean.csv\"\n");
     const Ended done = run("out");
     ASSERT_EQ(done.code, 0) << done.err;

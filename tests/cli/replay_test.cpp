@@ -87,6 +87,33 @@ TEST_F(ReplayTest, a_run_or_two_side_by_side_become_one_page) {
     EXPECT_LT(read("cut.html").size(), read("line-mine-0.html").size());
 }
 
+TEST_F(ReplayTest, neither_a_page_nor_trajectories_take_the_place_of_something_else) {
+    ASSERT_EQ(run({"--record"}).code, 0);
+    const std::vector<std::string> others = {"out/manifest.json", recording, "out/report.html"};
+    for (const std::string& file : others) {
+        const std::string before = read(file);
+        const Ended ended = clearway({"replay", run_of_mine, "--view", "--out", file});
+        EXPECT_EQ(ended.code, 3) << file;
+        EXPECT_THAT(ended.err,
+                    HasSubstr(file + ": is there already (allowed: a new file, or a page of clearway "
+                                     "replay --view). Choose another name, or remove it"));
+        EXPECT_EQ(read(file), before) << file;
+    }
+    for (int time = 0; time < 2; ++time) {
+        EXPECT_EQ(clearway({"replay", run_of_mine, "--view", "--out", "page.html"}).code, 0) << time;
+        EXPECT_EQ(clearway({"export", "trajectories", run_of_mine, "--out", "ways"}).code, 0) << time;
+    }
+    std::filesystem::create_directory(folder() / "theirs");
+    write("theirs/trajectories.csv", "years");
+    const Ended ended = clearway({"export", "trajectories", run_of_mine, "--out", "theirs"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err,
+                HasSubstr("--out: theirs holds something else (allowed: a new or empty folder, or one "
+                          "of clearway export trajectories)"));
+    EXPECT_EQ(read("theirs/trajectories.csv"), "years");
+    EXPECT_FALSE(std::filesystem::exists(folder() / "theirs/sumo"));
+}
+
 TEST_F(ReplayTest, two_runs_with_other_traffic_go_side_by_side_with_a_word) {
     ASSERT_EQ(clearway({"run", "line", "--seeds", "2", "--no-solo", "--record", "--out", "out"}).code, 0);
     const Ended two =

@@ -116,6 +116,19 @@ TEST_F(ShardsTest, are_run_and_merged_by_local_processes) {
     EXPECT_EQ(other.code, 3);
     EXPECT_THAT(other.err, HasSubstr("already divided into 3 shards, not 2"));
     EXPECT_EQ(clearway({"study", "submit", "my.toml", "--shards", "99", "--out", "more"}).code, 3);
+    EXPECT_EQ(clearway({"study", "submit", "my.toml", "--shards", "3", "--out", "sub"}).code, 0);
+}
+
+TEST_F(ShardsTest, are_not_submitted_into_a_folder_of_somebody_else) {
+    std::filesystem::create_directory(folder() / "theirs");
+    write("theirs/submit.sh", "sbatch mine");
+    const Ended ended = clearway({"study", "submit", "my.toml", "--shards", "2", "--out", "theirs"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err,
+                HasSubstr("--out: theirs holds something else (allowed: a new or empty folder, or one "
+                          "of clearway study submit)"));
+    EXPECT_EQ(read("theirs/submit.sh"), "sbatch mine");
+    EXPECT_FALSE(std::filesystem::exists(folder() / "theirs/shards.txt"));
 }
 
 TEST_F(ShardsTest, are_run_and_merged_by_gnu_parallel) {

@@ -38,6 +38,14 @@ TEST_F(SignalsTest, are_listed_with_their_phases_and_what_their_programs_show) {
 TEST_F(SignalsTest, are_drawn_with_their_numbers) {
     ASSERT_EQ(clearway({"scenario", "signals", "./crossings", "--svg", "map.svg"}).code, 0);
     EXPECT_THAT(read("map.svg"), AllOf(HasSubstr("Two crossings"), HasSubstr(">2</text>")));
+    EXPECT_EQ(clearway({"scenario", "signals", "./crossings", "--svg", "map.svg"}).code, 0) << "its own map";
+    write("map.svg", "<svg>mine</svg>");
+    const Ended other = clearway({"scenario", "signals", "./crossings", "--svg", "map.svg"});
+    EXPECT_EQ(other.code, 3);
+    EXPECT_THAT(other.err,
+                HasSubstr("map.svg: is there already (allowed: a new file, or a picture of clearway "
+                          "scenario signals)"));
+    EXPECT_EQ(read("map.svg"), "<svg>mine</svg>");
 }
 
 TEST_F(SignalsTest, have_numbers_that_do_not_lie_upon_each_other) {

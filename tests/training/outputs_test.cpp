@@ -161,6 +161,22 @@ TEST_F(OutputFolderTest, refuses_a_folder_whose_training_cannot_be_told) {
     EXPECT_THAT(refusal(identity()), HasSubstr("mode = null"));
 }
 
+TEST_F(OutputFolderTest, refuses_a_folder_of_somebody_else_and_leaves_it) {
+    folder_.write("metrics.csv", "mine");
+    folder_.write("mine.2147483647.part", "half");
+    EXPECT_THAT(refusal(identity()),
+                HasSubstr("holds something else (allowed: a new or empty folder, or one of "
+                          "clearway links train)"));
+    EXPECT_EQ(core::read_file(folder_.path() / "metrics.csv"), "mine");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 2);
+}
+
+TEST_F(OutputFolderTest, takes_a_folder_again_in_which_it_was_killed) {
+    EXPECT_EQ(refusal(identity()), "accepted");
+    folder_.write("losses.csv", "without a summary");
+    EXPECT_EQ(refusal(identity()), "accepted");
+}
+
 TEST_F(OutputFolderTest, refuses_the_checkpoint_of_another_training) {
     Identity graphsage = identity();
     graphsage["mode"] = "graphsage";
