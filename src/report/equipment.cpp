@@ -85,8 +85,7 @@ std::string others_words(const analysis::MaybeEstimate& loss) {
         return fmt::format("lose {} s each ({})", estimate_or_dash(loss), shown_word(loss));
     analysis::MaybeEstimate saving = loss;
     saving->mean = -loss->mean;
-    if (loss->interval)
-        saving->interval = analysis::Interval{-loss->interval->high, -loss->interval->low};
+    if (loss->interval) saving->interval = analysis::Interval{-loss->interval->high, -loss->interval->low};
     return fmt::format("save {} s each ({})", estimate_or_dash(saving), shown_word(saving));
 }
 
@@ -238,10 +237,11 @@ std::vector<std::string> circumstances_of(const EquipmentFacts& facts) {
         left_out_sentence(facts.not_passed, "no EV passes in these seeds"),
         left_out_sentence(facts.seldom_passed, "fewer EVs pass than the candidates"),
         left_out_sentence(facts.switched_off, "the scenario's preemption parameters switch off"),
-        fmt::format("EV time, s: baseline {}, no signal equipped {}, all signals {}, alone {}. Gains count from no "
-                    "signal equipped.",
-                    estimate_or_dash(facts.baseline_s), estimate_or_dash(facts.none_s),
-                    estimate_or_dash(facts.all_s), estimate_or_dash(facts.alone_s)),
+        fmt::format(
+            "EV time, s: baseline {}, no signal equipped {}, all signals {}, alone {}. Gains count from no "
+            "signal equipped.",
+            estimate_or_dash(facts.baseline_s), estimate_or_dash(facts.none_s), estimate_or_dash(facts.all_s),
+            estimate_or_dash(facts.alone_s)),
         fmt::format("{}.", counted(facts.runs, "run"))};
     std::erase(sentences, "");
     return sentences;

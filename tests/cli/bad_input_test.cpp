@@ -456,7 +456,8 @@ TEST_F(BadInputTest, a_missing_netconvert_exits_with_4) {
                  {.environment = {{"PATH", folder().string()}, {"SUMO_HOME", folder().string()}},
                   .before = "ulimit -v 1000000000000"});
     EXPECT_EQ(limited.code, 4);
-    EXPECT_THAT(limited.err, HasSubstr("netconvert does not start. Its memory is limited to 1000000000000 KiB"));
+    EXPECT_THAT(limited.err,
+                HasSubstr("netconvert does not start. Its memory is limited to 1000000000000 KiB"));
 }
 
 TEST_F(BadInputTest, a_published_data_set_is_one_snapshot) {

@@ -159,7 +159,8 @@ TEST_F(HelpTest, a_word_that_should_be_a_number_is_told_from_a_number_out_of_ran
     EXPECT_THAT(clearway({"run", "merge", "--seeds", "x"}).err,
                 HasSubstr("--seeds: x is no whole number (allowed: 1 to 100000)"));
     for (const char* const seed : {"9223372036854775808", "18446744073709551616", "99999999999999999999"})
-        EXPECT_THAT(clearway({"run", "merge", "--seed", seed}).err, HasSubstr(std::string(seed) + " is out of range"));
+        EXPECT_THAT(clearway({"run", "merge", "--seed", seed}).err,
+                    HasSubstr(std::string(seed) + " is out of range"));
     EXPECT_THAT(clearway({"run", "merge", "--seeds", "0100001"}).err, HasSubstr("100001 is out of range"));
     EXPECT_THAT(clearway({"run", "merge", "--seeds", "0x10"}).err, HasSubstr("0x10 is"));
     EXPECT_THAT(clearway({"run", "merge", "--seeds", "0"}).err,
