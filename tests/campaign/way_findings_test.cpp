@@ -14,7 +14,7 @@ using testing::HasSubstr;
 /// alone.
 class WayFindings : public testing::Test {
   protected:
-    std::vector<Finding> findings(const std::string& incidents) const {
+    std::vector<Finding> findings(const std::string& incidents, const std::string& more = "") const {
         folder_.write("way.nod.xml",
                       "<nodes><node id=\"s\" x=\"-200\" y=\"0\"/><node id=\"a\" x=\"0\" y=\"0\"/>"
                       "<node id=\"b\" x=\"400\" y=\"0\"/><node id=\"c\" x=\"800\" y=\"0\"/>"
@@ -36,7 +36,8 @@ class WayFindings : public testing::Test {
         return way_findings(config, built.network,
                             "id,type,kind,depart_s,depart_lane,depart_speed,edges\n"
                             "one,t,ambulance,60.00,best,max,gate main goal\n"
-                            "two,t,ambulance,60.00,best,max,gate far\n");
+                            "two,t,ambulance,60.00,best,max,gate far\n" +
+                                more);
     }
 
   private:
@@ -62,6 +63,14 @@ TEST_F(WayFindings, name_those_whom_an_incident_cuts_off) {
     EXPECT_EQ(off[2].grade, Grade::note);
     EXPECT_THAT(off[2].advice, HasSubstr("time_to_teleport_s = -1"));
     EXPECT_EQ(findings("[[incident]]\nedge = \"far\"\nemergency_passes = 1\n")[1].grade, Grade::ok);
+}
+
+TEST_F(WayFindings, those_who_are_called_to_an_incident_are_not_cut_off) {
+    const std::string called = "emergency.call.0.0,t,ambulance,60.00,best,max,gate far\n";
+    EXPECT_EQ(findings("[[incident]]\nedge = \"far\"\n", called)[1].text,
+              "1 incident: no way round while all last for two");
+    EXPECT_EQ(findings("[[incident]]\nedge = \"gate\"\n", called)[1].text,
+              "1 incident: no way round while all last for one, two, emergency.call.0.0");
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ class AccidentTest(FolderCase):
         self.assertEqual(set(found), {"baseline", "navigate"})
         called = next(block for block in blocks(GUIDE, "3. Who is sent") if "[[call]]" in block)
         file.write_text(file.read_text(encoding="utf-8") + "\n" + called.replace('"..."', '"-142575694#2"'), encoding="utf-8")
+        self.assertIn("my-city is fit for a study", type_in(check))
         sent = commands(GUIDE, "3. Who is sent")
         self.assertEqual(len(sent), 2)
         type_in(sent[1], ("--seeds 10", "--seeds 1 --no-solo --out runs/sent"))
