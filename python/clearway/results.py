@@ -63,7 +63,7 @@ class Table(Mapping[str, np.ndarray]):
                 kind = "a text" if array.dtype.kind == "U" else "a number"
                 raise _program.InputError(f"column {column!r} is compared with {value!r} (allowed: {kind})")
             if column in self._names and value not in self._names[column]:
-                raise _program.InputError(f"the study has no {column} {value!r}; it has {', '.join(self._names[column])}"
+                raise _program.InputError(f"the study has no {column} {value!r}; it has {', '.join(filter(None, self._names[column]))}"
                                           f"{self._factor_with(value) or _program.did_you_mean(value, self._names[column])}")
             chosen &= array == value
         return Table({name: array[chosen] for name, array in self._columns.items()}, self._names)
