@@ -43,6 +43,10 @@ bool has_mark(const fs::path& file, std::string_view mark) {
 }  // namespace
 
 void require_own(const fs::path& folder, const OwnFolder& own) {
+    std::error_code unknown;
+    const fs::file_type found = fs::status(folder, unknown).type();
+    // Where a file stands in the way, making the folder says so.
+    if (found == fs::file_type::not_found || found == fs::file_type::regular) return;
     if (has_mark(folder, own) || is_absent_or_empty(folder)) return;
     throw InputError({"--out", fmt::format("{} holds something else", folder.string()),
                       fmt::format("a new or empty folder, or one of {}", own.verb), "Choose another folder"});

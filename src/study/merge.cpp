@@ -173,6 +173,7 @@ MergeResult merge(const std::vector<fs::path>& sources, const fs::path& out,
     for (const fs::path& folder : folders)
         require_same_study(first, results::Store::open(folder));
     claim(out, {});
+    core::make_folder(out);
     results::Store::refuse_others(out);
     const FolderLock lock(out);
     const results::Store target = results::Store::create(out, first.manifest());

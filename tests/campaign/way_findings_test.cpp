@@ -69,8 +69,8 @@ TEST_F(WayFindings, those_who_are_called_to_an_incident_are_not_cut_off) {
     const std::string called = "emergency.call.0.0,t,ambulance,60.00,best,max,gate far\n";
     EXPECT_EQ(findings("[[incident]]\nedge = \"far\"\n", called)[1].text,
               "1 incident: no way round while all last for two");
-    EXPECT_EQ(findings("[[incident]]\nedge = \"gate\"\n", called)[1].text,
-              "1 incident: no way round while all last for one, two, emergency.call.0.0");
+    EXPECT_EQ(findings("[[incident]]\nedge = \"goal\"\n", called)[1].text,
+              "1 incident: no way round while all last for one");
 }
 
 }  // namespace

@@ -124,9 +124,8 @@ TEST_F(ShardsTest, are_not_submitted_into_a_folder_of_somebody_else) {
     write("theirs/submit.sh", "sbatch mine");
     const Ended ended = clearway({"study", "submit", "my.toml", "--shards", "2", "--out", "theirs"});
     EXPECT_EQ(ended.code, 3);
-    EXPECT_THAT(ended.err,
-                HasSubstr("--out: theirs holds something else (allowed: a new or empty folder, or one "
-                          "of clearway study submit)"));
+    EXPECT_THAT(ended.err, HasSubstr("theirs holds something else (allowed: a new or empty folder, or one "
+                                     "of clearway study submit)"));
     EXPECT_EQ(read("theirs/submit.sh"), "sbatch mine");
     EXPECT_FALSE(std::filesystem::exists(folder() / "theirs/shards.txt"));
 }

@@ -118,7 +118,7 @@ TEST(ProgramsTest, a_worker_of_another_build_is_refused_before_anything_runs) {
 
 TEST(ProgramsTest, closed_streams_leave_a_run_as_it_is) {
     const support::TemporaryFolder folder;
-    const auto table_of = [&](const std::string& name, const std::string& closing, int code) {
+    const auto record_of = [&](const std::string& name, const std::string& closing, int code) {
         const std::string out = folder.path() / name;
         const Answer answer = call("sh", {"-c", "exec \"$0\" \"$@\" " + closing, path_of("clearway"), "run",
                                           "merge", "--no-solo", "--seeds", "1", "--jobs", "1", "--out", out});
@@ -127,13 +127,13 @@ TEST(ProgramsTest, closed_streams_leave_a_run_as_it_is) {
         EXPECT_EQ(answer.text.find(said) != std::string::npos,
                   code != 0 && closing.find('2') == std::string::npos)
             << closing << answer.text;
-        return core::read_file(out + "/runs.csv");
+        return core::read_file(out + "/runs/merge/corridor/00000/run.json");
     };
-    const std::string expected = table_of("open", "", 0);
-    EXPECT_EQ(table_of("no-errors", "2>&-", 0), expected);
-    EXPECT_EQ(table_of("no-input", "<&- 2>&-", 0), expected);
-    EXPECT_EQ(table_of("no-output", ">&-", 4), expected);
-    EXPECT_EQ(table_of("nothing", "<&- >&- 2>&-", 4), expected);
+    const std::string expected = record_of("open", "", 0);
+    EXPECT_EQ(record_of("no-errors", "2>&-", 0), expected);
+    EXPECT_EQ(record_of("no-input", "<&- 2>&-", 0), expected);
+    EXPECT_EQ(record_of("no-output", ">&-", 4), expected);
+    EXPECT_EQ(record_of("nothing", "<&- >&- 2>&-", 4), expected);
     const auto page_of = [&](const std::string& closing) {
         const std::string run = folder.path() / "open";
         const Answer answer =
