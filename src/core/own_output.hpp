@@ -14,8 +14,8 @@ struct OwnFolder {
     std::vector<const char*> marks;  ///< Names that only this verb puts there; any of them will do.
 };
 
-/// Throws InputError unless `folder` is missing, holds only hidden names and leftovers, or has a mark; and as
-/// holds_only does.
+/// Throws InputError unless `folder` is missing, a file (making a folder there then fails), holds only hidden
+/// names and leftovers, or has a mark; and as holds_only does.
 void require_own(const std::filesystem::path& folder, const OwnFolder& own);
 /// Likewise, and makes a folder that was missing or empty with its first mark, so that a call that is killed
 /// early can be given again. Throws EnvironmentError when it cannot be written.
