@@ -21,6 +21,7 @@
 #include "prediction/python_predictor.hpp"
 #include "python/part_process.hpp"
 #include "report/links.hpp"
+#include "study/plan.hpp"
 
 namespace clearway::campaign {
 namespace {
