@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <zlib.h>
 
 #include "town.hpp"
@@ -22,6 +23,9 @@ class BadMap : public ImportTest {
 
 TEST_F(BadMap, missing_and_empty_files) {
     EXPECT_THAT(refusal(request({folder() / "nowhere.osm"})), HasSubstr("does not exist"));
+    const auto pipe = folder() / "pipe.osm";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THAT(refusal(request({pipe})), HasSubstr("is neither a file nor a folder"));
     EXPECT_THAT(refused("empty.osm", ""), HasSubstr("is empty"));
 }
 

@@ -9,6 +9,7 @@
 #include <zlib.h>
 
 #include "core/error.hpp"
+#include "core/open_file.hpp"
 #include "core/read_failure.hpp"
 
 namespace clearway::scenario_import::detail {
@@ -48,6 +49,7 @@ struct PackedFile::Streams {
 PackedFile::PackedFile(const std::filesystem::path& file)
     : file_(file), streams_(std::make_unique<Streams>()) {
     if (std::filesystem::is_directory(file)) refuse(file, "is a folder");
+    const core::OpenFile is_no_pipe(file);  // the libraries wait at one
     packing_ = packing_of(file);
     if (packing_ == Packing::bzip2)
         streams_->bzip2 = BZ2_bzopen(file.c_str(), "rb");
