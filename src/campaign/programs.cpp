@@ -3,13 +3,13 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "core/build_stamp.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "core/machine_failure.hpp"
 #include "core/process.hpp"
 #include "core/temporary_folder.hpp"
@@ -17,13 +17,23 @@
 
 namespace clearway::campaign {
 
-std::optional<std::string> output_of(const std::string& program, const std::vector<std::string>& arguments) {
+namespace {
+
+/// How a program ends, and the last lines that it prints.
+std::pair<core::Exit, std::string> answer_of(const std::string& program,
+                                             const std::vector<std::string>& arguments) {
     const core::TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "answer";
     const core::Exit exit =
         core::run({.program = program, .arguments = arguments, .environment = {}, .output = file});
-    if (!exit.ok()) return std::nullopt;
-    return core::tail(file, 100);
+    return {exit, core::tail(file, 100)};
+}
+
+}  // namespace
+
+std::optional<std::string> output_of(const std::string& program, const std::vector<std::string>& arguments) {
+    const auto& [exit, text] = answer_of(program, arguments);
+    return exit.ok() ? std::optional(text) : std::nullopt;
 }
 
 std::string cure_of_no_start() {
@@ -35,13 +45,8 @@ std::string sister_program(const std::string& name) {
 }
 
 void require_python(const std::string& program) {
-    const core::TemporaryFolder folder;
-    const std::filesystem::path file = folder.path() / "answer";
-    const core::Exit exit = core::run({.program = program,
-                                       .arguments = {"-c", "import sys; print(sys.version_info.major * 6)"},
-                                       .environment = {},
-                                       .output = file});
-    if (exit.code == program_not_started || core::read_file(file) == "18\n") return;
+    const auto& [exit, text] = answer_of(program, {"-c", "import sys; print(sys.version_info.major * 6)"});
+    if (exit.code == program_not_started || text == "18\n") return;
     throw core::InputError({"--python", fmt::format("{} is no Python 3", program),
                             "a Python, such as /usr/bin/python3", "Leave the option out for that one"});
 }

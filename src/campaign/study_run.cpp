@@ -252,7 +252,7 @@ StudyResult run_part(const study::Plan& plan, const results::Store& store, const
         fmt::print(stderr, "clearway: {}: the {} is damaged: {}. It is kept in {}, and the run is {}\n",
                    results::run_name(store.folder(), damaged.key),
                    damaged.is_recording ? "recording" : "record", damaged.why, damaged.place.string(),
-                   damaged.is_recording ? "recorded again with --record" : "made again");
+                   damaged.is_recording ? "recorded again" : "made again");
     };
     const std::unique_ptr<python::Nursery> nursery = nursery_for(plan);
     StudyResult result = run_units(plan, store, workers, on_progress);

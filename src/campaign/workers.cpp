@@ -105,13 +105,17 @@ class Workers : private core::TaskList {
     }
 
     void set_damaged_aside() {
-        std::vector<RunKey> keys;
-        for (const study::PlannedUnit& planned : plan_.units)
+        std::vector<RunKey> keys, recorded;
+        for (const study::PlannedUnit& planned : plan_.units) {
             for (const experiment::ConditionSpec& condition : planned.unit.conditions)
                 keys.push_back(key_of(planned.unit, condition));
-        for (const results::SetAside& damaged : store_.set_damaged_aside(keys)) {
-            if (options_.on_set_aside) options_.on_set_aside(damaged);
+            if (planned.unit.recording == experiment::StepRecording::on)
+                recorded.insert(recorded.end(), keys.end() - std::ssize(planned.unit.conditions), keys.end());
         }
+        for (const auto& moved :
+             {store_.set_damaged_aside(keys), store_.set_damaged_recordings_aside(recorded)})
+            for (const results::SetAside& damaged : moved)
+                if (options_.on_set_aside) options_.on_set_aside(damaged);
     }
 
     bool is_complete(const experiment::RunJob& unit) const {

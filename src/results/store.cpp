@@ -16,6 +16,7 @@
 #include "core/files.hpp"
 #include "core/leftovers.hpp"
 #include "core/number.hpp"
+#include "core/own_output.hpp"
 #include "core/part_folder.hpp"
 #include "core/read_failure.hpp"
 #include "experiment/condition_json.hpp"
@@ -158,9 +159,7 @@ Store Store::create(const fs::path& folder, const Manifest& manifest) {
 }
 
 void Store::refuse_others(const fs::path& folder) {
-    if (fs::exists(folder / manifest_name) || core::is_absent_or_empty(folder)) return;
-    throw core::InputError({folder.string(), "is not empty and not a run folder", "a new or empty folder",
-                            "Choose another folder with --out"});
+    core::require_own(folder, {"clearway run", {manifest_name}});
 }
 
 Store Store::open(const fs::path& folder) {
@@ -383,8 +382,15 @@ std::vector<SetAside> Store::set_damaged_aside(const std::vector<experiment::Run
             const fs::path place = make_place(key);
             if (fs::exists(run_folder(key))) move_to(place / "run", run_folder(key));
             if (fs::exists(error_file(key))) move_to(place / "error.json", error_file(key));
-            moved.push_back({key, place, error.what(), false});
+            moved.push_back({key, place, error.what()});
         }
+    }
+    return moved;
+}
+
+std::vector<SetAside> Store::set_damaged_recordings_aside(const std::vector<experiment::RunKey>& keys) const {
+    std::vector<SetAside> moved;
+    for (const experiment::RunKey& key : keys) {
         try {
             check_recording(key);
         } catch (const core::InputError& error) {

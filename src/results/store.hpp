@@ -17,8 +17,8 @@ namespace clearway::results {
 struct SetAside {
     experiment::RunKey key;
     std::filesystem::path place;
-    std::string why;    ///< What is wrong, and in which file.
-    bool is_recording;  ///< Of a run whose other files are whole.
+    std::string why;            ///< What is wrong, and in which file.
+    bool is_recording = false;  ///< Of a run whose other files are whole.
 };
 
 /// The run folder of a study.
@@ -104,11 +104,12 @@ class Store {
     void forget_error(const experiment::RunKey& key) const;
     /// Throws core::InputError when a file of the run does not match its hash; its recording counts.
     void check(const experiment::RunKey& key) const;
-    /// Checks the files of these runs against their hashes and moves what is damaged to `damaged`, so that
-    /// such a run, or its recording, counts as missing. Reads all of them. No other process may write
-    /// meanwhile. Throws
-    /// core::EnvironmentError when a file cannot be moved.
+    /// Checks the files of these runs, but for recordings, against their hashes and moves what is damaged to
+    /// `damaged`, so that such a run counts as missing. Reads all of them. No other process may write
+    /// meanwhile. Throws core::EnvironmentError when a file cannot be moved.
     std::vector<SetAside> set_damaged_aside(const std::vector<experiment::RunKey>& keys) const;
+    /// Likewise the recordings of these runs, which are large.
+    std::vector<SetAside> set_damaged_recordings_aside(const std::vector<experiment::RunKey>& keys) const;
     /// Removes what killed writers left behind. No other process may write meanwhile.
     void remove_leftovers() const;
 

@@ -191,7 +191,7 @@ class CallPlacing {
     void put(const Call& call) {
         const auto place = place_of(call);
         if (!place || !is_open(place->edge)) return;
-        PlacedCall placed{.id = fmt::format("emergency.call.{}", row_),
+        PlacedCall placed{.id = fmt::format("{}{}", called_prefix, row_),
                           .edge = place->edge,
                           .position_m = place->position_m,
                           .at = core::Seconds(*comes_in_s(config_, call)),

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -61,6 +62,9 @@ struct Call {
                         "assumed"});
     }
 };
+
+/// With which the ids of called vehicles begin.
+inline constexpr std::string_view called_prefix = "emergency.call.";
 
 /// A call on a network.
 struct PlacedCall {

@@ -59,7 +59,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
                             "disk, NFS, Lustre mounted with `flock`)",
                             file.string(), std::strerror(reason)));
         throw core::EnvironmentError(
-            fmt::format("{}: another study runs in this folder ({}). Wait for its end, stop it, or choose "
+            fmt::format("{}: another command works in this folder ({}). Wait for its end, stop it, or choose "
                         "another folder with --out",
                         folder.string(), first_line(file)));
     }

@@ -94,9 +94,11 @@ void adopt_runs(const std::vector<fs::path>& folders, std::size_t number, const 
     const results::Store source = results::Store::open(folders[number]);
     const std::vector<experiment::RunKey> keys = source.complete_runs();
     for (const experiment::RunKey& key : keys) {
-        for (const results::SetAside& damaged : target.set_damaged_aside({key}))
-            result.damaged.push_back(
-                fmt::format("{}. It is kept in {}", damaged.why, damaged.place.string()));
+        for (const auto& moved :
+             {target.set_damaged_aside({key}), target.set_damaged_recordings_aside({key})})
+            for (const results::SetAside& damaged : moved)
+                result.damaged.push_back(
+                    fmt::format("{}. It is kept in {}", damaged.why, damaged.place.string()));
         try {
             const bool first = target.adopt(source, key) == results::Store::Written::first;
             ++(first ? result.adopted : result.duplicates);
@@ -173,7 +175,6 @@ MergeResult merge(const std::vector<fs::path>& sources, const fs::path& out,
     for (const fs::path& folder : folders)
         require_same_study(first, results::Store::open(folder));
     claim(out, {});
-    core::make_folder(out);
     results::Store::refuse_others(out);
     const FolderLock lock(out);
     const results::Store target = results::Store::create(out, first.manifest());

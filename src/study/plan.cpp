@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "core/folder_name.hpp"
 #include "core/part_folder.hpp"
 #include "core/plain_files.hpp"
@@ -207,7 +206,6 @@ void require_unchanged(const results::Store& store) {
 results::Store prepare_folder(const Plan& plan, const fs::path& folder) {
     check_roads(plan);
     if (fs::exists(folder / "manifest.json")) core::require_plain_files(folder);
-    core::make_folder(folder);
     results::Store::refuse_others(folder);
     const FolderLock lock(folder);
     results::Store store = results::Store::create(folder, plan.manifest);

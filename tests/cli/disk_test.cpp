@@ -88,7 +88,7 @@ TEST_F(DiskTest, with_a_study_at_work_refuses_a_second_one_and_names_the_first) 
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     const Ended second = study("out");
     EXPECT_EQ(second.code, 4);
-    EXPECT_THAT(second.err, AllOf(HasSubstr("another study runs in this folder"),
+    EXPECT_THAT(second.err, AllOf(HasSubstr("another command works in this folder"),
                                   HasSubstr("process " + std::to_string(first.pid))));
     EXPECT_EQ(finish(first).code, 0) << "the first is not disturbed";
 }

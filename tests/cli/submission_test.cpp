@@ -70,7 +70,7 @@ TEST_F(SubmissionTest, a_node_declared_dead_that_holds_the_folder_is_worked_besi
                    "exit $code\n"),
               0)
         << read("script.log") << read("sub/logs/shard-1.log");
-    EXPECT_THAT(read("sub/logs/shard-1.log"), HasSubstr("another study runs in this folder"));
+    EXPECT_THAT(read("sub/logs/shard-1.log"), HasSubstr("another command works in this folder"));
     const nlohmann::json result = merged();
     EXPECT_EQ(result.at("complete_runs"), runs);
     EXPECT_GE(result.at("runs_seen_before"), 4);

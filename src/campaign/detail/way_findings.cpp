@@ -61,7 +61,7 @@ Finding incident_finding(roads::RouteSearch& search, const std::vector<Trip>& tr
     std::vector<std::string> cut_off;
     std::vector<core::EdgeIndex> way;
     for (const Trip& trip : trips) {
-        const bool is_called = trip.id.starts_with("emergency.call.");  // to an incident: it stops before it
+        const bool is_called = trip.id.starts_with(scenario::called_prefix);  // it stops before
         const auto open_s = [&](core::EdgeIndex edge, double) {
             const bool is_closed = std::ranges::find(closed, edge) != closed.end();
             return is_closed && !(is_called && edge == trip.to) ? roads::no_way_s : search.free_s(edge);
