@@ -17,7 +17,7 @@ import sys
 import tempfile
 import time
 
-KILLED = 20  # One worker in so many units, on the average.
+KILLED = 20  # About one worker in so many units; in a short study one in every eighth part of it.
 GROWTH_KIB = 4096  # Of the parent in the second half; a run's row takes some hundred bytes.
 STUDY = """name = "soak"
 scenarios = ["merge"]
@@ -54,15 +54,16 @@ def sample(process, folder):
         return None
 
 
-def watch(study, folder, draw):
+def watch(study, folder, draw, runs):
     """Samples of the parent until it ends; kills workers."""
     samples, killed = [], 0
     while study.poll() is None:
         if seen := sample(study.pid, folder):
             samples.append(seen)
         workers = children(study.pid)
-        # About twice a second, and a unit takes about a second.
-        if workers and draw.random() < 0.5 / KILLED:
+        # About twice a second, and a unit takes about a second. What checks the program before the first unit is no worker.
+        begun = samples and samples[-1][0] > 0
+        if begun and workers and draw.random() < 0.5 / min(KILLED, runs / 8):
             os.kill(workers[0], signal.SIGKILL)
             killed += 1
         time.sleep(0.5)
@@ -97,17 +98,19 @@ def make_study(folder, runs):
     (folder / "study.toml").write_text(STUDY.format(replications=runs // 2), encoding="utf-8")
 
 
-def run_study(words, folder, draw):
+def run_study(words, folder, runs):
     """Samples, how many workers were killed, exit code, processes that are left. Ends the study when it is ended itself."""
     with open(folder / "log", "w", encoding="utf-8") as log, subprocess.Popen(
             words, cwd=folder, stdout=log, stderr=log, env={**os.environ, "TMPDIR": str(folder / "temporary")},
             start_new_session=True) as study:
         try:
-            samples, killed = watch(study, folder, draw)
+            samples, killed = watch(study, folder, random.Random(1), runs)
         finally:
             study.terminate()  # of no effect on one that has ended
     time.sleep(2.0)  # for the children of a worker that was killed
-    left = subprocess.run(["pgrep", "-a", "-s", str(study.pid)], check=False, capture_output=True, text=True).stdout
+    # Not those that have ended and that the first process of a container does not wait for.
+    words = ["pgrep", "-a", "-r", "D,R,S,T", "-s", str(study.pid)]
+    left = subprocess.run(words, check=False, capture_output=True, text=True).stdout
     return samples, killed, study.returncode, left
 
 
@@ -129,7 +132,7 @@ def main():
         folder.mkdir(exist_ok=True)
         make_study(folder, asked.runs)
         words = [asked.programs / "clearway", "study", "study.toml", "--out", "out", "--record", "--jobs", str(asked.jobs)]
-        samples, killed, code, processes = run_study(words, folder, random.Random(1))
+        samples, killed, code, processes = run_study(words, folder, asked.runs)
         wrong = judge(samples, asked.runs)
         complete = sum(1 for _ in (folder / "out" / "runs").glob("*/*/*/run.json"))
         recordings = sum(1 for _ in (folder / "out" / "recordings").rglob("*.h5"))
