@@ -1,4 +1,3 @@
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
@@ -33,8 +32,7 @@ int fail_usage() {
 
 int main(int argument_count, char** arguments) {
     namespace core = clearway::core;
-    core::open_standard_streams();
-    std::signal(SIGXFSZ, SIG_IGN);  // a file over `ulimit -f` is then an error that names it
+    core::begin_program();
     const std::string_view word = argument_count == 2 ? arguments[1] : "";
     try {
         if (word == "--version") {

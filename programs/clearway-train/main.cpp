@@ -1,6 +1,5 @@
 // clearway-train: trains link prediction. A program of its own because linking libtorch costs 0.24 s and 90
 // MB at each launch; `clearway links train` becomes this program.
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -121,8 +120,7 @@ int run(int argument_count, char** argument_values) {
 
 int main(int argument_count, char** argument_values) {
     using clearway::core::ExitCode;
-    clearway::core::open_standard_streams();
-    std::signal(SIGXFSZ, SIG_IGN);  // a file over `ulimit -f` is then an error that names it
+    clearway::core::begin_program();
     try {
         return clearway::training::run(argument_count, argument_values);
     } catch (const clearway::core::Error& error) {

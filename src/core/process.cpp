@@ -173,6 +173,23 @@ void open_standard_streams() {
     }
 }
 
+void begin_program() {
+    open_standard_streams();
+    std::signal(SIGXFSZ, SIG_IGN);
+    constexpr rlim_t usual = 8U << 20U;
+    constexpr rlim_t least = 1U << 20U;
+    rlimit stack{};
+    if (getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= usual) return;
+    stack.rlim_cur = std::min(usual, stack.rlim_max);
+    setrlimit(RLIMIT_STACK, &stack);
+    if (stack.rlim_cur >= least) return;
+    fmt::print(
+        stderr,
+        "{}: the stack is limited to {} KiB (allowed: 1024 or more). Raise the limit: ulimit -s 8192\n",
+        program_invocation_short_name, stack.rlim_cur / 1024);
+    std::exit(static_cast<int>(ExitCode::environment));
+}
+
 std::string shell_text(const std::vector<std::string>& words) {
     std::string text;
     for (const std::string& word : words)

@@ -61,6 +61,11 @@ Exit run(const Command& command);
 /// begin of a program, before it opens anything.
 void open_standard_streams();
 
+/// What each program does first. Opens the standard streams; lets a file over `ulimit -f` be an error that
+/// names it instead of a signal; raises a small soft limit of the stack (`ulimit -s`), at whose end a program
+/// is killed without a word. Ends the process, with a message, where the hard limit is below 1 MiB.
+void begin_program();
+
 /// Words as one shell command, quoted where necessary.
 std::string shell_text(const std::vector<std::string>& words);
 

@@ -444,6 +444,13 @@ TEST_F(BadInputTest, a_full_disk_exits_with_4_and_leaves_no_half_file) {
     EXPECT_FALSE(std::filesystem::exists(folder() / "out" / "manifest.json"));
 }
 
+TEST_F(BadInputTest, a_small_stack_is_raised_or_refused) {
+    EXPECT_EQ(clearway({"list"}, {.before = "ulimit -S -s 64"}).code, 0);
+    const Ended ended = clearway({"list"}, {.before = "ulimit -s 512"});
+    EXPECT_EQ(ended.code, 4);
+    EXPECT_THAT(ended.err, HasSubstr("the stack is limited to 512 KiB (allowed: 1024 or more). Raise"));
+}
+
 TEST_F(BadInputTest, a_missing_netconvert_exits_with_4) {
     write_line_scenario();
     const Ended ended =
