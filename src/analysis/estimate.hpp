@@ -113,8 +113,8 @@ inline std::size_t advised_replications(double deviation, double half_width, dou
 }
 
 /// Two-sided p value of Wilcoxon's signed-rank test on the paired differences: zeros are left out, ties get
-/// their mean rank; exact for up to 25 differences without zeros and ties, else normal with continuity and
-/// tie correction. Nothing when every difference is zero.
+/// their mean rank; exact for up to 25 differences that are not zero, else normal with continuity and tie
+/// correction. Nothing when every difference is zero.
 std::optional<double> wilcoxon_p(std::span<const double> condition, std::span<const double> baseline);
 
 /// Two-sided p value of the paired t test. Nothing below two pairs or without variation.

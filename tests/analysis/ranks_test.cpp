@@ -14,9 +14,16 @@ TEST(Wilcoxon, AgreesWithHollanderAndWolfe) {
     EXPECT_DOUBLE_EQ(*wilcoxon_p(second_visit, first_visit), 20.0 / 512.0);
 }
 
-TEST(Wilcoxon, AgreesWithStudentsSleepDataDespiteTiesAndAZero) {
-    // R: wilcox.test(paired = TRUE, exact = FALSE): V = 0, p 0.009091
-    EXPECT_NEAR(*wilcoxon_p(first_drug, second_drug), 0.009091, 5e-7);
+TEST(Wilcoxon, IsExactForStudentsSleepDataDespiteTiesAndAZero) {
+    // V = 0 of nine that are not zero: 1 of 512 subsets on each side, as exactRankTests::wilcox.exact counts.
+    EXPECT_DOUBLE_EQ(*wilcoxon_p(first_drug, second_drug), 2.0 / 512.0);
+}
+
+TEST(Wilcoxon, CountsTiesExactly) {
+    // Ranks 1.5, 1.5, 3 and 4, of which 1.5 and 3 are positive: 8 of the 16 sums are 4.5 or less.
+    EXPECT_DOUBLE_EQ(*wilcoxon_p(std::vector{1.0, -1.0, 2.0, -3.0}, std::vector<double>(4, 0.0)), 1.0);
+    // 1.5 alone is: 3 of 16 are 1.5 or less.
+    EXPECT_DOUBLE_EQ(*wilcoxon_p(std::vector{1.0, -1.0, -2.0, -3.0}, std::vector<double>(4, 0.0)), 0.375);
 }
 
 TEST(Wilcoxon, CountsExactlyWhatCanBeCountedByHand) {
@@ -30,12 +37,13 @@ TEST(Wilcoxon, ExactAndNormalAgreeWhereOneTakesOver) {
     std::vector<double> values;
     for (int row = 1; row <= 25; ++row)
         values.push_back(row % 3 == 0 ? -row : row);
-    const std::vector<double> zeros(25, 0.0);
-    const double exact = *wilcoxon_p(values, zeros);
-    values.push_back(0.0);  // A zero is left out, but forces the approximation.
-    const double approximate = *wilcoxon_p(values, std::vector<double>(26, 0.0));
-    EXPECT_NE(exact, approximate);
-    EXPECT_NEAR(exact, approximate, 0.003);
+    const auto p = [&] { return *wilcoxon_p(values, std::vector<double>(values.size(), 0.0)); };
+    const double exact = p();
+    values.push_back(0.0);
+    EXPECT_EQ(p(), exact) << "a zero is left out";
+    // V = 243 of 351: z = (243 - 175.5 - 0.5) / sqrt(1550.25) = 1.7017, by the normal table 0.0888.
+    values.back() = 26.0;
+    EXPECT_NEAR(p(), 0.088818, 5e-6);
 }
 
 TEST(Holm, AdjustsAsInTheTextbookExample) {
