@@ -1,7 +1,6 @@
 #include "scenario/call.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -15,6 +14,7 @@
 #include "roads/route_search.hpp"
 #include "scenario/config.hpp"
 #include "scenario/detail/checks.hpp"
+#include "scenario/detail/demand.hpp"
 #include "scenario/detail/road_place.hpp"
 #include "scenario/detail/way_out.hpp"
 
@@ -83,9 +83,12 @@ void check_moment(const ScenarioConfig& config, std::size_t row, Problems& probl
     if (!at_s) {
         problems.push_back({where, "is not given", "when the call comes in, s",
                             call.incident ? "set it, or known_after_s of the incident" : "set it"});
-    } else if (*at_s < time.warm_up_s || *at_s + call.spread_s + call.turnout_s >= time.horizon_s) {
-        const std::string spread =
-            call.spread_s > 0.0 ? fmt::format(", spread_s, {},", call.spread_s) : std::string();
+    } else if (*at_s < time.warm_up_s ||
+               time.latest_s(*at_s) + call.spread_s + call.turnout_s >= time.horizon_s) {
+        std::string spread;
+        if (time.events_spread_s) spread += fmt::format(", time.events_spread_s, {}", *time.events_spread_s);
+        if (call.spread_s > 0.0) spread += fmt::format(", spread_s, {}", call.spread_s);
+        if (!spread.empty()) spread += ",";
         problems.push_back(
             {where,
              *at_s < time.warm_up_s ? fmt::format("{} is before the warm-up ends", *at_s)
@@ -293,11 +296,9 @@ Calls place_calls(const ScenarioConfig& config, const roads::Network& network,
     return CallPlacing(config, network, incidents).all();
 }
 
-void draw_times(Calls& calls, const core::KeyedRandom& random) {
-    for (PlacedCall& call : calls.calls) {
-        const double share = random.uniform(core::Purpose::emergency, core::fnv1a64(call.id));
-        call.at.value += std::floor(100.0 * share * call.spread.value) / 100.0;
-    }
+void draw_times(Calls& calls, core::Seconds delay, const core::KeyedRandom& random) {
+    for (PlacedCall& call : calls.calls)
+        call.at.value += delay.value + detail::drawn_delay(random, call.id, call.spread.value).value;
     sort_by_time(calls);
 }
 

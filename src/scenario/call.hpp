@@ -100,8 +100,8 @@ struct Calls {
 Calls place_calls(const ScenarioConfig& config, const roads::Network& network,
                   const std::vector<PlacedIncident>& incidents);
 
-/// Draws when each call comes in, to 0.01 s, and puts them in that order. Every condition of a replication
-/// has the same times.
-void draw_times(Calls& calls, const core::KeyedRandom& random);
+/// Draws when each call comes in, to 0.01 s and after the `delay` of all events, and puts them in that order.
+/// Every condition of a replication has the same times.
+void draw_times(Calls& calls, core::Seconds delay, const core::KeyedRandom& random);
 
 }  // namespace clearway::scenario

@@ -120,6 +120,7 @@ struct Times {
     double step_length_s = 0.25;
     std::optional<double> time_to_teleport_s;
     std::optional<double> ignore_junction_blocker_s;
+    std::optional<double> events_spread_s;
 
     static constexpr auto fields() {
         using S = Times;
@@ -143,8 +144,15 @@ struct Times {
                         "A vehicle that has stood inside a junction for this long no longer blocks those who "
                         "cross its way; -1: it always does.",
                         "none: -1. New scenarios and imports are written with 10 s: "
-                        "docs/decisions/0016-locks.md"});
+                        "docs/decisions/0016-locks.md"},
+            core::Field{"events_spread_s", "s", &S::events_spread_s, 0.0, 86400.0,
+                        "Incidents, calls and [[emergency_trip]] come, together, up to this much later, by "
+                        "the seed.",
+                        "none: 0. At fixed times each meets signals in the same phase in every run"});
     }
+
+    /// The latest that an event of the file can come, for one that it has at `at_s`.
+    double latest_s(double at_s) const { return at_s + events_spread_s.value_or(0.0); }
 };
 
 /// What new scenarios and imports are written with, s: docs/decisions/0016-locks.md.

@@ -159,6 +159,7 @@ class Placing {
     /// Where emergency vehicles start, and when.
     void check_starts() {
         const Times& time = config_.time;
+        const double first_s = time.warm_up_s - time.latest_s(0.0);  // incidents may come later, vehicles not
         const auto has_station = std::ranges::any_of(config_.emergency_sites, [](const EmergencySite& site) {
             return site.kind != SiteKind::hospital;
         });
@@ -166,11 +167,10 @@ class Placing {
             for (std::size_t row = 0; row < config_.emergency_sites.size(); ++row) {
                 const EmergencySite& site = config_.emergency_sites[row];
                 if (has_station && site.kind == SiteKind::hospital) continue;
-                check_start(fmt::format("emergency_site[{}]", row), site.edge, time.warm_up_s, time.window_s);
+                check_start(fmt::format("emergency_site[{}]", row), site.edge, first_s, time.window_s);
             }
             for (std::size_t row = 0; row < config_.flows.size(); ++row)
-                check_start(fmt::format("flow[{}]", row), config_.flows[row].from, time.warm_up_s,
-                            time.window_s);
+                check_start(fmt::format("flow[{}]", row), config_.flows[row].from, first_s, time.window_s);
         }
         for (std::size_t row = 0; row < config_.emergency_trips.size(); ++row) {
             const EmergencyTrip& trip = config_.emergency_trips[row];
@@ -205,10 +205,13 @@ void check_one(const ScenarioConfig& config, std::size_t row, Problems& problems
                                                           : "has no place",
                             "edge, or longitude and latitude", "give one of the two"});
     const double to_s = end_s(config, incident);
-    if (incident.from_s >= config.time.horizon_s)
+    const Times& time = config.time;
+    if (time.latest_s(incident.from_s) >= time.horizon_s)
         problems.push_back({place(config, row, "from_s"),
                             fmt::format("{} is not before the end of the run", incident.from_s),
-                            fmt::format("below {} (time.horizon_s)", config.time.horizon_s), ""});
+                            fmt::format("below {} (time.horizon_s{})", time.horizon_s - time.latest_s(0.0),
+                                        time.events_spread_s ? " less time.events_spread_s" : ""),
+                            ""});
     else if (incident.from_s >= to_s)
         problems.push_back({place(config, row, "to_s"),
                             fmt::format("{} is not after from_s, {}", to_s, incident.from_s),

@@ -43,6 +43,13 @@ std::uint64_t simulator_seed(const core::KeyedRandom& random) {
     return 1 + random.below(largest - 1, core::Purpose::simulator, 0);
 }
 
+void delay(std::vector<PlacedIncident>& incidents, core::Seconds time) {
+    for (PlacedIncident& placed : incidents) {
+        placed.closed.from.value += time.value;
+        placed.closed.to.value += time.value;
+    }
+}
+
 /// SUMO separates additional files by commas, so it would take a path with a comma for two files.
 void refuse_commas(const std::filesystem::path& folder) {
     if (folder.string().find(',') == std::string::npos) return;
@@ -62,7 +69,9 @@ Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core
         config.measured ? detail::read_measured(context) : detail::generate(context);
     detail::add_emergency_trips(context, demand);
     Calls calls = place_calls(config, network.network, incidents);
-    draw_times(calls, context.random);
+    const core::Seconds events_delay = detail::events_delay(context);
+    delay(incidents, events_delay);
+    draw_times(calls, events_delay, context.random);
     detail::add_calls(context, calls, demand);
     detail::sort_by_departure(demand);
 

@@ -13,6 +13,7 @@ namespace clearway::scenario {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -98,6 +99,37 @@ TEST_F(CallTest, come_in_later_by_the_seed) {
         ElementsAre("call[0].at_s 500, spread_s, 40, and turnout_s, 60, are not before the end of the run"));
     // An incident that begins while the vehicle may leave.
     EXPECT_THAT(wrong("[[incident]]\nedge = \"straight\"\nfrom_s = 140.0\n" + text), SizeIs(1));
+}
+
+TEST_F(CallTest, events_of_a_scenario_come_later_together_by_the_seed) {
+    std::string head = called_head;
+    head.replace(head.find("[time]\n"), 7, "[time]\nevents_spread_s = 50.0\n");
+    const std::string events =
+        "[[incident]]\nedge = \"detour\"\nfrom_s = 300.0\nto_s = 400.0\n"
+        "[[emergency_trip]]\nfrom = \"west\"\nto = \"place\"\ndepart_s = 100.0\n"
+        "[[call]]\nedge = \"place\"\nat_s = 150.0\nturnout_s = 5.0\n";
+    std::set<double> delays;
+    for (std::uint32_t replication = 0; replication < 10; ++replication) {
+        const Prepared planned = prepared(events, head, replication);
+        ASSERT_THAT(planned.emergency, SizeIs(2));
+        const double delay_s = planned.emergency[0].depart.value - 100.0;
+        EXPECT_TRUE(delay_s >= 0.0 && delay_s < 50.0) << delay_s;
+        EXPECT_NEAR(planned.emergency[1].depart.value, 155.0 + delay_s, 1e-9);
+        EXPECT_NEAR(planned.calls.calls.at(0).at.value, 150.0 + delay_s, 1e-9);
+        EXPECT_NEAR(planned.incidents.at(0).closed.from.value, 300.0 + delay_s, 1e-9);
+        EXPECT_NEAR(planned.incidents.at(0).closed.to.value, 400.0 + delay_s, 1e-9);
+        delays.insert(delay_s);
+    }
+    EXPECT_THAT(delays, SizeIs(10));
+
+    EXPECT_THAT(
+        wrong("[[call]]\nedge = \"place\"\nat_s = 500.0\n", head),
+        ElementsAre("call[0].at_s 500, time.events_spread_s, 50, and turnout_s, 60, are not before the "
+                    "end of the run"));
+    EXPECT_THAT(wrong("[[incident]]\nedge = \"detour\"\nfrom_s = 550.0\n", head),
+                Contains("incident[0].from_s 550 is not before the end of the run"));
+    EXPECT_THAT(wrong("[[emergency_trip]]\nfrom = \"west\"\nto = \"place\"\ndepart_s = 560.0\n", head),
+                Contains("emergency_trip[0].depart_s 560 is after the horizon"));
 }
 
 TEST_F(CallTest, without_one_sites_and_configuration_are_as_they_were) {

@@ -111,14 +111,17 @@ void check_emergency_trips(const ScenarioConfig& config, Problems& problems) {
     for (std::size_t row = 0; row < config.emergency_trips.size(); ++row) {
         const EmergencyTrip& trip = config.emergency_trips[row];
         const std::string key = fmt::format("emergency_trip[{}]", row);
-        if (trip.depart_s < config.time.warm_up_s || trip.depart_s > config.time.horizon_s)
-            problems.push_back({config.where(key + ".depart_s"),
-                                fmt::format("{} is {}", trip.depart_s,
-                                            trip.depart_s < config.time.warm_up_s ? "before the warm-up ends"
-                                                                                  : "after the horizon"),
-                                fmt::format("{} (time.warm_up_s) to {} (time.horizon_s)",
-                                            config.time.warm_up_s, config.time.horizon_s),
-                                "change the departure or the warm-up"});
+        if (trip.depart_s < config.time.warm_up_s ||
+            config.time.latest_s(trip.depart_s) > config.time.horizon_s)
+            problems.push_back(
+                {config.where(key + ".depart_s"),
+                 fmt::format(
+                     "{} is {}", trip.depart_s,
+                     trip.depart_s < config.time.warm_up_s ? "before the warm-up ends" : "after the horizon"),
+                 fmt::format("{} (time.warm_up_s) to {} (time.horizon_s{})", config.time.warm_up_s,
+                             config.time.horizon_s - config.time.latest_s(0.0),
+                             config.time.events_spread_s ? " less time.events_spread_s" : ""),
+                 "change the departure or the warm-up"});
         bool known = false;
         core::for_each_field<EmergencyKinds>([&](const auto& field) { known |= trip.kind == field.name; });
         if (!known)

@@ -287,7 +287,17 @@ std::optional<RouteEdges> route_of(const DemandContext& context, const std::stri
     return std::nullopt;
 }
 
+core::Seconds drawn_delay(const core::KeyedRandom& random, std::string_view what, double spread_s) {
+    const double share = random.uniform(Purpose::emergency, core::fnv1a64(what));
+    return core::Seconds(std::floor(100.0 * share * spread_s) / 100.0);
+}
+
+core::Seconds events_delay(const DemandContext& context) {
+    return drawn_delay(context.random, "events", context.config.time.events_spread_s.value_or(0.0));
+}
+
 void add_emergency_trips(const DemandContext& context, PlannedDemand& demand) {
+    const double delay_s = events_delay(context).value;
     std::vector<core::Problem> problems;
     for (std::size_t row = 0; row < context.config.emergency_trips.size(); ++row) {
         const EmergencyTrip& trip = context.config.emergency_trips[row];
@@ -295,7 +305,7 @@ void add_emergency_trips(const DemandContext& context, PlannedDemand& demand) {
         if (!route) continue;
         demand.emergency.push_back(plan_emergency(context, fmt::format("emergency.trip.{}", row),
                                                   *core::value_from<traffic::VehicleKind>(trip.kind),
-                                                  trip.depart_s, *route));
+                                                  trip.depart_s + delay_s, *route));
     }
     if (!problems.empty()) throw core::InputError(problems);
 }

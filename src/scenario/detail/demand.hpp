@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/random.hpp"
@@ -42,6 +43,12 @@ PlannedDemand generate(const DemandContext& context);
 /// Measured route files: departures and routes as measured, a share of the cars automated. Throws
 /// core::InputError for files that are not route files, and for types that the configuration does not list.
 PlannedDemand read_measured(const DemandContext& context);
+
+/// How much later than at its time in the file something comes, by the seed: up to `spread_s`, to 0.01 s.
+core::Seconds drawn_delay(const core::KeyedRandom& random, std::string_view what, double spread_s);
+
+/// Likewise all events of a scenario: incidents, calls and `[[emergency_trip]]`.
+core::Seconds events_delay(const DemandContext& context);
 
 /// Emergency vehicles of `[[emergency_trip]]`, appended to `demand`. Throws core::InputError as `generate`
 /// does.
