@@ -23,7 +23,9 @@ class Sample:
         data = torch_geometric.data.Data(**{name: torch.from_numpy(array) for name, array in sample.arrays().items()})
     """
 
-    #: Node features, ``float32[vehicles, features]``.
+    #: Node features, ``float32[vehicles, features]``. Of ``--samples``: 3 cos kx, 3 sin kx, 3 cos ky, 3 sin ky with
+    #: k = 2 pi / 400 m, and exp(-age / 10 s), of the dead-reckoned place. Published: x and y, m; with 5 features also speed,
+    #: m/s, lane, and class (0 human, 1 automated, 2 emergency). `clearway.torchscript` gives a module marked ``dataset`` the same.
     x: np.ndarray
     #: Edges along which messages may go, both ways, ``int64[2, edges]``: the observed links.
     edge_index: np.ndarray

@@ -6,6 +6,11 @@ The module is called as ``module(x, edge_index, pairs, pair_features)`` and retu
   speed divided by 20 m/s; age of the report divided by 10 s; 1 for automated; 1 for emergency vehicles;
 * ``edge_index``: ``int64[2, links]``, observed links both ways;
 * ``pairs``: ``int64[2, n]``; ``pair_features``: ``float32[n, 2]``: last seen and dead-reckoned distance divided by the link radius.
+
+A module that was trained on `clearway.dataset` is saved with a mark, and then gets ``x``, ``edge_index``, ``edge_label_index`` and
+``edge_label_attr`` as a `clearway.datasets.Sample` of ``--samples`` has them::
+
+    torch.jit.save(torch.jit.script(module), "net.pt", _extra_files={"inputs": "dataset"})
 """
 from __future__ import annotations
 
@@ -31,8 +36,22 @@ def pair_features(observation: Observation) -> np.ndarray:
     return (distances / observation.link_radius_m).astype(np.float32)
 
 
+def dataset_node_features(observation: Observation) -> np.ndarray:
+    """``x`` of a `clearway.datasets.Sample`, ``float32[vehicles, 5]``."""
+    waves = [3.0 * wave(2.0 * np.pi / 400.0 * place) for place in (observation.x_m, observation.y_m) for wave in (np.cos, np.sin)]
+    return np.stack([*waves, np.exp(-observation.age_s / 10.0)], axis=1).astype(np.float32)
+
+
+def dataset_pair_features(observation: Observation) -> np.ndarray:
+    """``edge_label_attr`` of a `clearway.datasets.Sample`, ``float32[n, 1]``."""
+    return observation.pair_dead_reckoned_m.astype(np.float32).reshape(-1, 1)
+
+
 class Unusable(ValueError):
     """Why a file cannot be a predictor. The message says all, so no traceback is shown."""
+
+
+_INPUTS = {"observation": (node_features, pair_features), "dataset": (dataset_node_features, dataset_pair_features)}
 
 
 class TorchScript(Predictor):
@@ -47,14 +66,20 @@ class TorchScript(Predictor):
                            "does not") from None
         torch.set_num_threads(1)
         try:
-            self._module = torch.jit.load(file, map_location="cpu").eval()
+            marks = {"inputs": b""}
+            self._module = torch.jit.load(file, map_location="cpu", _extra_files=marks).eval()
         except RuntimeError as error:
             raise Unusable(f"{file} is not a TorchScript file (torch.jit.save writes one; {weights}): "
                            f"{str(error).splitlines()[0]}") from None
+        inputs = marks["inputs"].decode() or "observation"
+        if inputs not in _INPUTS:
+            raise Unusable(f"{file}: inputs \"{inputs}\" are not known (allowed: {', '.join(_INPUTS)}). Save it with one of them in "
+                           "_extra_files, or without")
+        self._of_nodes, self._of_pairs = _INPUTS[inputs]
         self._torch = torch
 
     def predict(self, observation: Observation) -> np.ndarray:
         torch = self._torch
-        inputs = (node_features(observation), observation.edge_index, observation.pairs, pair_features(observation))
+        inputs = (self._of_nodes(observation), observation.edge_index, observation.pairs, self._of_pairs(observation))
         with torch.no_grad():
             return self._module(*(torch.from_numpy(array) for array in inputs)).numpy().reshape(-1)

@@ -7,6 +7,7 @@ import sys
 import unittest
 
 import clearway
+import numpy as np
 from support import FolderCase, PROGRAMS, SOURCE, program
 
 GALLERY = SOURCE / "examples/python"
@@ -119,12 +120,57 @@ class TorchTest(FolderCase):
         self.assertEqual(script["trace_hash"][0], plain["trace_hash"][0])
         self.assertEqual(script["dark_links_true_positive"][0], plain["dark_links_true_positive"][0])
         self.assertGreater(plain["dark_links_true_positive"][0], 0)
+        torch.jit.save(torch.jit.script(Near()), "odd.pt", _extra_files={"inputs": "odd"})
+        self.assertIn('inputs "odd" are not known (allowed: observation, dataset)', self.message_of(
+            clearway.InputError, lambda: clearway.run(
+                "intersection", [clearway.Condition("no", policy="corridor", predictor="odd.pt")], seeds=1, out="other")))
         (self.folder / "no.pt").write_bytes(b"nothing")
         self.assertIn("is not a TorchScript file", self.message_of(clearway.InputError, lambda: clearway.run(
             "intersection", [clearway.Condition("no", policy="corridor", predictor="no.pt")], seeds=1, out="other")))
         self.assertIn("near.reach is unknown", self.message_of(clearway.InputError, lambda: clearway.run(
             "intersection", [clearway.Condition("no", policy="corridor", predictor="near.pt", set={"near.reach": 1})], seeds=1,
             out="other")))
+
+    @unittest.skipUnless(has_torch(), "torch is not installed (Debian: python3-torch)")
+    def test_a_torch_script_of_a_data_set_is_given_what_the_data_set_holds(self) -> None:
+        import torch
+
+        class Near(torch.nn.Module):
+            def forward(self, x, edge_index, pairs, pair_features):  # noqa: ANN001, ANN201
+                return (pair_features[:, 0] + x.shape[1] < 55.0).to(torch.float32)
+
+        torch.jit.save(torch.jit.script(Near()), "near.pt", _extra_files={"inputs": "dataset"})
+        self.write("seen.py", f"""
+import json
+from clearway.torchscript import TorchScript, dataset_node_features, dataset_pair_features
+
+class Seen(TorchScript):
+    def __init__(self):
+        super().__init__({str(self.folder / 'near.pt')!r})
+
+    def predict(self, observation):
+        answer, distance = super().predict(observation), dataset_pair_features(observation)
+        assert (answer == (distance[:, 0] + 5 < 55)).all()
+        pairs = dict(zip(map(str, observation.pairs.T.tolist()), distance[:, 0].tolist()))
+        with open({str(self.folder / 'seen.json')!r}, "a") as file:
+            file.write(json.dumps([observation.time_s, dataset_node_features(observation).tolist(), pairs]) + "\\n")
+        return answer
+""")
+        words = [str(PROGRAMS / "clearway"), "links"]
+        subprocess.run([*words, "dataset", "intersection", "--samples", "--failure", "B10", "--seeds", "1", "--out", "data"], check=True,
+                       capture_output=True)
+        subprocess.run([*words, "evaluate", "intersection", "--failure", "B10", "--seeds", "1", "--validation-seeds", "1", "--predictor",
+                        "seen.py:Seen"], check=True, capture_output=True)
+        seen: dict[float, list] = {}  # of the replication in the data set, and of one for validation
+        for time_s, x, pairs in map(json.loads, (self.folder / "seen.json").read_text().splitlines()):
+            seen.setdefault(time_s, []).append((np.array(x), pairs))
+        samples = [sample for sample in clearway.dataset("data") if sample.origin["time_s"] in seen]
+        self.assertGreater(len(samples), 20)
+        for sample in samples:
+            same = [pairs for x, pairs in seen[sample.origin["time_s"]] if x.shape == sample.x.shape and np.allclose(x, sample.x, atol=1e-4)]
+            self.assertTrue(same, sample.origin)
+            for pair, distance in zip(sample.edge_label_index.T.tolist(), sample.edge_label_attr[:, 0]):
+                self.assertAlmostEqual(same[0][str(pair)], distance, 3)
 
 
 if __name__ == "__main__":
