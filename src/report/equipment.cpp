@@ -60,9 +60,10 @@ std::vector<SheetCell> ranked_row(const EquipmentFacts& facts, std::size_t equip
 std::string names_of(const EquipmentFacts& facts) {
     std::vector<std::string> names;
     for (const EquippedSignal& signal : facts.ranked)
-        names.push_back(fmt::format(
-            "{} ({})", signal.number,
-            signal.streets.empty() ? short_signal_name(signal.signal) : printable(signal.streets)));
+        names.push_back(
+            fmt::format("{} (No. {})",
+                        signal.streets.empty() ? short_signal_name(signal.signal) : printable(signal.streets),
+                        signal.number));
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -93,8 +94,9 @@ std::string together_sentence(const EquipmentFacts& facts) {
     std::vector<std::string> pairs;
     for (const EquipPairFacts& pair : facts.pairs)
         if (pair.chosen)
-            pairs.push_back(fmt::format("{} with {}, which gain {} s ({})", pair.numbers[0], pair.numbers[1],
-                                        estimate_or_dash(pair.both_gain), shown_word(pair.both_gain)));
+            pairs.push_back(fmt::format("No. {} with {}, which gain {} s ({})", pair.numbers[0],
+                                        pair.numbers[1], estimate_or_dash(pair.both_gain),
+                                        shown_word(pair.both_gain)));
     return pairs.empty() ? "" : fmt::format("Chosen together: {}.", fmt::join(pairs, "; "));
 }
 
@@ -166,7 +168,10 @@ Sheet ranked_sheet(const EquipmentFacts& facts, LastRow last) {
     Sheet sheet{ranked_columns(), {}};
     for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
         sheet.rows.push_back(ranked_row(facts, rank + 1, facts.ranked[rank]));
-    if (last == LastRow::all) sheet.rows.push_back(ranked_row(facts, facts.signals, all_of(facts)));
+    if (last == LastRow::all) {
+        sheet.rows.push_back(ranked_row(facts, facts.signals, all_of(facts)));
+        sheet.rows.back().front() = SheetCell();  // how many they are would look like a rank
+    }
     return sheet;
 }
 
@@ -338,6 +343,7 @@ std::string equipment_json(const EquipmentFacts& facts) {
 std::string equipment_csv(const EquipmentFacts& facts) {
     Sheet sheet = detail::ranked_sheet(facts, detail::LastRow::all);
     const analysis::Estimate nothing{};
+    sheet.rows.back().front() = facts.signals;
     sheet.rows.back()[2] = std::string();
     sheet.rows.insert(sheet.rows.begin(), ranked_row(facts, 0, {0, "", "", std::nullopt, nothing, nothing}));
     return detail::csv_of(sheet);

@@ -20,13 +20,13 @@ namespace {
 
 constexpr std::size_t drawn_candidates = 30;  ///< Those with the greatest gains; the table has all.
 
-/// A disc with the signal's number: filled where the gain is shown.
-std::string disc(const core::Spot& at, const std::string& number, bool shown) {
+/// A disc with the rank: filled where the gain is shown.
+std::string disc(const core::Spot& at, const std::string& rank, bool shown) {
     return fmt::format(
         "<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\"/><text class=\"{}\" x=\"{:.1f}\" "
         "y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
         shown ? "dot better" : "station", at.x, at.y, core::disc_radius, shown ? "onDot" : "rank", at.x,
-        at.y + 4.0, number);
+        at.y + 4.0, rank);
 }
 
 void draw_ranks(detail::MapCanvas& canvas, const EquipmentFacts& facts) {
@@ -52,8 +52,7 @@ void draw_ranks(detail::MapCanvas& canvas, const EquipmentFacts& facts) {
         const std::size_t rank = ranks.at(facts.roads->signals[row].id);
         if (spots[row] != places[row])
             canvas.path({{places[row].x, places[row].y}, {spots[row].x, spots[row].y}}, "zero");
-        const EquippedSignal& signal = facts.ranked[rank];
-        canvas.add(disc(spots[row], std::to_string(signal.number), is_shown(signal.gain)));
+        canvas.add(disc(spots[row], std::to_string(rank + 1), is_shown(facts.ranked[rank].gain)));
     }
 }
 
@@ -180,7 +179,8 @@ Figure equipment_map_figure(const EquipmentFacts& facts) {
     draw_ranks(canvas, facts);
     canvas.credit(facts.attribution);
     canvas.legend(map_entries(facts));
-    return {"map", "Where they are", canvas.finish(), "Signals bear their numbers.", {}};
+    return {
+        "map", "Where they are", canvas.finish(), "Discs bear the order, the first column of the table.", {}};
 }
 
 }  // namespace detail

@@ -209,6 +209,30 @@ std::string locks_of(const ScenarioFacts& scenario, const ConditionFacts& condit
     return words;
 }
 
+/// `3 EVs came to a closed road (baseline: 12); `, or empty where none did in either.
+std::string incidents_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    const ConditionFacts* const baseline = scenario.baseline_of(condition);
+    const std::uint64_t met = condition.count("emergency_met_incident");
+    const std::uint64_t met_before = baseline == nullptr ? 0 : baseline->count("emergency_met_incident");
+    if (met + met_before == 0) return {};
+    return fmt::format("{} came to a closed road (baseline: {}); ", counted(met, "EV"), met_before);
+}
+
+/// What trials of other units and other ways found, or empty without them.
+std::string regrets_of(const ConditionFacts& condition, Script script) {
+    std::string text;
+    const MaybeEstimate& wrong = condition.metric("wrong_unit_share").estimate;
+    const MaybeEstimate& unit_s = condition.metric("unit_regret_s").estimate;
+    if (wrong && unit_s)
+        text += fmt::format("the wrong unit in {} % of decisions, {} s lost each; ",
+                            number(100.0 * wrong->mean, {0, script}), estimate(unit_s, {1, script}));
+    const MaybeEstimate& way_s = condition.metric("way_regret_s").estimate;
+    if (way_s) text += fmt::format("{} s lost on each way against the best; ", estimate(way_s, {1, script}));
+    if (const std::uint64_t missing = condition.count("units_missing"); missing > 0)
+        text += fmt::format("{} missing; ", counted(missing, "called unit"));
+    return text;
+}
+
 /// `2 EVs cut off by an incident; `, or empty.
 std::string cut_off_of(const ConditionFacts& condition) {
     const double cut_off = condition.total("emergency_cut_off");
@@ -228,7 +252,8 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     Verdict words = lead(scenario, condition, script);
     words.finding = absent + cut_off_of(condition) + words.finding;
     std::string& text = words.figures;
-    text.insert(0, locks_of(scenario, condition, script));
+    text.insert(0, locks_of(scenario, condition, script) + incidents_of(scenario, condition) +
+                       regrets_of(condition, script));
     const std::string others = analysis::other_objections(condition.objections);
     if (!others.empty()) text += "; " + others;
     if (shown_interval(condition.difference(primary)) != nullptr) text += costs(scenario, condition, script);

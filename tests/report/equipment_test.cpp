@@ -108,9 +108,10 @@ TEST(Equipment, HasPairsThatWereTriedTogether) {
     facts.pairs = {{{1, 4}, about(2.0, 3.0), true, false},
                    {{4, 9}, about(21.0, 4.0), false, true, about(42.0, 5.0)}};
     const std::string text = flat_text(facts);
-    EXPECT_THAT(text, AllOf(HasSubstr("21.0 [17.0, 25.0]  shown"),
-                            HasSubstr("Chosen together: 4 with 9, which gain 42.0 [37.0, 47.0] s (shown)."),
-                            Not(HasSubstr("Not shown:"))));
+    EXPECT_THAT(text,
+                AllOf(HasSubstr("21.0 [17.0, 25.0]  shown"),
+                      HasSubstr("Chosen together: No. 4 with 9, which gain 42.0 [37.0, 47.0] s (shown)."),
+                      Not(HasSubstr("Not shown:"))));
     EXPECT_LT(text.find("21.0 [17"), text.find("2.0 [-1.0, 5.0]")) << "the greatest gain first";
     EXPECT_EQ(
         pairs_csv(facts),
@@ -125,10 +126,11 @@ TEST(Equipment, HasPairsThatWereTriedTogether) {
 TEST(Equipment, EndsWithTheAnswer) {
     const std::string text = flat_text(two_of_twelve());
     const std::string answer =
-        text.substr(text.find("Equip first: 4 (Gate <Road> / High Street), 9 (south of"));
+        text.substr(text.find("Equip first: Gate <Road> / High Street (No. 4), south of"));
     EXPECT_THAT(answer, HasSubstr("42.0 [38.0, 46.0]"));
     EXPECT_THAT(text, HasSubstr("Not shown: the gain of rank 2"));
     EXPECT_THAT(text, HasSubstr("Stopped at 2 of 5"));
+    EXPECT_THAT(text, testing::ContainsRegex("- +- +all signals")) << "no rank 12";
     EXPECT_LE(answer.size(), 6U * 80U) << "six lines at the end of a terminal";
 }
 
@@ -212,6 +214,10 @@ TEST(Equipment, IsACurveFromNoneToAllAsCsv) {
     EXPECT_EQ(rows[2],
               "1,4,north<&>,Gate <Road> / High Street,30,26,34,true,30,26,34,0.6,0.5,0.3,0.7,31,27,35");
     EXPECT_EQ(rows[4], "12,,,,,,,,50,45,55,1,2,1,3,,,");
+    EquipmentFacts few = two_of_twelve();
+    few.ranked[0].gain->n = 4;
+    EXPECT_THAT(lines_of(equipment_csv(few))[2], HasSubstr("High Street,30,,,false,"))
+        << "no interval from fewer than five pairs";
 }
 
 TEST(Equipment, HasItsCandidatesAsCsv) {
@@ -266,7 +272,7 @@ TEST(Equipment, HasAPageWithAnswerMapTablesAndCommand) {
     facts.roads = three_roads();
     facts.attribution = "OpenStreetMap contributors";
     EXPECT_THAT(equipment_map(facts), AllOf(HasSubstr("OpenStreetMap contributors</text>"),
-                                            HasSubstr("text-anchor=\"middle\">4</text>")));
+                                            HasSubstr("text-anchor=\"middle\">1</text>")));
     std::ostringstream page;
     write_equipment_page(facts, page);
     const std::string html = page.str();

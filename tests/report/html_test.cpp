@@ -72,7 +72,7 @@ TEST(Page, marks_blocked_roads_on_the_map) {
     report::RoadMap& roads = *study.scenarios[0].roads;
     roads.incidents = {{roads.edges[0].id, 60.0, 900.0}, {"not-there", 0.0, 1.0}};
     const std::string page = page_of(study);
-    EXPECT_EQ(count_of(page, "<path class=\"block\""), 2u);  // One on the map, one in its legend.
+    EXPECT_EQ(count_of(page, "<circle class=\"block\""), 2u);  // One on the map, one in its legend.
     EXPECT_THAT(page, HasSubstr("road blocked for a while"));
 }
 

@@ -50,6 +50,19 @@ TEST(MapCanvas, keeps_the_credit_clear_of_what_stands_beside_the_scale_bar) {
     EXPECT_GE(number_of(svg, "Map data", " y") - number_of(svg, "100 m", " y"), 14.0);
 }
 
+TEST(MapCanvas, breaks_a_long_credit_into_two_lines_below_the_scale_bar) {
+    detail::MapCanvas canvas("t", diamond());
+    canvas.scale_bar();
+    canvas.credit(
+        "Scenarios of the project Example (Author and Author 2015), shipped by a simulator, package tools");
+    const std::string svg = canvas.finish();
+    EXPECT_THAT(svg,
+                ::testing::HasSubstr(">Scenarios of the project Example (Author and Author 2015),</text>"));
+    EXPECT_THAT(svg, ::testing::HasSubstr(">shipped by a simulator, package tools</text>"));
+    EXPECT_GE(number_of(svg, "Scenarios", " y") - number_of(svg, "100 m", " y"), 14.0);
+    EXPECT_GE(number_of(svg, "shipped", " y") - number_of(svg, "Scenarios", " y"), 11.0);
+}
+
 TEST(Grid, breaks_long_headings_of_columns_so_that_none_meets_its_neighbour) {
     const std::vector<std::string> names = {"Green", "corridor", "preempt_signals", "check_in_out",
                                             "line_of_sight_far_away"};

@@ -8,6 +8,7 @@
 namespace clearway::report {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -63,6 +64,30 @@ TEST(Verdict, says_first_whom_an_incident_cut_off) {
         if (metric.metric.name == "emergency_cut_off") metric.values = {1.0, 0.0, 2.0};
     EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(),
                 StartsWith("3 EVs cut off by an incident; helped: "));
+}
+
+TEST(Verdict, tells_who_met_an_incident_and_what_wrong_units_and_ways_cost) {
+    ScenarioFacts scenario = tests::scenario("merge");
+    const auto text = [&] { return verdict(scenario, scenario.conditions[1], Script::plain).text(); };
+    EXPECT_THAT(text(), Not(AnyOf(HasSubstr("closed road"), HasSubstr("lost"), HasSubstr("missing"))));
+    const auto set = [](ConditionFacts& condition, const char* name, const analysis::Values& values,
+                        analysis::MaybeEstimate estimate) {
+        for (analysis::MetricSummary& metric : condition.metrics) {
+            if (metric.metric.name != name) continue;
+            metric.values = values;
+            metric.estimate = estimate;
+        }
+    };
+    set(scenario.conditions[0], "emergency_met_incident", {2.0, 3.0}, {});
+    set(scenario.conditions[1], "emergency_met_incident", {1.0, 0.0}, {});
+    set(scenario.conditions[1], "wrong_unit_share", {}, analysis::Estimate{5, 0.25, 0.0, {}});
+    set(scenario.conditions[1], "unit_regret_s", {}, analysis::Estimate{5, 8.125, 0.0, {}});
+    set(scenario.conditions[1], "way_regret_s", {}, analysis::Estimate{5, 1.5, 0.0, {}});
+    set(scenario.conditions[1], "units_missing", {1.0, 0.0}, {});
+    EXPECT_THAT(
+        text(),
+        HasSubstr("1 EV came to a closed road (baseline: 5); the wrong unit in 25 % of decisions, 8.1 s "
+                  "lost each; 1.5 s lost on each way against the best; 1 called unit missing; "));
 }
 
 TEST(Verdict, does_not_call_a_fifth_of_a_second_help) {

@@ -84,7 +84,15 @@ void draw_locks(MapCanvas& canvas, const RoadMap& roads, const ScenarioMap& map)
     }
 }
 
-/// A bar across the middle of the edge.
+/// The sign for it: a bar on a disc.
+std::string no_entry(double x, double y) {
+    return fmt::format(
+        "<circle class=\"block\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"7\"/><path class=\"blockBar\" "
+        "d=\"M{:.1f} {:.1f}h8v3h-8z\"/>\n",
+        x, y, x - 4.0, y - 1.5);
+}
+
+/// In the middle of the edge.
 void draw_incidents(MapCanvas& canvas, const RoadMap& roads) {
     for (const MapIncident& one : roads.incidents) {
         const auto edge = roads.find_edge(one.edge);
@@ -94,7 +102,7 @@ void draw_incidents(MapCanvas& canvas, const RoadMap& roads) {
         const MapPlace& a = shape[(shape.size() - 1) / 2];
         const MapPlace& b = shape[shape.size() / 2];
         const auto [x, y] = canvas.place({(a.first + b.first) / 2.0, (a.second + b.second) / 2.0});
-        canvas.add(fmt::format("<path class=\"block\" d=\"M{:.1f} {:.1f}h12v4h-12z\"/>\n", x - 6.0, y - 2.0));
+        canvas.add(no_entry(x, y));
     }
 }
 
@@ -146,8 +154,7 @@ std::vector<LegendEntry> entries_of(const RoadMap& roads, const ScenarioMap& map
     if (!map.locks.empty())
         entries.push_back({"<path class=\"lock\" d=\"M17 3l6 6m0 -6l-6 6\"/>",
                            "vehicles locked each other (pale: baseline)"});
-    if (!roads.incidents.empty())
-        entries.push_back({"<path class=\"block\" d=\"M14 4h12v4h-12z\"/>", "road blocked for a while"});
+    if (!roads.incidents.empty()) entries.push_back({no_entry(20.0, 5.0), "road blocked for a while"});
     if (!roads.calls.empty())
         entries.push_back({"<circle class=\"call\" cx=\"20\" cy=\"6\" r=\"5\"/>", "EVs are called here"});
     if (losing)

@@ -10,7 +10,8 @@ namespace clearway::report::detail {
 namespace {
 
 constexpr double margin = 12.0;
-constexpr double bar_space = 40.0;  // a line for the scale bar, one for the credit
+constexpr double bar_space = 52.0;          // a line for the scale bar, two for the credit
+constexpr std::size_t credit_letters = 62;  // that fit in a line
 constexpr double most_height = 330.0;
 constexpr double flattest = 0.22;  // height over width
 constexpr double largest_stretch = 10.0;
@@ -82,7 +83,7 @@ void MapCanvas::scale_bar() {
     for (const double factor : std::array{2.0, 5.0}) {
         if (factor * power <= longest) metres = factor * power;
     }
-    const double y = frame_.height - 26.0;
+    const double y = frame_.height - 38.0;
     path({{margin, y}, {margin + metres * frame_.scale, y}}, "line s0");
     text(margin + metres * frame_.scale + 6.0, y + 4.0,
          fmt::format(
@@ -92,7 +93,16 @@ void MapCanvas::scale_bar() {
 }
 
 void MapCanvas::credit(const std::string& words) {
-    if (!words.empty()) text(width - margin, frame_.height - 6.0, words, Anchor::end, "tick");
+    const auto line = [&](double above, const std::string& part) {
+        text(width - margin, frame_.height - 6.0 - above, part, Anchor::end, "tick");
+    };
+    const std::size_t blank = words.rfind(' ', credit_letters);
+    if (words.size() <= credit_letters || blank == std::string::npos) {
+        if (!words.empty()) line(0.0, words);
+        return;
+    }
+    line(12.0, words.substr(0, blank));
+    line(0.0, words.substr(blank + 1));
 }
 
 }  // namespace clearway::report::detail

@@ -50,9 +50,9 @@ Json json_cell(const SheetCell& cell) {
 /// The cells of an estimate, or a single one.
 std::vector<std::string> csv_cells(const SheetCell& cell) {
     if (const auto* const value = std::get_if<MaybeEstimate>(&cell)) {
-        const bool bounded = *value && (*value)->interval;
+        const analysis::Interval* const interval = analysis::shown_interval(*value);
         const auto end = [&](double analysis::Interval::*side) {
-            return core::csv_cell(bounded ? std::optional(*(*value)->interval.*side) : std::nullopt);
+            return core::csv_cell(interval != nullptr ? std::optional(interval->*side) : std::nullopt);
         };
         return {core::csv_cell(mean_of(*value)), end(&analysis::Interval::low),
                 end(&analysis::Interval::high)};
@@ -122,7 +122,7 @@ void fit(std::vector<TextColumn>& columns) {
 Json estimate_json(const MaybeEstimate& estimate) {
     if (!estimate) return nullptr;
     Json json = {{"mean", estimate->mean}, {"pairs", estimate->n}};
-    put_ends(json, pointer_to(estimate->interval), "low", "high");
+    put_ends(json, analysis::shown_interval(estimate), "low", "high");
     return json;
 }
 

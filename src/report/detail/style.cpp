@@ -161,7 +161,7 @@ stroke-width:4px;stroke-linejoin:round}
 .plot .way.worse{stroke-dasharray:6 2}
 .plot .held{fill:none;stroke:var(--ink);stroke-width:1.5}.plot .losing{fill:var(--worse);stroke:var(--paper);stroke-width:.8}
 .plot .lock{fill:none;stroke:var(--worse);stroke-width:1.6}.plot .lock.before{opacity:.45}
-.plot .call{fill:none;stroke:var(--better);stroke-width:2}.plot .block{fill:var(--worse);stroke:var(--paper);stroke-width:1}.plot .blocked{fill:none;stroke:var(--worse);stroke-width:3;stroke-dasharray:4 3}
+.plot .call{fill:none;stroke:var(--better);stroke-width:2}.plot .block{fill:var(--worse);stroke:var(--paper);stroke-width:1}.plot .blockBar{fill:var(--paper)}.plot .blocked{fill:none;stroke:var(--worse);stroke-width:4;stroke-dasharray:4 3}
 .plot .station{fill:var(--paper);stroke:var(--ink);stroke-width:1.8}
 .plot .d1{stroke-dasharray:8 3}.plot .d2{stroke-dasharray:3 2}.plot .d3{stroke-dasharray:10 3 2 3}
 .plot .d4{stroke-dasharray:6 2 2 2 2 2}
