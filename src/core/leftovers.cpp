@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view import_mark = ".importing-";
+constexpr std::string_view import_mark = ".clearway-import-";
 
 struct Leftover {
     std::string of;  ///< The name of what was being written.
@@ -56,6 +56,11 @@ void remove_leftovers(const fs::path& folder, const IsMeant& is_meant) {
 
 bool is_leftover(const fs::path& path) {
     return leftover_from(path.filename().string()).has_value();
+}
+
+bool is_abandoned(const fs::path& path) {
+    const auto leftover = leftover_from(path.filename().string());
+    return leftover && is_gone(leftover->process);
 }
 
 bool holds_only(const fs::path& folder, const std::function<bool(const std::string&)>& allowed) {

@@ -6,9 +6,9 @@
 
 namespace clearway::core {
 
-/// A folder that is filled aside, as `.NAME.PID.part`, and appears at its place as a whole or not at all. It
-/// is removed with this object unless it was put in place. All functions throw EnvironmentError naming the
-/// folder.
+/// A folder that is filled aside, as `.NAME.PID.clearway-part`, and appears at its place as a whole or not at
+/// all. It is removed with this object unless it was put in place. All functions throw EnvironmentError
+/// naming the folder.
 class PartFolder {
   public:
     /// Makes the folder aside and its parents. `target` need not be there.

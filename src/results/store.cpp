@@ -426,8 +426,10 @@ std::optional<std::vector<metrics::SignalEvent>> Store::read_signal_events(
 
 std::optional<RunTiming> Store::read_timing(const experiment::RunKey& key) const {
     const fs::path file = run_folder(key) / "timing.json";
-    if (!fs::exists(file) || fs::is_empty(file)) return std::nullopt;
-    return detail::timing_from_json(core::read_file(file), file.string());
+    if (!fs::exists(file)) return std::nullopt;
+    const std::string text = core::read_file(file);
+    if (text.empty()) return std::nullopt;
+    return detail::timing_from_json(text, file.string());
 }
 
 std::optional<RunError> Store::read_error(const experiment::RunKey& key) const {
@@ -448,7 +450,7 @@ void Store::remove_leftovers() const {
     std::vector<fs::path> leftovers;
     for (auto entry = fs::recursive_directory_iterator(folder_, error);
          !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-        if (core::is_leftover(entry->path())) leftovers.push_back(entry->path());
+        if (core::is_abandoned(entry->path())) leftovers.push_back(entry->path());
     }
     for (const fs::path& leftover : leftovers)
         fs::remove_all(leftover, error);

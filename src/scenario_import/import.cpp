@@ -337,7 +337,7 @@ Findings import(const ImportRequest& request, const OnProgress& on_progress) {
     core::make_folder(folder.parent_path());
     core::remove_leftovers_of(folder);
     const std::filesystem::path beside =
-        folder.parent_path() / fmt::format(".{}.importing-{}", folder.filename().string(), ::getpid());
+        folder.parent_path() / fmt::format(".{}.clearway-import-{}", folder.filename().string(), ::getpid());
     std::filesystem::remove_all(beside);
     const core::TemporaryFolder aside(beside);
     ImportRequest settled = request;

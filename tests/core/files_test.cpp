@@ -56,7 +56,8 @@ TEST_F(FilesTest, WritesAndReadsEveryByte) {
 TEST_F(FilesTest, AFullDiskLeavesTheOldFile) {
     const auto file = folder_.write("result.csv", "old");
     // What is written aside ends up on a device without room.
-    std::filesystem::create_symlink("/dev/full", file.string() + "." + std::to_string(getpid()) + ".part");
+    std::filesystem::create_symlink("/dev/full",
+                                    file.string() + "." + std::to_string(getpid()) + ".clearway-part");
     const std::string text = complaint<EnvironmentError>([&] { write_atomically(file, "new"); });
     EXPECT_THAT(text, HasSubstr("result.csv: cannot write: No space left on device. Free some space"));
     EXPECT_EQ(read_file(file), "old");
@@ -148,10 +149,11 @@ TEST(ContentHash, ChangesWithEveryByte) {
 
 TEST_F(FilesTest, an_output_is_written_after_what_killed_calls_left_of_it_is_removed) {
     const std::string gone = "2147483647";
-    const auto running = folder_.write("a.html." + std::to_string(getppid()) + ".part", "");
-    const auto other = folder_.write("b.html." + gone + ".part", "");
-    std::vector<std::filesystem::path> left = {folder_.write("a.html." + gone + ".part", "")};
-    for (const std::string& name : {".a.html." + gone + ".part", ".a.html.importing-" + gone}) {
+    const auto running = folder_.write("a.html." + std::to_string(getppid()) + ".clearway-part", "");
+    const auto other = folder_.write("b.html." + gone + ".clearway-part", "");
+    std::vector<std::filesystem::path> left = {folder_.write("a.html." + gone + ".clearway-part", "")};
+    for (const std::string& name :
+         {".a.html." + gone + ".clearway-part", ".a.html.clearway-import-" + gone}) {
         std::filesystem::create_directories(folder_.path() / name / "network");
         left.push_back(folder_.path() / name);
     }
@@ -163,7 +165,9 @@ TEST_F(FilesTest, an_output_is_written_after_what_killed_calls_left_of_it_is_rem
         EXPECT_FALSE(std::filesystem::exists(path)) << path;
     EXPECT_TRUE(std::filesystem::exists(running));
     EXPECT_TRUE(std::filesystem::exists(other)) << "of another file";
-    for (const char* const name : {"a.part", "a.1x.part", "importing-3", "a.-1.part", "part", ".importing-"})
+    for (const char* const name :
+         {"a.clearway-part", "a.1x.clearway-part", "clearway-import-3", "a.-1.clearway-part", "part",
+          ".clearway-import-", "photos.99998.part", ".a.importing-99998"})
         EXPECT_FALSE(is_leftover(name)) << name;
 }
 
@@ -179,10 +183,10 @@ TEST_F(FilesTest, a_folder_that_cannot_be_listed_is_not_empty) {
 }
 
 TEST_F(FilesTest, parts_of_killed_writers_go_and_those_of_others_stay) {
-    const auto gone = folder_.write("a.json.2147483647.part", "");
-    const auto own = folder_.write("a.json." + std::to_string(getpid()) + ".part", "");
-    const auto no_writer = folder_.write("a.json.part", "");
-    const auto no_process = folder_.write("a.12x.part", "");
+    const auto gone = folder_.write("a.json.2147483647.clearway-part", "");
+    const auto own = folder_.write("a.json." + std::to_string(getpid()) + ".clearway-part", "");
+    const auto no_writer = folder_.write("a.json.clearway-part", "");
+    const auto no_process = folder_.write("a.12x.clearway-part", "");
     remove_abandoned_parts(folder_.path());
     EXPECT_FALSE(std::filesystem::exists(gone));
     for (const auto& kept : {own, no_writer, no_process})

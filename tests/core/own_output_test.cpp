@@ -47,7 +47,7 @@ TEST_F(OwnOutputTest, a_folder_that_is_new_or_empty_becomes_ones_own) {
     std::filesystem::remove_all(place());
     std::filesystem::create_directory(place());
     folder_.write("place/.hidden", "");
-    folder_.write("place/result.2147483647.part", "");
+    folder_.write("place/result.2147483647.clearway-part", "");
     EXPECT_EQ(claimed(), "accepted");
 }
 

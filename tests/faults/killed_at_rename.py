@@ -13,7 +13,7 @@ import tempfile
 
 from tracing import require_strace
 
-LEFTOVER = re.compile(r"\.\d+\.part$|\.importing-\d+$")
+LEFTOVER = re.compile(r"\.\d+\.clearway-part$|\.clearway-import-\d+$")
 
 
 def killed(words, folder, number):

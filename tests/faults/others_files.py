@@ -1,4 +1,5 @@
-"""A folder that holds files of the user is refused, and such a file as well, and stays as it is, also where the machine fails while a command looks into it:
+"""A folder that holds files of the user is refused, and such a file as well, and stays as it is, also where the machine fails while a
+command looks into it:
 the n-th call that concerns the folder or the file fails, for each n.
 
     others_files.py BIN       ends with 77 where strace cannot inject
@@ -15,14 +16,16 @@ from tracing import require_strace
 FAILURES = {"openat": "EMFILE", "getdents64": "EIO", "newfstatat": "EIO", "mkdir": "EIO", "read": "EIO"}
 FILE = "thesis.txt"
 THEIRS = {FILE: "years", "photos/first": "one", ".git/config": "hidden"}
+#: As downloads and parts of films are named, with a number that is no process.
+PARTS = {"photos.99998.part/first": "one", "film.1080.part": "two", ".photos.importing-99998/first": "three"}
 #: A data set of five vehicles, on which a net can be trained.
 PAIRS = {"edge_list.csv": "0,0,1,1,2,2,3,4\n1,2,2,3,3,4,4,0\n", "vehicle_features.csv": "0,0\n0.5,0.25\n1,0\n1.5,0.25\n2,1\n",
          "target_y.csv": "1,0,1,1,0,1,0,1\n"}
 
 
-def put(folder):
+def put(folder, files):
     shutil.rmtree(folder, ignore_errors=True)
-    for name, text in THEIRS.items():
+    for name, text in files.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(text, encoding="utf-8")
 
@@ -36,17 +39,19 @@ def faults_of(title, words, folder):
     theirs, trace = folder / "theirs", folder / "trace"
     paths = [word for path in (theirs, theirs / FILE) for word in ("-P", path)]
 
-    def tried(name, options):
-        put(theirs)
+    def tried(name, options, files=THEIRS):
+        put(theirs, files)
         trace.unlink(missing_ok=True)
         ended = subprocess.run(["strace", "-f", "-qq", "-o", trace, *paths, *options, *words], cwd=folder, check=False,
                                capture_output=True, text=True, errors="replace")
-        if files_in(theirs) != THEIRS:
+        if files_in(theirs) != files:
             yield f"{title}, {name}: {sorted(files_in(theirs))} are left: {ended.stderr[-300:]}"
         if ended.returncode == 0:
             yield f"{title}, {name}: exit code 0"
 
     yield from tried("no fault", ["-e", "trace=openat"])
+    if str(theirs / FILE) not in words:
+        yield from tried("names like those of parts", ["-e", "trace=openat"], PARTS)
     for call, error in FAILURES.items():
         for number in range(1, 10):
             yield from tried(f"{call} {number}", ["-e", f"trace={call}", "-e", f"inject={call}:error={error}:when={number}"])

@@ -248,9 +248,9 @@ TEST(StoreOfANewFolder, IsMadeWhereACallWasKilledAtTheFirstManifest) {
     const support::TemporaryFolder folder;
     const std::filesystem::path out = folder.path() / "out";
     std::filesystem::create_directories(out);
-    core::write_atomically(out / "manifest.json.2147483647.part", "{");
+    core::write_atomically(out / "manifest.json.2147483647.clearway-part", "{");
     EXPECT_EQ(Store::create(out, synthetic::manifest()).manifest(), synthetic::manifest());
-    EXPECT_FALSE(std::filesystem::exists(out / "manifest.json.2147483647.part"));
+    EXPECT_FALSE(std::filesystem::exists(out / "manifest.json.2147483647.clearway-part"));
 }
 
 TEST_F(StoreOfAStudy, RemembersAFailureUntilTheRunSucceeds) {

@@ -404,7 +404,7 @@ TEST_F(SumoDemand, what_sumo_says_of_additional_files_names_the_files_of_the_use
          write("line.add.xml",
                "<additional>\n<poi id='p' x='0' y='0'/>\n<tlLogic id='B1' type='static' programID='own'>\n"
                "<phase duration='9' state='G'/></tlLogic></additional>")}));
-    EXPECT_THAT(message, Not(HasSubstr("importing-")));
+    EXPECT_THAT(message, Not(HasSubstr("clearway-import-")));
     EXPECT_THAT(message, HasSubstr("line.add.xml:3"));
 }
 

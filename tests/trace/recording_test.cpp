@@ -243,7 +243,7 @@ TEST_F(Recording, OfAKilledProcessIsNone) {
     waitpid(child, &status, 0);
     ASSERT_TRUE(WIFSIGNALED(status));
     EXPECT_FALSE(std::filesystem::exists(file));
-    const std::filesystem::path part = file.string() + "." + std::to_string(child) + ".part";
+    const std::filesystem::path part = file.string() + "." + std::to_string(child) + ".clearway-part";
     ASSERT_TRUE(std::filesystem::exists(part));
     EXPECT_THAT(problem_of(part), HasSubstr("is not a recording"));
     core::remove_abandoned_parts(folder_.path());

@@ -163,7 +163,7 @@ TEST_F(OutputFolderTest, refuses_a_folder_whose_training_cannot_be_told) {
 
 TEST_F(OutputFolderTest, refuses_a_folder_of_somebody_else_and_leaves_it) {
     folder_.write("metrics.csv", "mine");
-    folder_.write("mine.2147483647.part", "half");
+    folder_.write("mine.2147483647.clearway-part", "half");
     EXPECT_THAT(refusal(identity()),
                 HasSubstr("holds something else (allowed: a new or empty folder, or one of "
                           "clearway links train)"));

@@ -222,7 +222,7 @@ TEST_F(TrainProgramTest, a_folder_holds_one_training) {
                   .exit.code,
               0);
     const std::string model = core::read_file(out() + "/GraphSAGENet.pth");
-    const std::string stray = folder_.write("out/checkpoint.json.2147483647.part", "{");
+    const std::string stray = folder_.write("out/checkpoint.json.2147483647.clearway-part", "{");
     const Ended other =
         train({"graphsage_as_published", "--data", data(), "--out", out(), "--quiet", "--epochs", "4"});
     EXPECT_EQ(other.exit.code, 3);

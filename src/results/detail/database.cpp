@@ -15,6 +15,7 @@
 #include "core/fields.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
+#include "core/leftovers.hpp"
 #include "core/open_file.hpp"
 #include "core/read_failure.hpp"
 #include "core/running_hash.hpp"
@@ -210,7 +211,7 @@ struct DatabaseWriter::Tables {
 
 DatabaseWriter::DatabaseWriter(const std::filesystem::path& file, const Manifest& manifest,
                                const std::string& runs_hash)
-    : file_(file), part_(file.string() + fmt::format(".{}.part", ::getpid())) {
+    : file_(file), part_(file.string() + fmt::format(".{}{}", ::getpid(), core::part_ending)) {
     try {
         tables_ = std::make_unique<Tables>(part_, manifest, runs_hash);
     } catch (...) {
