@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -34,6 +35,11 @@ class OpenFile {
     ~OpenFile() { ::close(descriptor_); }
     OpenFile(const OpenFile&) = delete;
     OpenFile& operator=(const OpenFile&) = delete;
+
+    /// Leaves out the first `bytes`.
+    void skip(std::uintmax_t bytes) {
+        if (::lseek(descriptor_, static_cast<off_t>(bytes), SEEK_SET) < 0) fail_to_read(file_, errno);
+    }
 
     /// Calls `take` with one piece after another to the end.
     template <class Take>

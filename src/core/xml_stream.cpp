@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/machine_failure.hpp"
+#include "core/open_file.hpp"
 #include "core/read_failure.hpp"
 
 namespace clearway::core {
@@ -104,6 +105,7 @@ Problem too_many_levels(const std::string& where) {
 void stream_xml(const std::filesystem::path& file, XmlHandler& handler) {
     std::error_code error;
     if (std::filesystem::is_directory(file, error)) fail_unreadable(file, "it is a folder");
+    const OpenFile is_no_pipe(file);
     errno = 0;
     const GzipHandle input(gzopen(file.c_str(), "rb"), &gzclose_r);
     if (!input) fail_to_read(file, errno == 0 ? ENOMEM : errno);

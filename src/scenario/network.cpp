@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/json.hpp"
 #include "core/machine_failure.hpp"
 #include "core/open_file.hpp"
 #include "core/process.hpp"
@@ -136,9 +137,19 @@ std::string hash_of_inputs(const ScenarioConfig& config) {
     return core::content_hash(bytes);
 }
 
+/// Netconvert and SUMO read names in UTF-8 alone.
+void require_utf8(const std::filesystem::path& folder) try {
+    (void)core::Json(std::filesystem::absolute(folder).string()).dump();
+} catch (const core::Json::exception&) {
+    throw core::InputError({folder.string(),
+                            "has letters in its path that are not UTF-8, which SUMO cannot read",
+                            "a path in UTF-8", "Choose another folder"});
+}
+
 }  // namespace
 
 BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::path& folder) {
+    require_utf8(folder);
     core::make_folder(folder);
     const std::filesystem::path raw = folder / "raw.net.xml";
     const bool is_taken_whole = !config.network.plain() && config.network.restrict == Restriction::none;

@@ -81,7 +81,7 @@ FolderLock::~FolderLock() {
 
 std::optional<LockNote> holder_of(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / lock_name;
-    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0) return std::nullopt;
     struct flock lock = whole_file();
     const bool held = ::fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;

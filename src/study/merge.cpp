@@ -1,6 +1,7 @@
 #include "study/merge.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <span>
 
@@ -11,6 +12,7 @@
 #include "core/part_folder.hpp"
 #include "core/plain_files.hpp"
 #include "study/folder_lock.hpp"
+#include "study/plan.hpp"
 #include "study/shard.hpp"
 
 namespace clearway::study {
@@ -46,34 +48,50 @@ void require_same_study(const results::Store& first, const results::Store& other
          "shards of one study", "Merge only run folders of one study file"});
 }
 
-/// Whether a study has completed the scenario's folder. Its picture is made last, and no file is empty that
-/// was not lost in a power failure.
-bool is_whole(const fs::path& folder) {
-    if (!fs::exists(folder / "network.svg")) return false;
-    const auto is_lost = [](const auto& entry) { return entry.is_regular_file() && entry.file_size() == 0; };
-    return std::none_of(fs::recursive_directory_iterator(folder), fs::recursive_directory_iterator(),
-                        is_lost);
+/// Why a scenario's folder is not taken, in whole sentences; nothing for one that a study has completed and
+/// that is as it was made. Its picture is made last, and no file is empty that was not lost in a power
+/// failure.
+std::optional<std::string> damage_of(const fs::path& folder, const results::ScenarioEntry& entry) try {
+    if (!fs::exists(folder / "network.svg")) return folder.string() + ": is not complete";
+    const auto is_lost = [](const auto& each) { return each.is_regular_file() && each.file_size() == 0; };
+    if (std::any_of(fs::recursive_directory_iterator(folder), fs::recursive_directory_iterator(), is_lost))
+        return folder.string() + ": has an empty file";
+    require_unchanged(entry, folder);
+    return std::nullopt;
+} catch (const core::InputError& error) {
+    return error.what();
 }
 
-/// The folder `part` of the first of these run folders that has it whole; an empty path when none has.
-template <class IsWhole>
-fs::path first_whole(const std::vector<fs::path>& folders, const fs::path& part, const IsWhole& is_whole) {
+/// Copies a scenario from the first folder that has it whole, unless the target has.
+void copy_scenario(const std::vector<fs::path>& folders, const results::ScenarioEntry& entry,
+                   const results::Store& target, MergeResult& result) {
+    const fs::path copy = target.scenario_folder(entry.name);
+    if (!damage_of(copy, entry)) return;
+    for (const fs::path& folder : folders) {
+        const fs::path source = folder / fs::relative(copy, target.folder());
+        if (!fs::exists(source)) continue;
+        const auto damage = damage_of(source, entry);
+        // Demand of single runs is made anew where it is needed.
+        if (!damage) return core::copy_folder(source, copy, "demand");
+        result.damaged.push_back(*damage + ". It is left out");
+    }
+}
+
+/// The first of these run folders' `part`; an empty path when none has it.
+fs::path first_of(const std::vector<fs::path>& folders, const char* part) {
     const auto found =
-        std::ranges::find_if(folders, [&](const fs::path& each) { return is_whole(each / part); });
+        std::ranges::find_if(folders, [&](const fs::path& each) { return fs::exists(each / part); });
     return found == folders.end() ? fs::path() : *found / part;
 }
 
 /// Copies what a report needs besides the runs: configurations, networks, pictures, the command.
-void copy_surroundings(const std::vector<fs::path>& folders, const results::Store& target) {
-    for (const results::ScenarioEntry& scenario : target.manifest().scenarios) {
-        const fs::path part = fs::path("scenarios") / scenario.name;
-        // Demand of single runs is made anew where it is needed.
-        core::copy_folder(first_whole(folders, part, is_whole), target.folder() / part, "demand");
-    }
-    const auto is_there = [](const fs::path& path) { return fs::exists(path); };
-    core::copy_folder(first_whole(folders, "training", is_there), target.folder() / "training");
+void copy_surroundings(const std::vector<fs::path>& folders, const results::Store& target,
+                       MergeResult& result) {
+    for (const results::ScenarioEntry& entry : target.manifest().scenarios)
+        copy_scenario(folders, entry, target, result);
+    core::copy_folder(first_of(folders, "training"), target.folder() / "training");
     for (const char* const name : {"command.txt", "titles.json"}) {
-        const fs::path file = first_whole(folders, name, is_there);
+        const fs::path file = first_of(folders, name);
         if (!file.empty() && !fs::exists(target.folder() / name))
             core::write_atomically(target.folder() / name, core::read_file(file));
     }
@@ -179,7 +197,7 @@ MergeResult merge(const std::vector<fs::path>& sources, const fs::path& out,
     const FolderLock lock(out);
     const results::Store target = results::Store::create(out, first.manifest());
     MergeResult result;
-    copy_surroundings(folders, target);
+    copy_surroundings(folders, target, result);
     for (std::size_t number = 0; number < folders.size(); ++number) {
         on_folder(number);
         adopt_runs(folders, number, target, result);

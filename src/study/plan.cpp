@@ -190,16 +190,18 @@ void check_roads(const Plan& plan) {
     if (!problems.empty()) throw core::InputError(problems);
 }
 
+void require_unchanged(const results::ScenarioEntry& entry, const fs::path& folder) {
+    const fs::path file = folder / scenario_file_name;
+    if (scenario::scenario_hash(scenario::load(file.string())) != entry.configuration_hash)
+        throw core::InputError({file.string(), "was changed, or a file beside it, since the study began", "",
+                                fmt::format("Put it back, or remove {}: it is made again", folder.string())});
+    scenario::require_unchanged_network(folder / network_name);
+}
+
 void require_unchanged(const results::Store& store) {
     for (const results::ScenarioEntry& entry : store.manifest().scenarios) {
         const fs::path folder = store.scenario_folder(entry.name);
-        if (!fs::exists(folder)) continue;
-        const fs::path file = folder / scenario_file_name;
-        if (scenario::scenario_hash(scenario::load(file.string())) != entry.configuration_hash)
-            throw core::InputError(
-                {file.string(), "was changed, or a file beside it, since the study began", "",
-                 fmt::format("Put it back, or remove {}: it is made again", folder.string())});
-        scenario::require_unchanged_network(folder / network_name);
+        if (fs::exists(folder)) require_unchanged(entry, folder);
     }
 }
 

@@ -61,6 +61,8 @@ void check_roads(const Plan& plan);
 /// Throws core::InputError for a scenario that the folder holds and that is not the manifest's any more, or
 /// whose network was changed: a continued study never mixes two scenarios.
 void require_unchanged(const results::Store& store);
+/// Likewise for one scenario, in `folder`.
+void require_unchanged(const results::ScenarioEntry& entry, const std::filesystem::path& folder);
 
 /// Creates the run folder with the manifest and each scenario's effective configuration and network. Keeps
 /// what already exists. Throws as check_roads, require_unchanged, scenario::build_network and

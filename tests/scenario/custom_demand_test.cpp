@@ -189,5 +189,11 @@ TEST_F(CustomDemand, a_comma_in_the_folder_is_refused_before_sumo_splits_it) {
     EXPECT_THAT(found[0].what, HasSubstr("comma"));
 }
 
+TEST_F(CustomDemand, a_folder_that_is_not_utf8_is_refused_before_netconvert_blames_its_input) {
+    const auto found = problems_of([&] { build_network(load("merge"), folder() / "caf\xe9"); });
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_THAT(found[0].what, HasSubstr("not UTF-8"));
+}
+
 }  // namespace
 }  // namespace clearway::scenario

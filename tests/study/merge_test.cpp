@@ -14,6 +14,7 @@
 #include "core/files.hpp"
 #include "results/synthetic.hpp"
 #include "results/table_writer.hpp"
+#include "scenario/config.hpp"
 #include "study/folder_lock.hpp"
 #include "study/shard.hpp"
 #include "study/status.hpp"
@@ -59,6 +60,17 @@ class Merge : public testing::Test {
         for (const char* file : {"runs.csv", "vehicles.csv", "results.sqlite"})
             all += core::read_file(place(name) / file);
         return all;
+    }
+    /// Scenario `alpha` as a study completes it, but for the content of its network.
+    void put_scenario(const std::filesystem::path& folder) const {
+        const std::filesystem::path alpha = folder / "scenarios" / "alpha";
+        core::make_folder(alpha / "network");
+        core::make_folder(alpha / "demand" / folder.filename());
+        scenario::store(scenario::load("merge"), alpha);
+        for (const char* const name : {"network/network.net.xml", "network.svg"})
+            core::write_atomically(alpha / name, name);
+        core::write_atomically(alpha / "network" / "network.hash",
+                               core::content_hash("network/network.net.xml"));
     }
     support::TemporaryFolder folder_;
 };
@@ -318,14 +330,12 @@ TEST_F(Merge, ReplacesADamagedRecordThatItAlreadyHas) {
 }
 
 TEST_F(Merge, ReplacesCopiesThatAPowerFailureEmptiedAndTakesNone) {
-    const std::vector<std::filesystem::path> sources = divided(2, "a");
+    results::Manifest manifest = results::synthetic::manifest(merged_replications);
+    manifest.scenarios[0].configuration_hash = scenario::scenario_hash(scenario::load("merge"));
+    const std::vector<std::filesystem::path> sources = {place("a1"), place("a2")};
     for (const std::filesystem::path& source : sources) {
-        for (const char* const name : {"network/network.net.xml", "network.svg"}) {
-            const std::filesystem::path file = source / "scenarios" / "alpha" / name;
-            core::make_folder(file.parent_path());
-            core::write_atomically(file, name);
-        }
-        core::make_folder(source / "scenarios" / "alpha" / "demand" / source.filename());
+        Store::create(source, manifest);
+        put_scenario(source);
     }
     const std::filesystem::path copy = place("out") / "scenarios" / "alpha" / "network" / "network.net.xml";
     std::filesystem::resize_file(sources[0] / "scenarios" / "alpha" / "network" / "network.net.xml", 0);
@@ -335,6 +345,18 @@ TEST_F(Merge, ReplacesCopiesThatAPowerFailureEmptiedAndTakesNone) {
         core::write_atomically(copy, damage);
         merge_into("out", sources);
         EXPECT_EQ(core::read_file(copy), "network/network.net.xml");
+    }
+    // One that was damaged later replaces nothing, and is told where nobody has it whole.
+    for (const char* const name : {"network/network.net.xml", "scenario.toml", "merge.edg.xml"}) {
+        const std::filesystem::path damaged = sources[1] / "scenarios" / "alpha" / name;
+        const std::string whole = core::read_file(damaged);
+        core::write_atomically(damaged, whole.substr(0, whole.size() / 2));
+        EXPECT_THAT(merge_into("out", {sources[1]}).damaged, testing::IsEmpty()) << name;
+        EXPECT_EQ(core::read_file(copy), "network/network.net.xml") << name;
+        EXPECT_THAT(merge_into("other", {sources[1]}).damaged, ElementsAre(HasSubstr("It is left out")))
+            << name;
+        EXPECT_FALSE(std::filesystem::exists(place("other") / "scenarios" / "alpha")) << name;
+        core::write_atomically(damaged, whole);
     }
     std::filesystem::remove(copy);
     merge_into("out", sources);

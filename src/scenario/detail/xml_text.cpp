@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/machine_failure.hpp"
+#include "core/open_file.hpp"
 #include "core/read_failure.hpp"
 #include "core/xml_stream.hpp"
 
@@ -33,6 +34,7 @@ constexpr std::size_t most_bytes = std::size_t{512} << 20;
 
 /// The bytes of a file, unpacked if it is gzipped.
 std::string inflated(const std::filesystem::path& file, const std::string& kind) {
+    const core::OpenFile is_no_pipe(file);
     errno = 0;
     const std::unique_ptr<gzFile_s, decltype(&gzclose_r)> stream(gzopen(file.c_str(), "rb"), &gzclose_r);
     if (!stream) core::fail_to_read(file, errno == 0 ? ENOMEM : errno);
