@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/error.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::scenario_import::detail {
@@ -58,6 +59,11 @@ TEST_F(LoadWatchTest, a_network_that_empties_bears_the_load) {
     EXPECT_NEAR(watch.load().relative_speed, 0.6, 1e-12);
     EXPECT_NEAR(watch.load().speed_of_all_time, 0.6, 1e-12);
     EXPECT_DOUBLE_EQ(watch.load().end_s, 990.0);
+}
+
+TEST_F(LoadWatchTest, a_summary_that_cannot_be_read_is_not_taken_for_its_end) {
+    EXPECT_FALSE(watch().is_decided()) << "SUMO has not begun";
+    EXPECT_THROW(LoadWatch("/proc/self/mem", {400.0, 0.8}).is_decided(), core::EnvironmentError);
 }
 
 TEST_F(LoadWatchTest, one_vehicle_that_stays_to_the_horizon_is_too_much) {

@@ -1,8 +1,10 @@
 #include "scenario_import/detail/load_watch.hpp"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
+#include "core/open_file.hpp"
 #include "scenario_import/detail/element.hpp"
 
 namespace clearway::scenario_import::detail {
@@ -36,11 +38,17 @@ LoadWatch::LoadWatch(std::filesystem::path summary, LoadMeasure measure)
     : summary_(std::move(summary)), measure_(measure) {}
 
 bool LoadWatch::is_decided() {
-    std::ifstream stream(summary_);
-    stream.seekg(read_);
     const auto is_open = [&] { return fault_ == LoadFault::none && !is_empty(); };
-    for (std::string row; is_open() && std::getline(stream, row) && !stream.eof();) {
-        read_ += static_cast<std::streamoff>(row.size()) + 1;
+    if (!std::filesystem::exists(summary_)) return !is_open();  // SUMO has not begun
+    core::OpenFile file(summary_);
+    file.skip(read_);
+    std::string rest;
+    file.read([&](std::string_view piece) { rest += piece; });
+    std::size_t begin = 0;
+    for (std::size_t end = 0; is_open() && (end = rest.find('\n', begin)) != std::string::npos;
+         begin = end + 1) {
+        const std::string row = rest.substr(begin, end - begin);
+        read_ += row.size() + 1;
         if (row.find("<step ") != std::string::npos) take(row);
     }
     return !is_open();

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "core/spellings.hpp"
@@ -75,7 +75,7 @@ class LoadWatch {
     std::filesystem::path summary_;
     LoadMeasure measure_;
     Early early_;
-    std::streamoff read_ = 0;
+    std::uintmax_t read_ = 0;
     Load load_;
     double rows_ = 0.0;
     double running_of_all_time_ = 0.0;

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <initializer_list>
-#include <iterator>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/open_file.hpp"
 #include "scenario_import/detail/element.hpp"
 #include "scenario_import/detail/packed_file.hpp"
 
@@ -62,10 +61,12 @@ std::string end_of(const std::filesystem::path& file) {
     constexpr std::size_t enough = 4096;
     PackedFile stream(file);
     if (stream.packing() == Packing::none) {
-        std::ifstream plain(file, std::ios::binary);
-        const auto size = static_cast<std::uintmax_t>(std::filesystem::file_size(file));
-        plain.seekg(static_cast<std::streamoff>(size - std::min<std::uintmax_t>(size, enough)));
-        return {std::istreambuf_iterator<char>(plain), {}};
+        const std::uintmax_t size = std::filesystem::file_size(file);
+        core::OpenFile plain(file);
+        plain.skip(size - std::min<std::uintmax_t>(size, enough));
+        std::string end;
+        plain.read([&](std::string_view piece) { end += piece; });
+        return end;
     }
     std::string end;
     std::array<char, 1 << 16> buffer{};

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <string>
@@ -23,12 +24,10 @@ namespace {
 class OldIds {
   public:
     explicit OldIds(const std::filesystem::path& file) {
-        std::ifstream stream(file, std::ios::binary);
-        if (!stream) return;  // A map without such objects has no index of them.
-        ids_.resize(std::filesystem::file_size(file) / sizeof(std::int64_t));
-        stream.read(reinterpret_cast<char*>(ids_.data()),
-                    static_cast<std::streamsize>(ids_.size() * sizeof(std::int64_t)));
-        if (!stream) throw core::EnvironmentError(file.string() + " cannot be read");
+        if (!std::filesystem::exists(file)) return;  // A map without such objects has no index of them.
+        const std::string bytes = core::read_file(file);
+        ids_.resize(bytes.size() / sizeof(std::int64_t));
+        std::memcpy(ids_.data(), bytes.data(), ids_.size() * sizeof(std::int64_t));
     }
 
     std::string of(const std::string& number) const {
