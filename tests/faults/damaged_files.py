@@ -85,6 +85,31 @@ class Bench:
             self.expect("recording is damaged" in said, f"{title}: a continued run is silent: {said[-300:]}")
             self.expect(self.is_whole("damaged"), f"{title}: the recording was not made again")
 
+    def try_scenarios(self):
+        scenario = pathlib.Path("scenarios/merge")
+        for name in ("network/network.net.xml", "scenario.toml", "merge.edg.xml"):
+            self.run("study", "merge", "whole", "--out", "first")
+            file = self.copy("damaged").parents[3] / scenario / name
+            os.truncate(file, file.stat().st_size // 2)
+            self.run("study", "merge", "damaged", "--out", "first")
+            self.run("verify", "first", "--all")
+            shutil.rmtree(self.folder / "first")
+            said = self.run("study", "merge", "damaged", "whole", "--out", "first")
+            self.expect(f"damaged/{scenario}/" in said and "left out" in said, f"{name}: merge is silent: {said[-300:]}")
+            self.run("verify", "first", "--all")
+            shutil.rmtree(self.folder / "first")
+
+    def try_pipes(self):
+        run = "damaged/merge/corridor/0"
+        for name, words, code in ((".lock", ["study", "status", "damaged"], 0),
+                                  ("scenarios/merge/network/network.net.xml", ["verify", run], 1),
+                                  ("scenarios/merge/network/network.net.xml", ["export", "trajectories", run, "--out", "drawn"], 3),
+                                  ("runs/merge/corridor/00000/timing.json", ["verify", "damaged", "--all"], 3)):
+            self.copy("damaged")
+            make_pipe(self.folder / "damaged" / name)
+            said = self.run(*words, code=code)
+            self.expect(code == 0 or "neither a file nor a folder" in " ".join(said.split()), f"{name}: {words[0]} does not say what it is: {said[-300:]}")
+
     def try_events(self):
         self.run("run", "intersection", *RUN, "signals")
         os.truncate(self.folder / "signals" / EVENTS, 100)
@@ -108,6 +133,8 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         bench = Bench(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(name))
         bench.try_recordings()
+        bench.try_scenarios()
+        bench.try_pipes()
         bench.try_events()
         bench.try_two_data_sets()
     print("\n".join(bench.wrong) or "told, and made again")

@@ -104,9 +104,11 @@ def main():
                                capture_output=True)
             network = pathlib.Path(os.environ.get("SUMO_HOME", "/usr/share/sumo")) / "tools/sumolib/scenario/scenarios"
             network = next(network.rglob("*.net.xml"), None)
-            commands = [Command("merge", [clearway, "study", "merge", *shards, "--out", "merged"], "merged", TABLES),
+            scenario = [f"scenarios/merge/{file}" for file in ("scenario.toml", "network.svg", "network/network.net.xml")]
+            recordings = [f"recordings/merge/baseline/{number:05}.h5" for number in range(2)]
+            commands = [Command("merge", [clearway, "study", "merge", *shards, "--out", "merged"], "merged", (*TABLES, *scenario)),
                         Command("study", [clearway, "study", study, "--jobs", "1", "--out", "out"], "out", TABLES),
-                        Command("record", [clearway, "study", study, "--jobs", "1", "--record", "--out", "rec"], "rec", TABLES),
+                        Command("record", [clearway, "study", study, "--jobs", "1", "--record", "--out", "rec"], "rec", (*TABLES, *recordings)),
                         Command("import", [clearway, "scenario", "import", network, "--name", "town"], "town",
                                 ("scenario.toml", "network.net.xml"), True)]
             faults = [fault for command in commands for fault in command.faults(disk, cuts)]

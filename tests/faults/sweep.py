@@ -27,7 +27,7 @@ LIMIT_S = 120
 # What two equal commands write differently: times, process numbers.
 CHANGING = re.compile(r"/timing\.json$|^units/|/jobs/|^logs/|^\.lock$|^report\.html$|\.pdf$|/netconvert\.log$")
 # What a killed process leaves under a name that the next one does not take, and the log of a second attempt.
-LEFT = re.compile(r"\.\d+\.part$|^logs/.*\.\d+\.log$")
+LEFT = re.compile(r"\.\d+\.clearway-part$|^logs/.*\.\d+\.log$")
 # A message ends with what to do; the system's loader knows nothing better.
 CURE = re.compile(r"(again|[Cc]hoose|[Cc]heck|Free|Set|[Ii]nstall|[Rr]emove)\b[^.:]*$|error while loading shared libraries|Fatal glibc error", re.M)
 SILENCED = re.compile(r"write\(2, .*INJECTED")
@@ -64,7 +64,7 @@ VERBS = [
     Verb("signals", "scenario signals intersection"),
 ]
 
-# One crossing of two streets with a signal, a hospital and a fire station.
+# One crossing of two streets with a signal, a hospital and a fire station, of which Overpass says that more is missing.
 MAP = """<?xml version='1.0' encoding='UTF-8'?>
 <osm version='0.6'>
 <node id='1' version='1' lat='51.000' lon='13.004'/><node id='2' version='1' lat='51.004' lon='13.000'/>
@@ -74,6 +74,7 @@ MAP = """<?xml version='1.0' encoding='UTF-8'?>
 <node id='7' version='1' lat='51.0079' lon='13.0041'><tag k='amenity' v='fire_station'/></node>
 <way id='10' version='1'><nd ref='1'/><nd ref='3'/><nd ref='5'/><tag k='highway' v='secondary'/></way>
 <way id='11' version='1'><nd ref='2'/><nd ref='3'/><nd ref='4'/><tag k='highway' v='secondary'/></way>
+<remark>runtime error: the query timed out</remark>
 </osm>
 """
 LINE = {

@@ -9,6 +9,7 @@
 #include "results/detail/record_files.hpp"
 #include "results/detail/signal_event_files.hpp"
 #include "results/manifest.hpp"
+#include "results/synthetic.hpp"
 #include "roads/network.hpp"
 #include "scenario/config.hpp"
 #include "scenario/network_document.hpp"
@@ -137,6 +138,8 @@ std::vector<Reader> record_readers() {
     const auto corpus = [](const char* name) {
         return source_file(std::string("tests/fuzz/corpus/") + name);
     };
+    const results::RunRecord run = results::synthetic::record({"alpha", "baseline", 0});
+    const std::string vehicles = vehicles_to_csv(run.vehicles);
     return {{"json",
              [](std::string_view bytes) { core::to_text(core::parse_object(std::string(bytes), "x.json")); },
              {corpus("manifest.json"), corpus("timing.json")},
@@ -144,6 +147,10 @@ std::vector<Reader> record_readers() {
             {"manifest",
              [](std::string_view bytes) { results::manifest_from_json(std::string(bytes), "manifest.json"); },
              {corpus("manifest.json")},
+             json_words},
+            {"run",
+             [vehicles](std::string_view bytes) { run_from_json(std::string(bytes), vehicles, "run.json"); },
+             {run_to_json(run, vehicles, "build")},
              json_words},
             {"job",
              [](std::string_view bytes) { experiment::read_job(scratch_file("job.json", bytes)); },
