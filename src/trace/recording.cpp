@@ -1,6 +1,7 @@
 #include "trace/recording.hpp"
 
 #include <cassert>
+#include <new>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/folder_name.hpp"
 #include "core/json.hpp"
+#include "core/read_failure.hpp"
 #include "experiment/condition_json.hpp"
 #include "experiment/settings.hpp"
 #include "trace/detail/seal.hpp"
@@ -216,16 +218,28 @@ struct RecordingReader::State {
 
 namespace {
 
-/// Runs `action`. What HDF5 or a table finds wrong becomes core::InputError: the file is damaged.
+/// Runs `action`. What HDF5 or a table finds wrong becomes core::InputError: the file is damaged. Where the
+/// system failed or memory was short, says so as core::fail_to_read does.
 template <class Action>
 auto reading(const std::filesystem::path& file, double time_s, const Action& action) {
+    const auto damage = [&](const std::exception& error, const char* cure) {
+        return core::InputError(
+            {file.string(), fmt::format("is damaged after {} s: {}", time_s, error.what()), "", cure});
+    };
     try {
         return action();
     } catch (const core::Error&) {
         throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const detail::Hdf5Error& error) {
+        if (error.reason() != 0) core::fail_to_read(file, error.reason());
+        // The seal was right a moment ago, so this is seldom the file.
+        throw damage(error,
+                     "Give the same command again, in case the machine failed; if that does not help, record "
+                     "the run again, or take the file from a backup");
     } catch (const std::exception& error) {
-        throw core::InputError({file.string(), fmt::format("is damaged after {} s: {}", time_s, error.what()),
-                                "", "Record the run again, or take the file from a backup"});
+        throw damage(error, "Record the run again, or take the file from a backup");
     }
 }
 

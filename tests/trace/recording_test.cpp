@@ -3,6 +3,7 @@
 
 #include <csignal>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <hdf5.h>
 #include <sys/resource.h>
@@ -13,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/leftovers.hpp"
+#include "support/message_of.hpp"
 #include "support/temporary_folder.hpp"
 #include "trace/detail/seal.hpp"
 #include "trace/difference.hpp"
@@ -227,6 +229,29 @@ TEST_F(Recording, NoticesWhatAnotherToolChangedAndSealed) {
     core::write_atomically(file, sealed);
     EXPECT_THAT(problem_of(file),
                 testing::AllOf(HasSubstr("is damaged"), HasSubstr("does not fit its hash")));
+}
+
+/// The descriptor by which this process has the file open.
+int descriptor_of(const std::filesystem::path& file) {
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+        std::error_code gone;
+        if (std::filesystem::read_symlink(entry.path(), gone) == std::filesystem::canonical(file))
+            return std::stoi(entry.path().filename());
+    }
+    return -1;
+}
+
+TEST_F(Recording, IsNotBlamedWhereTheMachineCannotReadIt) {
+    const std::filesystem::path file = record("unread", 20);
+    trace::RecordingReader reader(file);
+    const int read_by = descriptor_of(file);
+    ASSERT_GE(read_by, 0);
+    const int not_readable = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    ASSERT_EQ(::dup2(not_readable, read_by), read_by);
+    ::close(not_readable);
+    EXPECT_THAT(support::message_of<core::EnvironmentError>([&] { reader.next(); }),
+                testing::AllOf(HasSubstr(file.string()), HasSubstr("Bad file descriptor"),
+                               HasSubstr("not the file's content: give the same command again")));
 }
 
 TEST_F(Recording, OfAKilledProcessIsNone) {

@@ -1,6 +1,7 @@
 #include "metrics/detail/elements.hpp"
 
 #include <exception>
+#include <new>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -18,6 +19,8 @@ class Visitor : public core::XmlHandler {
     void start(std::string_view name, const core::XmlAttributes& attributes, unsigned long line) override {
         try {
             visit_(Element(name, attributes));
+        } catch (const std::bad_alloc&) {
+            throw;
         } catch (const std::exception& error) {
             throw std::runtime_error(fmt::format("{}:{}: {}", file_.string(), line, error.what()));
         }

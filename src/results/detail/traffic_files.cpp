@@ -1,5 +1,6 @@
 #include "results/detail/traffic_files.hpp"
 
+#include <new>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -98,6 +99,8 @@ std::vector<Row> from_csv(const core::Json& run, const char* name, const std::st
                 [&](const auto& field) { core::read_cell(reader.cells().at(column++), row.*field.member); });
             rows.push_back(std::move(row));
         }
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
         throw core::InputError(
             {fmt::format("{}: traffic.{}: line {}", where, name, line + 1), error.what(), "", ""});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,8 @@ template <class Call, class... Arguments>
 auto call(Call&& to_sumo, Arguments&&... arguments) {
     try {
         return to_sumo(std::forward<Arguments>(arguments)...);
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& fault) {
         throw core::SimulatorError(fault.what());
     }

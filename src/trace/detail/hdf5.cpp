@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cerrno>
 #include <cstdlib>
 #include <stdexcept>
 #include <utility>
@@ -27,13 +28,14 @@ void prepare_library() {
         H5dont_atexit();
         return H5open() >= 0;
     }();
-    if (!once) throw std::runtime_error("HDF5 cannot be initialised");
+    if (!once) throw Hdf5Error("HDF5 cannot be initialised", ENOMEM);  // there it only allocates
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
 struct Failure {
     std::string message = "HDF5 failed";
     int reason = 0;
+    bool lacks_memory = false;
 };
 
 herr_t take_failure(unsigned depth, const H5E_error2_t* error, void* target) {
@@ -42,13 +44,15 @@ herr_t take_failure(unsigned depth, const H5E_error2_t* error, void* target) {
     if (depth == 0) failure.message = words;
     const std::size_t at = words.find("errno = ");
     if (at != std::string_view::npos) failure.reason = std::atoi(words.data() + at + 8);
+    if (error->maj_num == H5E_RESOURCE || error->min_num == H5E_CANTALLOC || words.starts_with("inflateInit"))
+        failure.lacks_memory = true;
     return 0;
 }
 
 [[noreturn]] void fail() {
     Failure failure;
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_failure, &failure);
-    throw Hdf5Error(failure.message, failure.reason);
+    throw Hdf5Error(failure.message, failure.reason == 0 && failure.lacks_memory ? ENOMEM : failure.reason);
 }
 
 Handle property_list(hid_t list_class) {
@@ -245,7 +249,9 @@ DataSet::DataSet(hid_t group, const std::string& name, hid_t type)
       width_(H5Tget_size(type)),
       chunk_(std::clamp<std::size_t>(chunk_bytes / width_, 1, chunk_elements)) {
     const Handle found(H5Dget_type(set_.get()), H5Tclose);
-    if (H5Tequal(found.get(), type) <= 0) throw std::runtime_error(name + " is of another type");
+    const htri_t is_equal = H5Tequal(found.get(), type);
+    check(is_equal < 0 ? -1 : 0);
+    if (is_equal == 0) throw std::runtime_error(name + " is of another type");
     const Handle space(H5Dget_space(set_.get()), H5Sclose);
     const hssize_t size = H5Sget_simple_extent_npoints(space.get());
     check(size < 0 ? -1 : 0);

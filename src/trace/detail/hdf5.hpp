@@ -33,7 +33,7 @@ class Handle {
     Close close_ = nullptr;
 };
 
-/// HDF5 failed. `reason` is the system's errno, 0 when HDF5 gives none.
+/// HDF5 failed. `reason` is the system's errno, ENOMEM when HDF5 got no memory, 0 when it gives none.
 class Hdf5Error : public std::runtime_error {
   public:
     Hdf5Error(const std::string& message, int reason) : std::runtime_error(message), reason_(reason) {}
