@@ -14,7 +14,7 @@ import numpy as np
 #: Bytes in each direction; as python::Channel::capacity.
 CAPACITY = 1 << 26
 
-HELLO, DECIDE, ANSWER, FAILED, RESET, ENDED = b"H", b"D", b"A", b"F", b"R", b"E"
+HELLO, DECIDE, ANSWER, FAILED, LOST, RESET, ENDED = b"H", b"D", b"A", b"F", b"L", b"R", b"E"
 
 
 class Channel:

@@ -6,6 +6,8 @@ It loads the file, makes the part and answers questions until its pipe ends. Wha
 from __future__ import annotations
 
 import contextlib
+import ctypes
+import errno
 import importlib.util
 import inspect
 import json
@@ -15,18 +17,21 @@ import random
 import signal
 import sys
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Container
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from . import _program
-from ._channel import ANSWER, DECIDE, FAILED, Channel, Sheet
+from ._channel import ANSWER, DECIDE, FAILED, LOST, Channel, Sheet
 from .parts import Belief, Network, Observation, Policy, Predictor, checked_leases, checked_probabilities
 from .torchscript import TorchScript, Unusable
 
 METHODS = {"policy": "act", "predictor": "predict"}
+#: By these the machine fails, not the code; as core::is_of_machine.
+REASONS_OF_MACHINE = {errno.EIO, errno.EMFILE, errno.ENFILE, errno.ENOMEM, errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.ESTALE}
+PR_SET_CHILD_SUBREAPER = 36
 
 
 class NoClass(AttributeError):
@@ -128,6 +133,19 @@ def serve(channel: Channel) -> None:
         channel.ring(ANSWER)
 
 
+def is_of_machine(error: BaseException) -> bool:
+    return isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno in REASONS_OF_MACHINE)
+
+
+def report(channel: Channel, error: BaseException) -> None:
+    try:
+        text = told(error)
+    except MemoryError:
+        text = type(error).__name__
+    channel.write_text(text)
+    channel.ring(LOST if is_of_machine(error) else FAILED)
+
+
 def told(error: BaseException) -> str:
     """What was raised, because a console may show no more than the first line, and its traceback from user code on."""
     own = str(Path(__file__).parent)
@@ -148,11 +166,40 @@ def line_of(trace: Any) -> str:
     return f" ({Path(last.filename).name}, line {last.lineno})"
 
 
+def kill_group(process: int) -> None:
+    for kill in (os.killpg, os.kill):  # it may not have a group yet
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            kill(process, signal.SIGKILL)
+
+
+def children_of(parent: int) -> list[int]:
+    children = []
+    for name in os.listdir("/proc"):
+        if name.isdigit():
+            with contextlib.suppress(OSError), open(f"/proc/{name}/stat", "rb") as stat:
+                if int(stat.read().rpartition(b")")[2].split()[1]) == parent:
+                    children.append(int(name))
+    return children
+
+
+def end_children(but: Container[int] = ()) -> None:
+    """Kills the children of this process, also those in groups and sessions of their own, and, because the system makes them
+    children of a process with PR_SET_CHILD_SUBREAPER, theirs."""
+    with contextlib.suppress(OSError):  # /proc may be unreadable
+        while children := [process for process in children_of(os.getpid()) if process not in but]:
+            for process in children:
+                kill_group(process)
+            for process in children:
+                with contextlib.suppress(ChildProcessError):  # another thread has waited for it
+                    os.waitpid(process, 0)
+
+
 def end_group(*_: Any) -> None:
     """Ends this process and all that user code has started."""
     for stream in (sys.stdout, sys.stderr):
         with contextlib.suppress(Exception):
             stream.flush()
+    end_children()
     os.killpg(0, signal.SIGKILL)
 
 
@@ -165,17 +212,20 @@ def be_part(memory: int, read: int, write: int, owner: int) -> None:
     for descriptor in (memory, read, write):
         os.set_inheritable(descriptor, False)  # what user code starts must not hold the pipes open
     os.dup2(2, 1)  # standard output belongs to the program that started this process
+    ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1)  # what it starts stays below it, and below the nursery when it ends
     random.seed(0)  # who draws without a seed of their own gets the same numbers in every run, so that a run can be made again
     np.random.seed(0)
-    channel = Channel(memory, read, write)
+    try:
+        channel = Channel(memory, read, write)
+    except OSError:  # no memory to share; to be killed is what the machine does
+        end_group()
     try:
         serve(channel)
     except (NoClass, SettingError, Unusable, _program.LoadedAgain) as error:
         channel.write_text(str(error))
         channel.ring(FAILED)
     except BaseException as error:  # noqa: BLE001: even sys.exit() in user code is this run's failure
-        channel.write_text(told(error))
-        channel.ring(FAILED)
+        report(channel, error)
     end_group()
 
 

@@ -49,11 +49,14 @@ class Nursery:
                 key.data(key.fileobj)
             for process in [one for one, end_s in self._overdue.items() if end_s <= time.monotonic()]:
                 del self._overdue[process]
-                self._signal_group(process)
+                _host.kill_group(process)
 
     def end(self) -> None:
         for process in self._parts:
-            self._signal_group(process)
+            _host.kill_group(process)
+            with contextlib.suppress(ChildProcessError):  # it may have just been waited for
+                os.waitpid(process, 0)
+        _host.end_children()
 
     def _accept(self, listener: socket.socket) -> None:
         connection, _ = listener.accept()
@@ -100,6 +103,9 @@ class Nursery:
             os.chdir(folder)
             sys.path[0] = folder  # as -m makes it
             _host.be_part(memory, read, write, owner)
+        except OSError as error:
+            if _host.is_of_machine(error):
+                os.kill(os.getpid(), signal.SIGKILL)  # as what the machine did is told
         finally:
             os._exit(1)
 
@@ -112,9 +118,10 @@ class Nursery:
 
     def _ended(self, process: int) -> None:
         handle, connection = self._parts[process]
-        self._signal_group(process)  # what it started and did not wait for; before its number is free
+        _host.kill_group(process)  # what it started and did not wait for; before its number is free
         _, status = os.waitpid(process, 0)
         del self._parts[process]
+        _host.end_children(but=self._parts)
         self._overdue.pop(process, None)
         self._selector.unregister(handle)
         os.close(handle)
@@ -123,11 +130,6 @@ class Nursery:
         with contextlib.suppress(OSError):
             connection.send(struct.pack("<i", status))
         connection.close()
-
-    def _signal_group(self, process: int) -> None:
-        for kill in (os.killpg, os.kill):  # it may not have a group yet
-            with contextlib.suppress(ProcessLookupError, PermissionError):
-                kill(process, signal.SIGKILL)
 
 
 def main() -> None:
@@ -138,6 +140,7 @@ def main() -> None:
         raise SystemExit(0)
 
     signal.signal(signal.SIGTERM, leave)
+    ctypes.CDLL(None).prctl(_host.PR_SET_CHILD_SUBREAPER, 1)
     nursery = Nursery(socket.socket(fileno=int(sys.argv[1])))
     gc.collect()
     gc.freeze()  # what is shared stays shared

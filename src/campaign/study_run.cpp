@@ -99,14 +99,15 @@ void write_report(const report::StudyFacts& facts, const ReportReplays& replays,
     core::write_output(file, page.str());
 }
 
-/// `: the last line of a log`, or nothing.
-std::string last_words(std::string log) {
+/// `: the last line of a log`, or nothing, as where the message holds it.
+std::string last_words(const results::RunError& error) {
+    std::string log = error.log_tail;
     while (log.ends_with('\n')) {
         log.pop_back();
     }
     const std::size_t line = log.rfind('\n');
     if (line != std::string::npos) log.erase(0, line + 1);
-    return log.empty() ? "" : ": " + log;
+    return log.empty() || error.message.find(log) != std::string::npos ? "" : ": " + log;
 }
 
 void name_errors(const results::Store& store, const results::Results& results) {
@@ -118,7 +119,7 @@ void name_errors(const results::Store& store, const results::Results& results) {
     for (std::size_t i = 0; i < std::min(count, named_errors); ++i) {
         const results::RunError& error = results.errors[i];
         fmt::print(stderr, "  {}: {}{}\n", results::run_name(store.folder(), error.key), error.message,
-                   last_words(error.log_tail));
+                   last_words(error));
         if (const std::string cure = cure_of_abort(error); !cure.empty()) cures.insert(cure);
     }
     for (const std::string& cure : cures)
@@ -128,8 +129,8 @@ void name_errors(const results::Store& store, const results::Results& results) {
     }
     const auto passing = std::ranges::count_if(results.errors, results::may_pass, &results::RunError::cause);
     fmt::print(stderr,
-               "  The command of the study tries again those that a signal or a limit ended ({}); with "
-               "--retry-failed all of them\n",
+               "  The command of the study tries again those that a signal, a limit or the machine ended "
+               "({}); with --retry-failed all of them\n",
                passing);
 }
 

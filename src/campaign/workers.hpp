@@ -14,7 +14,7 @@ namespace clearway::campaign {
 
 /// Which failed runs of an earlier call are tried again.
 enum class RetriedRuns : std::uint8_t {
-    ended_by_machine,  ///< By a signal or a limit of time or memory (results::may_pass).
+    ended_by_machine,  ///< By a signal, a limit or a failure of the machine (results::may_pass).
     all_failed,
 };
 

@@ -61,12 +61,13 @@ void store_error(const Unit& unit, const experiment::RunKey& key, const core::Er
                  const std::filesystem::path& folder) {
     results::RunError error = error_of(unit, key, folder);
     const bool is_python = dynamic_cast<const python::PartError*>(&cause) != nullptr;
-    const bool is_lost = dynamic_cast<const python::PartLost*>(&cause) != nullptr;
+    const auto* const lost = dynamic_cast<const python::PartLost*>(&cause);
     error.cause = is_python                                        ? results::ErrorCause::python
-                  : is_lost                                        ? results::ErrorCause::signal
+                  : lost != nullptr && lost->signal() != 0         ? results::ErrorCause::signal
+                  : lost != nullptr                                ? results::ErrorCause::machine
                   : cause.exit_code() == core::ExitCode::bad_input ? results::ErrorCause::bad_input
                                                                    : results::ErrorCause::simulator;
-    if (is_lost) error.signal = SIGKILL;
+    if (lost != nullptr) error.signal = lost->signal();
     error.message = cause.what();
     error.exit_code = static_cast<int>(cause.exit_code());
     unit.store.write(error);

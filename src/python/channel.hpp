@@ -15,10 +15,17 @@ class PartError : public core::Error {
     explicit PartError(const std::string& message) : core::Error(core::ExitCode::runs_failed, message) {}
 };
 
-/// The process of a part was killed from outside, and not for what its code did.
+/// The machine failed a part, not its code: its process was killed, or it got no memory, file or descriptor.
+/// Another attempt may succeed.
 class PartLost : public core::Error {
   public:
-    explicit PartLost(const std::string& message) : core::Error(core::ExitCode::runs_failed, message) {}
+    /// `signal` killed its process; 0: its code told the failure.
+    PartLost(const std::string& message, int signal)
+        : core::Error(core::ExitCode::runs_failed, message), signal_(signal) {}
+    int signal() const { return signal_; }
+
+  private:
+    int signal_;
 };
 
 /// The bells of the protocol: one byte on a pipe hands the shared memory over. A pipe is a bell that also
@@ -29,6 +36,7 @@ enum class Bell : char {
     decide = 'D',  ///< To Python: a sheet to answer.
     answer = 'A',  ///< From Python: the answer stands in the memory.
     failed = 'F',  ///< From Python: a traceback stands in the memory, as text.
+    lost = 'L',    ///< From Python: the same, and the machine failed, not the code.
     reset = 'R',   ///< From an environment: begin an episode.
     ended = 'E',   ///< To an environment: the run is over.
 };

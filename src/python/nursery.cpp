@@ -118,9 +118,9 @@ OwnedChild::~OwnedChild() {
     core::wait(child);
 }
 
-std::string OwnedChild::wait() {
+core::Exit OwnedChild::wait() {
     const core::Child child{std::exchange(pid_, -1), std::chrono::steady_clock::now()};
-    return core::wait(child).describe();
+    return core::wait(child);
 }
 
 Nursery::Nursery() {
@@ -148,7 +148,7 @@ Host::~Host() {
     ::close(connection_);
 }
 
-std::optional<std::string> Host::wait() {
+std::optional<core::Exit> Host::wait() {
     if (child_) return child_->wait();
     int status = 0;
     ssize_t read = 0;
@@ -158,7 +158,7 @@ std::optional<std::string> Host::wait() {
     core::Exit exit;
     if (WIFSIGNALED(status)) exit.signal = WTERMSIG(status);
     if (WIFEXITED(status)) exit.code = WEXITSTATUS(status);
-    return exit.describe();
+    return exit;
 }
 
 }  // namespace clearway::python

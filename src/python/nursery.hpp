@@ -6,6 +6,7 @@
 
 #include <sys/types.h>
 
+#include "core/process.hpp"
 #include "python/channel.hpp"
 
 namespace clearway::python {
@@ -18,7 +19,7 @@ class OwnedChild {
     OwnedChild(const OwnedChild&) = delete;
     OwnedChild& operator=(const OwnedChild&) = delete;
     /// Waits for its end and says how it ended.
-    std::string wait();
+    core::Exit wait();
 
   private:
     pid_t pid_;
@@ -51,7 +52,7 @@ class Host {
     Host& operator=(const Host&) = delete;
     /// Waits for its end and says how it ended; nothing where the nursery was killed, and it with the
     /// nursery.
-    std::optional<std::string> wait();
+    std::optional<core::Exit> wait();
 
   private:
     int connection_;  ///< To the nursery; -1 without one.

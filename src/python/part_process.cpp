@@ -1,5 +1,7 @@
 #include "python/part_process.hpp"
 
+#include <csignal>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -87,6 +89,10 @@ void PartProcess::ask() {
 void PartProcess::wait_for_answer() {
     Bell bell{};
     if (!channel_.wait(bell)) report_end();
+    if (bell == Bell::lost)
+        throw PartLost(fmt::format("{}: the machine failed it, so give the same command again: {}", label_,
+                                   channel_.read_text()),
+                       0);
     if (bell == Bell::failed) throw PartError(fmt::format("{}: {}", label_, channel_.read_text()));
     if (bell != Bell::answer)
         throw PartError(fmt::format("{}: it answered with byte {}, which no part does", label_,
@@ -94,12 +100,18 @@ void PartProcess::wait_for_answer() {
 }
 
 void PartProcess::report_end() {
-    const std::optional<std::string> end = host_.wait();
+    const std::optional<core::Exit> end = host_.wait();
     if (!end)
         throw PartLost(
-            fmt::format("{}: its process was killed with the one that all parts come from", label_));
-    throw PartError(fmt::format(
-        "{}: its process ended ({}) instead of answering; what it printed is in the log", label_, *end));
+            fmt::format("{}: its process was killed with the one that all parts come from", label_), SIGKILL);
+    if (end->signal == SIGKILL)
+        throw PartLost(fmt::format("{}: its process was {}, as the system does where memory is short: give "
+                                   "the same command again; what it printed is in the log",
+                                   label_, end->describe()),
+                       SIGKILL);
+    throw PartError(
+        fmt::format("{}: its process ended ({}) instead of answering; what it printed is in the log", label_,
+                    end->describe()));
 }
 
 void check_part(const PartName& name, PartKind kind, const core::Settings& settings,
@@ -108,6 +120,8 @@ void check_part(const PartName& name, PartKind kind, const core::Settings& setti
         const PartProcess process(name, {.kind = kind, .settings = settings});
     } catch (const PartError& error) {
         throw core::InputError({where, error.what(), "", "Correct the file or the settings"});
+    } catch (const PartLost& error) {
+        throw core::EnvironmentError(fmt::format("{}: {}", where, error.what()));
     }
 }
 

@@ -34,13 +34,13 @@ std::string to_json(const PartName& name, const Greeting& greeting);
 class PartProcess {
   public:
     /// Starts Python, loads the file and makes the part. Throws PartError with the traceback when that fails,
-    /// core::EnvironmentError when Python or the package is not there.
+    /// PartLost where the machine failed, core::EnvironmentError when Python or the package is not there.
     PartProcess(const PartName& name, const Greeting& greeting);
 
     /// The sheet to fill before `ask`.
     Sheet& question() { return question_; }
     /// Asks and waits for the answer. Throws PartError with the traceback of an exception, or what became of
-    /// the process.
+    /// the process; PartLost where the machine failed or killed it (SIGKILL).
     void ask();
     /// An array of the answer, valid until the next `ask`. Throws PartError when it lies outside the memory.
     template <class Value>
@@ -65,7 +65,8 @@ class PartProcess {
 };
 
 /// Makes a part with its settings and lets it go: what the user is told before a study begins. Throws
-/// core::InputError, saying `where`, with the traceback, or with the settings that the part has.
+/// core::InputError, saying `where`, with the traceback, or with the settings that the part has;
+/// core::EnvironmentError where the machine failed.
 void check_part(const PartName& name, PartKind kind, const core::Settings& settings,
                 const std::string& where);
 

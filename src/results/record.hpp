@@ -66,15 +66,17 @@ enum class ErrorCause : std::uint8_t {
     memory,      ///< It exceeded the memory limit.
     bad_input,   ///< The scenario is invalid.
     python,      ///< A part that is the user's Python code failed.
+    machine,     ///< It got no memory, file or descriptor.
     other,
 };
-constexpr core::Spellings<ErrorCause, 7> spellings(ErrorCause) {
+constexpr core::Spellings<ErrorCause, 8> spellings(ErrorCause) {
     return {{{ErrorCause::simulator, "simulator"},
              {ErrorCause::signal, "signal"},
              {ErrorCause::time_limit, "time_limit"},
              {ErrorCause::memory, "memory"},
              {ErrorCause::bad_input, "bad_input"},
              {ErrorCause::python, "python"},
+             {ErrorCause::machine, "machine"},
              {ErrorCause::other, "other"}}};
 }
 using core::name;
@@ -84,7 +86,7 @@ constexpr bool worth_retrying(ErrorCause cause) {
 }
 /// Whether the machine ended the run, not its input, so that it may succeed when its study is continued.
 constexpr bool may_pass(ErrorCause cause) {
-    return worth_retrying(cause) || cause == ErrorCause::memory;
+    return worth_retrying(cause) || cause == ErrorCause::memory || cause == ErrorCause::machine;
 }
 
 /// A run that ended without a record.

@@ -47,17 +47,34 @@ class Study:
         return first.returncode
 
 
+def try_recording(study):
+    """A recording is not blamed for memory that is short; to load the programs takes about 42 MB."""
+    study.run("recorded", options=["--record"])
+    words = [study.words[0], "replay", "recorded/merge/baseline/0", "--csv", "snapshot"]
+    ends = []
+    for size_mb in range(38, 70, 2):
+        limit = size_mb * 1_000_000
+        ended = subprocess.run(words, cwd=study.folder, capture_output=True, text=True, errors="replace", check=False,
+                               preexec_fn=lambda limit=limit: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+        ends.append(ended.returncode)
+        if ended.returncode not in (0, 4, 127) or (ended.returncode == 4 and "give the same command again" not in ended.stderr):
+            study.faults.append(f"a recording is read in {size_mb} MB: {ended.returncode}: {ended.stderr[-400:]}")
+    if 0 not in ends or 4 not in ends:
+        study.faults.append(f"no limit of memory let a replay begin and not end: {ends}")
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     with tempfile.TemporaryDirectory() as name:
         study = Study(pathlib.Path(sys.argv[1]).resolve() / "clearway", pathlib.Path(name))
         ends = [study.check(f"{count} descriptors", "", limit=(resource.RLIMIT_NOFILE, count)) for count in range(4, 24, 2)]
-        ends.append(study.check("little memory", "The command of the study tries again those that a signal or a limit ended (1)", options=["--memory-limit", "40"]))
+        ends.append(study.check("little memory", "The command of the study tries again those that a signal, a limit or the machine ended (1)", options=["--memory-limit", "40"]))
         ends.append(study.check("small files", "ulimit -f", limit=(resource.RLIMIT_FSIZE, 20000)))
         hide = ["unshare", "-rm", "sh", "-c", 'mount -t tmpfs none /proc && exec "$@"', "sh"]
         if subprocess.run([*hide, "true"], check=False, capture_output=True).returncode == 0:
             ends.append(study.check("no /proc", "Mount /proc", prefix=hide))
+        try_recording(study)
     print("\n".join(study.faults), ends)
     sys.exit(bool(study.faults) or not any(ends))
 

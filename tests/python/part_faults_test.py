@@ -11,7 +11,7 @@ import clearway
 from support import FolderCase, PROGRAMS, program
 
 FAULTS = """
-import os, subprocess, sys, time
+import errno, os, subprocess, sys, time
 import numpy as np
 from clearway import Lease, Policy
 class Raises(Policy):
@@ -23,6 +23,37 @@ class Leaves(Policy):
 class Dies(Policy):
     def act(self, belief):
         os.kill(os.getpid(), 9)
+class Crashes(Policy):
+    def act(self, belief):
+        with open(os.path.join(os.path.dirname(__file__), "tries"), "a") as tries:
+            tries.write("x")
+        os.kill(os.getpid(), 11)
+def first_time():
+    try:
+        open(os.path.join(os.path.dirname(__file__), "once"), "x").close()
+        return True
+    except FileExistsError:
+        return False
+class KilledOnce(Policy):
+    def act(self, belief):
+        if first_time():
+            os.kill(os.getpid(), 9)
+        return []
+class NoMemoryOnce(Policy):
+    def act(self, belief):
+        if first_time():
+            np.ones(2**50)
+        return []
+class NoSpaceOnce(Policy):
+    def act(self, belief):
+        if first_time():
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return []
+class NoDescriptorsOnce(Policy):
+    def act(self, belief):
+        if first_time():
+            held = [open("/dev/null") for _ in range(10**6)]
+        return []
 class NotANumber(Policy):
     def act(self, belief):
         return [Lease.drive_at(1, float("nan"))]
@@ -70,11 +101,15 @@ class Draws(Policy):
         import random
         raise OSError(f"drawn {random.random()} {np.random.random()} {list({'a', 'b', 'c', 'd', 'e', 'f'})}")
 class Starts(Policy):
+    alone = False
     def __init__(self):
         import subprocess
-        subprocess.Popen([sys.executable, "-c", "import time; time.sleep(1000)  # clearway._host, for hosts_of"])
+        subprocess.Popen([sys.executable, "-c", "import time; time.sleep(1000)  # clearway._host, for hosts_of"],
+                         start_new_session=self.alone)
     def act(self, belief):
         return []
+class StartsAlone(Starts):
+    alone = True
 class NoAct:
     pass
 class Inherits(Policy):
@@ -205,7 +240,8 @@ class FaultTest(FolderCase):
                 answered = ("NotALease", "Nothing", "TooMuch", "Number")  # `act` has returned, so that nothing else is on the stack
                 self.assertEqual("_host.py" in found, name in answered, found)
                 self.assertIn("bad.py" if name not in ("Nothing", "TooMuch", "Number") else "act", found)
-        self.assertEqual(set(results.errors["cause"]), {"python"})
+            # Who killed a process cannot be seen, so it counts as the system, which does so where memory is short.
+            self.assertEqual(failed["cause"][0], "signal" if name == "Dies" else "python")
         self.assertEqual(list(results.runs["condition"]), ["baseline"])
         self.assertEqual(hosts_of(self.folder), [])
 
@@ -277,8 +313,33 @@ class FaultTest(FolderCase):
         self.assertEqual(len(drawn), 1)
         self.assertIn("0.844", drawn.pop())  # random.seed(0)
 
+    def test_what_the_machine_did_to_a_part_is_tried_again_and_what_its_code_did_is_not(self) -> None:
+        says = {"NoMemoryOnce": "Unable to allocate", "NoSpaceOnce": "No space left on device", "NoDescriptorsOnce": "Too many open files"}
+        for name, message in says.items():
+            (self.folder / "once").unlink(missing_ok=True)
+            words = ["run", "intersection", "--policy", f"bad.py:{name}", "--no-solo", "--seeds", "1", "--out", name]
+            program(*words, code=1)
+            errors = clearway.open(name).errors
+            self.assertEqual(list(errors["cause"]), ["machine"])
+            self.assertIn("give the same command again", errors["message"][0])
+            self.assertIn(message, errors["message"][0])
+            program(*words)
+            self.assertEqual(len(clearway.open(name).errors), 0)
+        for _ in range(2):
+            program("run", "intersection", "--policy", "bad.py:Crashes", "--no-solo", "--seeds", "1", "--out", "crashed", code=1)
+            self.assertEqual(list(clearway.open("crashed").errors["cause"]), ["python"])
+        self.assertEqual((self.folder / "tries").read_text(), "x")
+
+    def test_a_part_that_gets_no_memory_while_it_is_loaded_is_not_blamed(self) -> None:
+        self.write("large.py", "raise MemoryError\n")
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "large.py:Mine", "--out", "runs"],
+                               capture_output=True, text=True, check=False)
+        self.assertEqual(ended.returncode, 4, ended.stderr)
+        self.assertIn("give the same command again: MemoryError", ended.stderr)
+
     def test_what_a_policy_starts_ends_with_it(self) -> None:
-        results = clearway.run("intersection", [clearway.Condition("Starts", policy="bad.py:Starts")], seeds=1, out="runs")
+        conditions = [clearway.Condition(name, policy=f"bad.py:{name}") for name in ("Starts", "StartsAlone")]
+        results = clearway.run("intersection", conditions, seeds=1, out="runs")
         self.assertEqual(results.errors.row_count, 0)
         end = time.monotonic() + 5.0
         while hosts_of(self.folder) and time.monotonic() < end:
@@ -351,8 +412,9 @@ class FaultTest(FolderCase):
         self.assertEqual(hosts_of(self.folder), [])
 
     def test_a_run_whose_part_is_killed_from_outside_is_tried_again(self) -> None:
-        program("run", "intersection", "--policy", "bad.py:Orphan", "--no-solo", "--seeds", "1", "--out", "runs")
-        self.assertEqual(len(clearway.open("runs").errors), 0)
+        for name in ("Orphan", "KilledOnce"):
+            program("run", "intersection", "--policy", f"bad.py:{name}", "--no-solo", "--seeds", "1", "--out", name)
+            self.assertEqual(len(clearway.open(name).errors), 0)
 
     def test_the_memory_of_a_part_and_of_what_it_starts_is_that_of_its_run(self) -> None:
         for part in ("Fills", "FillsElsewhere"):

@@ -81,7 +81,7 @@ void add_most_runs_option(App& app, std::uint64_t& most_runs) {
 void add_retry_option(App& app, campaign::RetriedRuns& retried) {
     app.add_flag_callback(
         "--retry-failed", [&retried] { retried = campaign::RetriedRuns::all_failed; },
-        "Try all failed runs in the run folder again [those that a signal or a limit ended]");
+        "Try all failed runs in the run folder again [those that a signal, a limit or the machine ended]");
 }
 
 void add_publish_options(App& app, campaign::Publication& publication) {
