@@ -49,10 +49,10 @@ class LiveWorkers {
         core::make_folder(work);
         core::write_atomically(file, experiment::to_json(unit));
         const std::filesystem::path log = work / "worker.log";
-        workers_.push_back(
-            {core::start(
-                 {.program = sister_program("clearway-run"), .arguments = {file.string()}, .output = log}),
-             unit.conditions.front().name, log});
+        workers_.push_back({core::start({.program = sister_program("clearway-run"),
+                                         .arguments = {std::filesystem::absolute(file)},
+                                         .output = log}),
+                            unit.conditions.front().name, log});
     }
     /// Whether one has ended and was not well.
     bool has_failed() {

@@ -29,9 +29,11 @@ class JobList : public core::TaskList {
         const WorkerJob& job = jobs_[next_];
         core::make_folder(job.file.parent_path());
         core::write_atomically(job.file, experiment::to_json(job.job));
+        // Absolute: no folder's name then reads as an option.
         return core::Task{
             .id = next_++,
-            .command = {.program = program_, .arguments = {job.file.string()}, .output = job.log}};
+            .command = {
+                .program = program_, .arguments = {std::filesystem::absolute(job.file)}, .output = job.log}};
     }
 
     void ended(const core::TaskEnd& end) override {

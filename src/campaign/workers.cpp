@@ -38,6 +38,16 @@ ErrorCause cause_of(const core::TaskEnd& end) {
     return ErrorCause::other;
 }
 
+/// `: ` and what a worker said last, its name first; nothing where its log has none of it.
+std::string last_message_in(std::string log) {
+    constexpr std::string_view name = "clearway-run: ";
+    const std::size_t begin = log.rfind(name);
+    if (begin == std::string::npos || (begin > 0 && log[begin - 1] != '\n')) return "";
+    while (log.ends_with('\n'))
+        log.pop_back();
+    return ": " + log.substr(begin);
+}
+
 /// Of a run whose demand cannot be read or is not in the plan, s. Assumed: only the first ones are judged by
 /// it.
 constexpr double usual_run_s = 10.0;
@@ -207,7 +217,8 @@ class Workers : private core::TaskList {
         const auto places = static_cast<double>(job.conditions.size() + 1);  // one for the shared warm-up
         return core::Task{.id = row,
                           .command = {.program = options_.worker_program,
-                                      .arguments = {file.string()},
+                                      // Absolute: no folder's name then reads as an option.
+                                      .arguments = {std::filesystem::absolute(file)},
                                       .output = log_file(row)},
                           .limits = {options_.limits.wall_s * places, options_.limits.memory_mib}};
     }
@@ -270,8 +281,9 @@ class Workers : private core::TaskList {
         error.signal = end.exit.signal;
         error.attempts = attempts_[end.id];
         error.log_tail = core::tail(log_file(end.id), log_lines);
-        error.command = core::shell_text(
-            {options_.worker_program.string(), store_.unit_file(plan_.units[end.id].name).string()});
+        error.command =
+            core::shell_text({options_.worker_program.string(),
+                              std::filesystem::absolute(store_.unit_file(plan_.units[end.id].name))});
         error.message = message_of(end);
         return error;
     }
@@ -282,8 +294,9 @@ class Workers : private core::TaskList {
         if (end.ended_by == core::EndedBy::memory_limit)
             return fmt::format("the warm-up needed more than {} MiB", options_.limits.memory_mib);
         if (end.exit.signal != 0) return "the worker was " + end.exit.describe();
-        return end.exit.ok() ? "the worker ended without a record of this run"
-                             : "the worker ended with " + end.exit.describe();
+        if (end.exit.ok()) return "the worker ended without a record of this run";
+        return "the worker ended with " + end.exit.describe() +
+               last_message_in(core::tail(log_file(end.id), log_lines));
     }
 
     struct Counts {

@@ -36,13 +36,15 @@ constexpr const char* scale = "3";  // 1200 pixels across: enough for a column o
 void convert(const std::vector<std::filesystem::path>& drawings, const std::string& format) {
     const core::TemporaryFolder folder;
     for (const std::filesystem::path& drawing : drawings) {
-        std::filesystem::path picture = drawing;
+        const std::filesystem::path source =
+            std::filesystem::absolute(drawing);  // no option, as `-x/` may be
+        std::filesystem::path picture = source;
         picture.replace_extension("." + format);
         const std::filesystem::path log = folder.path() / "log";
         const core::Exit exit =
             core::run({.program = rasteriser,
                        .arguments = {"--format", format, "--zoom", format == "png" ? scale : "1", "--output",
-                                     picture.string(), drawing.string()},
+                                     picture.string(), source.string()},
                        .output = log});
         if (exit.ok()) continue;
         if (exit.code == campaign::program_not_started)

@@ -62,7 +62,10 @@ void work(const results::Store& store, const experiment::RunKey& key) {
     if (name.starts_with("crash_once") && first_time(store, key)) crash();
     if (name == "crash") crash();
     if (name == "hang") pause_ms(600000);
-    if (name == "bad_input") std::exit(3);
+    if (name == "bad_input") {
+        std::fprintf(stderr, "clearway-run: its file: no number.\nNor another.\n");
+        std::exit(3);
+    }
     if (name == "disk_full") std::exit(4);
     if (name == "forgetful") return;
     if (name == "refused") return tell(store, key, results::ErrorCause::simulator, "SUMO said no");

@@ -184,6 +184,8 @@ TEST_F(Study, NeverTriesBadInputAndRefusedRunsAgain) {
     const results::Store store = store_in("out");
     EXPECT_EQ(store.read_error({"alpha", "bad_input", 0})->cause, ErrorCause::bad_input);
     EXPECT_EQ(store.read_error({"alpha", "bad_input", 0})->attempts, 1);
+    EXPECT_EQ(store.read_error({"alpha", "bad_input", 0})->message,
+              "the worker ended with exit code 3: clearway-run: its file: no number.\nNor another.");
     EXPECT_EQ(store.read_error({"alpha", "refused", 0})->message, "SUMO said no");
     EXPECT_EQ(store.read_error({"alpha", "forgetful", 0})->cause, ErrorCause::bad_input);
     std::filesystem::remove_all(store.folder() / "logs");

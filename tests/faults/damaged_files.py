@@ -115,6 +115,18 @@ class Bench:
         os.truncate(self.folder / "signals" / EVENTS, 100)
         self.run("verify", "signals", "--all", code=3)
 
+    def try_scenario(self):
+        """Why the worker that `verify` starts cannot make a run again is in its message."""
+        self.copy("damaged")
+        scenario = self.folder / "damaged/scenarios/merge/scenario.toml"
+        scenario.write_text(scenario.read_text(encoding="utf-8") + "\nno_key = 1\n", encoding="utf-8")
+        said = self.run("verify", "damaged", "--all", code=1)
+        self.expect("scenario.toml" in said and "no_key" in said, f"verify does not say what is wrong with a scenario: {said[-300:]}")
+
+    def try_names(self):
+        for name in ("-x", "--"):
+            self.run("run", "merge", *RUN[:-1], f"--out={name}")
+
     def try_two_data_sets(self):
         words = [self.program, *"links dataset merge --samples --seeds 1 --jobs 1".split()]
         started = [subprocess.Popen([*words, "--seed", str(seed), "--out", "both"], cwd=self.folder, stdout=subprocess.DEVNULL,
@@ -135,6 +147,8 @@ def main():
         bench.try_recordings()
         bench.try_scenarios()
         bench.try_pipes()
+        bench.try_scenario()
+        bench.try_names()
         bench.try_events()
         bench.try_two_data_sets()
     print("\n".join(bench.wrong) or "told, and made again")
