@@ -115,7 +115,7 @@ class Bench:
         os.truncate(self.folder / "signals" / EVENTS, 100)
         self.run("verify", "signals", "--all", code=3)
 
-    def try_scenario(self):
+    def try_edited_scenario(self):
         """Why the worker that `verify` starts cannot make a run again is in its message."""
         self.copy("damaged")
         scenario = self.folder / "damaged/scenarios/merge/scenario.toml"
@@ -147,7 +147,7 @@ def main():
         bench.try_recordings()
         bench.try_scenarios()
         bench.try_pipes()
-        bench.try_scenario()
+        bench.try_edited_scenario()
         bench.try_names()
         bench.try_events()
         bench.try_two_data_sets()
