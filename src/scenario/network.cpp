@@ -1,6 +1,7 @@
 #include "scenario/network.hpp"
 
 #include <algorithm>
+#include <csignal>
 #include <map>
 #include <set>
 
@@ -49,7 +50,7 @@ void run_netconvert(const ScenarioConfig& config, std::vector<std::string> argum
     if (exit.ok()) return require_whole(*(std::ranges::find(command.arguments, "--output-file") + 1));
     const std::string complaint =
         detail::complaint_in(command.output, folder, resolve(config, config.network.file).string());
-    if (core::tells_of_machine(complaint))
+    if (exit.signal == SIGKILL || core::tells_of_machine(complaint))  // so the system ends it without memory
         throw core::EnvironmentError(
             fmt::format("netconvert fails ({}):\n{}\nThe machine failed: give the same command again",
                         exit.describe(), complaint));

@@ -56,6 +56,9 @@ bool succeeds(const Tool& tool, const OnProgress& on_progress) {
         throw core::EnvironmentError(fmt::format(
             "{} does not start. Install the package {}, or give the same command again if the machine failed",
             tool.program, tool.package));
+    if (exit->signal == SIGKILL)  // so the system ends it where memory is short
+        throw core::EnvironmentError(fmt::format("{} was {}. The machine failed: give the same command again",
+                                                 tool.program, exit->describe()));
     return exit->ok();
 }
 
