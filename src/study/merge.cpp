@@ -68,7 +68,7 @@ void copy_scenario(const std::vector<fs::path>& folders, const results::Scenario
     const fs::path copy = target.scenario_folder(entry.name);
     if (!damage_of(copy, entry)) return;
     for (const fs::path& folder : folders) {
-        const fs::path source = folder / fs::relative(copy, target.folder());
+        const fs::path source = folder / "scenarios" / entry.name;
         if (!fs::exists(source)) continue;
         const auto damage = damage_of(source, entry);
         // Demand of single runs is made anew where it is needed.

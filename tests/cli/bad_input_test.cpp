@@ -467,6 +467,17 @@ TEST_F(BadInputTest, a_missing_netconvert_exits_with_4) {
                 HasSubstr("netconvert does not start. Its memory is limited to 1000000000000 KiB"));
 }
 
+TEST_F(BadInputTest, a_netconvert_that_is_killed_is_not_blamed_on_the_network) {
+    write_line_scenario();
+    const std::filesystem::path killed = write("killed/netconvert", "#!/bin/sh\nkill -9 $$\n");
+    std::filesystem::permissions(killed, std::filesystem::perms::owner_all);
+    const Ended ended =
+        clearway({"run", "line", "--seeds", "1", "--out", "out"},
+                 {.environment = {{"PATH", killed.parent_path().string() + ":/usr/bin:/bin"}}});
+    EXPECT_EQ(ended.code, 4) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("The machine failed: give the same command again"));
+}
+
 TEST_F(BadInputTest, a_published_data_set_is_one_snapshot) {
     const Ended ended = clearway({"links", "dataset", "merge", "--out", "data", "--seeds", "3"});
     EXPECT_EQ(ended.code, 3);

@@ -60,15 +60,14 @@ bool is_pbf(std::string_view head) {
 std::string end_of(const std::filesystem::path& file) {
     constexpr std::size_t enough = 4096;
     PackedFile stream(file);
+    std::string end;
     if (stream.packing() == Packing::none) {
         const std::uintmax_t size = std::filesystem::file_size(file);
         core::OpenFile plain(file);
         plain.skip(size - std::min<std::uintmax_t>(size, enough));
-        std::string end;
         plain.read([&](std::string_view piece) { end += piece; });
         return end;
     }
-    std::string end;
     std::array<char, 1 << 16> buffer{};
     while (const std::size_t count = stream.read(buffer)) {
         end.append(buffer.data(), count);
