@@ -31,6 +31,7 @@ from .torchscript import TorchScript, Unusable
 METHODS = {"policy": "act", "predictor": "predict"}
 #: By these the machine fails, not the code; as core::is_of_machine.
 REASONS_OF_MACHINE = {errno.EIO, errno.EMFILE, errno.ENFILE, errno.ENOMEM, errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.ESTALE}
+NO_MEMORY = os.strerror(errno.ENOMEM)
 PR_SET_CHILD_SUBREAPER = 36
 
 
@@ -133,8 +134,15 @@ def serve(channel: Channel) -> None:
         channel.ring(ANSWER)
 
 
-def is_of_machine(error: BaseException) -> bool:
-    return isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno in REASONS_OF_MACHINE)
+def is_of_machine(error: BaseException | None) -> bool:
+    """Also when the code caught what the machine did and raised something else, and in words, as torch tells it."""
+    if error is None:
+        return False
+    if isinstance(error, OSError):
+        failed = error.errno in REASONS_OF_MACHINE
+    else:
+        failed = isinstance(error, MemoryError) or (isinstance(error, RuntimeError) and NO_MEMORY in str(error))
+    return failed or is_of_machine(error.__cause__ or (None if error.__suppress_context__ else error.__context__))
 
 
 def report(channel: Channel, error: BaseException) -> None:

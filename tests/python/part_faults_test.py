@@ -1,5 +1,7 @@
 """What goes wrong in policies and predictors in Python is told, and ends."""
+import errno
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -8,7 +10,8 @@ import unittest
 from pathlib import Path
 
 import clearway
-from support import FolderCase, PROGRAMS, program
+from clearway._host import REASONS_OF_MACHINE
+from support import FolderCase, PROGRAMS, SOURCE, program
 
 FAULTS = """
 import errno, os, subprocess, sys, time
@@ -53,6 +56,19 @@ class NoDescriptorsOnce(Policy):
     def act(self, belief):
         if first_time():
             held = [open("/dev/null") for _ in range(10**6)]
+        return []
+class CaughtOnce(Policy):
+    def act(self, belief):
+        if first_time():
+            try:
+                np.ones(2**50)
+            except MemoryError:
+                raise ValueError("the table does not fit")
+        return []
+class SaidByTorchOnce(Policy):
+    def act(self, belief):
+        if first_time():
+            raise RuntimeError("DefaultCPUAllocator: can't allocate memory: Error code 12 (Cannot allocate memory)")
         return []
 class NotANumber(Policy):
     def act(self, belief):
@@ -314,7 +330,8 @@ class FaultTest(FolderCase):
         self.assertIn("0.844", drawn.pop())  # random.seed(0)
 
     def test_what_the_machine_did_to_a_part_is_tried_again_and_what_its_code_did_is_not(self) -> None:
-        says = {"NoMemoryOnce": "Unable to allocate", "NoSpaceOnce": "No space left on device", "NoDescriptorsOnce": "Too many open files"}
+        says = {"NoMemoryOnce": "Unable to allocate", "NoSpaceOnce": "No space left on device", "NoDescriptorsOnce": "Too many open files",
+                "CaughtOnce": "the table does not fit", "SaidByTorchOnce": "can't allocate memory"}
         for name, message in says.items():
             (self.folder / "once").unlink(missing_ok=True)
             words = ["run", "intersection", "--policy", f"bad.py:{name}", "--no-solo", "--seeds", "1", "--out", name]
@@ -329,6 +346,11 @@ class FaultTest(FolderCase):
             program("run", "intersection", "--policy", "bad.py:Crashes", "--no-solo", "--seeds", "1", "--out", "crashed", code=1)
             self.assertEqual(list(clearway.open("crashed").errors["cause"]), ["python"])
         self.assertEqual((self.folder / "tries").read_text(), "x")
+
+    def test_the_reasons_of_the_machine_are_those_of_the_programs(self) -> None:
+        source = (SOURCE / "src/core/read_failure.cpp").read_text()
+        named = re.search(r"reasons_of_machine = \{(.*?)\}", source)[1]
+        self.assertEqual({getattr(errno, name) for name in named.split(", ")}, REASONS_OF_MACHINE)
 
     def test_a_part_that_gets_no_memory_while_it_is_loaded_is_not_blamed(self) -> None:
         self.write("large.py", "raise MemoryError\n")
