@@ -19,6 +19,33 @@ std::string some_of(const std::vector<std::string>& places) {
     return fmt::format("{} and {} more", places.front(), places.size() - 1);
 }
 
+/// Text from a file may hold what ends a C string or commands a terminal: `\x00`, `\x1b`.
+std::string visible(const std::string& text) {
+    constexpr std::string_view whitespace = "\n\t";
+    std::string shown;
+    for (const char letter : text) {
+        const auto code = static_cast<unsigned char>(letter);
+        const bool is_control =
+            (code < 0x20 && whitespace.find(letter) == std::string_view::npos) || code == 0x7f;
+        shown += is_control ? fmt::format("\\x{:02x}", code) : std::string(1, letter);
+    }
+    return shown;
+}
+
+/// `where: what (allowed: ...). cure`.
+std::string text_of(const Problem& problem) {
+    std::string text = fmt::format("{}: {}", problem.where, problem.what);
+    if (!problem.allowed.empty()) text += fmt::format(" (allowed: {})", problem.allowed);
+    if (problem.cure.empty()) return text;
+    text += text.back() == '?' ? " " : ". ";  // another's message may end with its own question
+    const std::string word = problem.cure.substr(0, problem.cure.find(' '));
+    const bool is_name = word == "clearway" || word.find_first_of("_.=/") != std::string::npos;
+    const std::size_t begin = text.size();
+    text += problem.cure;
+    if (!is_name) text[begin] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[begin])));
+    return text;
+}
+
 /// An equal problem is told once; so is one of several places that comes with a long list of what is allowed.
 std::vector<Problem> each_once(const std::vector<Problem>& problems) {
     std::vector<Problem> told;
@@ -94,16 +121,7 @@ SimulatorError SimulatorError::with_context(const std::string& context) const {
 }
 
 std::string format_problem(const Problem& problem) {
-    std::string text = fmt::format("{}: {}", problem.where, problem.what);
-    if (!problem.allowed.empty()) text += fmt::format(" (allowed: {})", problem.allowed);
-    if (problem.cure.empty()) return text;
-    text += text.back() == '?' ? " " : ". ";  // another's message may end with its own question
-    const std::string word = problem.cure.substr(0, problem.cure.find(' '));
-    const bool is_name = word == "clearway" || word.find_first_of("_.=/") != std::string::npos;
-    const std::size_t begin = text.size();
-    text += problem.cure;
-    if (!is_name) text[begin] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[begin])));
-    return text;
+    return visible(text_of(problem));
 }
 
 std::string listed(const std::vector<std::string>& words) {
