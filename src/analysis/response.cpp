@@ -148,8 +148,9 @@ ResponseTime response_of(std::span<const results::RunRecord* const> runs,
     const std::vector<Weighted> all = ranked(alone.condition);
     response.trips = all.size();
     const std::size_t replications = alone.condition.size();
-    response.percentile_90_s =
-        resampled(replications, level, [&](RowCounts counts) { return percentile_90_s(all, counts); });
+    if (all.size() >= ResponseTime::fewest_trips)
+        response.percentile_90_s =
+            resampled(replications, level, [&](RowCounts counts) { return percentile_90_s(all, counts); });
     response.in_time = resampled(replications, level,
                                  [&](RowCounts counts) { return share_in_time(all, counts, threshold_s); });
     if (baseline.empty()) return response;
@@ -157,9 +158,10 @@ ResponseTime response_of(std::span<const results::RunRecord* const> runs,
     const std::vector<Weighted> with = ranked(both.condition);
     const std::vector<Weighted> without = ranked(both.baseline);
     const std::size_t pairs = both.condition.size();
-    response.percentile_90_difference_s = resampled(pairs, level, [&](RowCounts counts) {
-        return percentile_90_s(with, counts) - percentile_90_s(without, counts);
-    });
+    if (std::min(with.size(), without.size()) >= ResponseTime::fewest_trips)
+        response.percentile_90_difference_s = resampled(pairs, level, [&](RowCounts counts) {
+            return percentile_90_s(with, counts) - percentile_90_s(without, counts);
+        });
     response.in_time_difference = resampled(pairs, level, [&](RowCounts counts) {
         return share_in_time(with, counts, threshold_s) - share_in_time(without, counts, threshold_s);
     });

@@ -19,11 +19,13 @@ inline constexpr double response_pace_s_per_km = 100.0;
 /// How many emergency vehicles come in time, and how late the slow ones are: statistics of all trips, with
 /// BCa intervals from resampling whole replications; none below `fewest_for_interval` replications.
 struct ResponseTime {
+    /// Trips of which one is beyond the percentile; of fewer it would be the slowest.
+    static constexpr std::size_t fewest_trips = 10;
     double threshold_s = 0.0;
     std::size_t trips = 0;
-    /// Nothing without trips. A vehicle that did not arrive counts with the horizon, and as too late.
+    /// Nothing below `fewest_trips`. A vehicle that did not arrive counts with the horizon, and as too late.
     MaybeEstimate percentile_90_s;
-    MaybeEstimate in_time;  ///< Share of trips that took no longer than the threshold.
+    MaybeEstimate in_time;  ///< Share of trips that took no longer than the threshold; nothing without trips.
     /// Against the baseline, over the replications that are complete in both.
     MaybeEstimate percentile_90_difference_s;
     MaybeEstimate in_time_difference;

@@ -124,11 +124,13 @@ MetricSummary describe(const MetricInfo& metric, Values values, double level) {
 
 TravelTimeTail tail_of(const Runs& runs, ResampleCache& resamples) {
     std::vector<Cluster> clusters;
+    std::size_t trips = 0;
     for (const results::RunRecord* run : runs) {
         if (run == nullptr) continue;
         Cluster& cluster = clusters.emplace_back();
         for (const metrics::VehicleRow& vehicle : run->vehicles) {
             if (vehicle.vehicle_class != traffic::VehicleClass::emergency) continue;
+            ++trips;
             if (vehicle.outcome == metrics::VehicleOutcome::arrived && vehicle.travel_time_s) {
                 cluster.values.push_back(*vehicle.travel_time_s);
             } else {
@@ -138,7 +140,9 @@ TravelTimeTail tail_of(const Runs& runs, ResampleCache& resamples) {
     }
     if (clusters.empty()) return {};
     const Resamples& drawn = resamples.of(clusters.size());
-    return {pooled_quantile(clusters, 0.5, drawn), pooled_quantile(clusters, 0.95, drawn)};
+    TravelTimeTail tail{pooled_quantile(clusters, 0.5, drawn), {}};
+    if (trips >= TravelTimeTail::fewest_trips) tail.percentile_95 = pooled_quantile(clusters, 0.95, drawn);
+    return tail;
 }
 
 void count_outcomes(const Runs& runs, ConditionSummary& summary) {
@@ -199,6 +203,26 @@ std::vector<IdlePart> idle_parts(const Runs& runs, const ConditionSpec& conditio
         if (part.idle_runs + part.own_runs > 0) idle.push_back(std::move(part));
     }
     return idle;
+}
+
+bool have_same_traces(const Runs& left, const Runs& right) {
+    const auto same = [](const results::RunRecord* one, const results::RunRecord* other) {
+        return one != nullptr && other != nullptr && !one->provenance.trace_hash.empty() &&
+               one->provenance.trace_hash == other->provenance.trace_hash;
+    };
+    return !left.empty() && std::ranges::equal(left, right, same);
+}
+
+/// See ConditionSummary::same_as.
+void find_same(const Index& index, ScenarioSummary& scenario) {
+    std::vector<Runs> runs;
+    for (ConditionSummary& summary : scenario.conditions) {
+        runs.push_back(index.runs(scenario.scenario, summary.condition.name));
+        const auto found = std::ranges::find_if(
+            runs, [&](const Runs& earlier) { return have_same_traces(earlier, runs.back()); });
+        const std::size_t place = static_cast<std::size_t>(found - runs.begin());
+        if (place + 1 < runs.size()) summary.same_as = scenario.conditions[place].condition.name;
+    }
 }
 
 void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, ResampleCache& resamples,
@@ -337,6 +361,7 @@ ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEn
     ScenarioSummary scenario{entry.name, entry.title, {}};
     for (const ConditionSpec& condition : conditions)
         scenario.conditions.push_back(detail::describe_condition(index, entry.name, condition, resamples));
+    find_same(index, scenario);
     const auto solo = std::ranges::find(conditions, TrafficModel::free_flow, &ConditionSpec::traffic_model);
     for (ConditionSummary& summary : scenario.conditions) {
         const ConditionSpec* const baseline = compared_with(summary.condition, conditions, choices.against);

@@ -83,8 +83,10 @@ struct MetricSummary {
 
 /// Travel times of all emergency vehicles of a condition. Those that did not arrive rank last.
 struct TravelTimeTail {
+    /// Trips of which one is beyond the percentile; of fewer it would be the slowest.
+    static constexpr std::size_t fewest_trips = 20;
     MaybeEstimate median;
-    MaybeEstimate percentile_95;
+    MaybeEstimate percentile_95;  ///< Nothing below `fewest_trips`.
 };
 
 /// A policy of a condition that did nothing, or nothing to others, in some of its runs.
@@ -98,6 +100,9 @@ struct IdlePart {
 struct ConditionSummary {
     experiment::ConditionSpec condition;
     std::string baseline;  ///< Condition it is compared with; empty for that one itself and solo.
+    /// First condition whose runs have the same traces, all of them complete in both: nothing in which the
+    /// two differ ever acted. Empty without.
+    std::string same_as;
     std::size_t complete_runs = 0;
     std::size_t failed_runs = 0;
     std::size_t missing_runs = 0;

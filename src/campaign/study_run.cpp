@@ -14,6 +14,7 @@
 #include "analysis/summary.hpp"
 #include "campaign/detail/abort_cure.hpp"
 #include "campaign/names.hpp"
+#include "campaign/plan_text.hpp"
 #include "campaign/printout.hpp"
 #include "campaign/programs.hpp"
 #include "campaign/stored_folder.hpp"
@@ -85,11 +86,13 @@ class PresentEstimate {
     std::chrono::steady_clock::time_point read_{};
 };
 
-void say_how_to_continue(const std::filesystem::path& folder, const StudyProgress& progress,
-                         const std::string& command) {
+void say_how_to_continue(const study::Plan& plan, const std::filesystem::path& folder,
+                         const StudyProgress& progress, const RunOptions& options) {
+    const auto left_s = estimated_time_left_s(plan, folder, options.workers);
     fmt::print(stderr,
-               "clearway: interrupted with {} of {} complete; they are kept in {}. To continue:\n  {}\n",
-               progress.done, core::counted(progress.total, "run"), folder.string(), command);
+               "clearway: interrupted with {} of {} complete; they are kept in {}. To continue{}:\n  {}\n",
+               progress.done, core::counted(progress.total, "run"), folder.string(),
+               left_s ? fmt::format(", for about {}", core::clock_text(*left_s)) : "", options.command);
 }
 
 void write_report(const report::StudyFacts& facts, const ReportReplays& replays,
@@ -273,8 +276,7 @@ StudyResult run_missing(const study::Plan& plan, const results::Store& store, co
         progress.update(ended, now.failed, estimate.text(ended, now.total));
     });
     progress.finish();
-    if (is_interrupted(result.exit_code))
-        say_how_to_continue(store.folder(), result.progress, options.command);
+    if (is_interrupted(result.exit_code)) say_how_to_continue(plan, store.folder(), result.progress, options);
     return result;
 }
 

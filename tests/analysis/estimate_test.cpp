@@ -54,6 +54,7 @@ TEST(Quantile, InterpolatesAsTypeSevenOfHyndmanAndFan) {
     const std::vector<double> values = {40.0, 15.0, 50.0, 35.0, 20.0};
     EXPECT_DOUBLE_EQ(quantile(values, 0.4), 29.0);
     EXPECT_DOUBLE_EQ(quantile(values, 0.0), 15.0);
+    EXPECT_DOUBLE_EQ(quantile(values, 0.9), 46.0);
     EXPECT_DOUBLE_EQ(quantile(values, 1.0), 50.0);
     EXPECT_DOUBLE_EQ(median(values), 35.0);
     EXPECT_DOUBLE_EQ(median(std::vector{1.0, 2.0, 4.0, 9.0}), 3.0);

@@ -45,6 +45,8 @@ struct Study {
 TEST(ResponseTimes, CountWhoDidNotArriveWithTheHorizon) {
     EXPECT_THAT(response_times_s(run_with(0, {50.0, 600.0, 70.0})),
                 ElementsAre(50.0, 70.0, testing::DoubleNear(600.0, 1e-9)));
+    EXPECT_THAT(response_times_s(run_with(0, {600.0, 50.0, 600.0})),
+                ElementsAre(50.0, testing::DoubleNear(600.0, 1e-9), testing::DoubleNear(600.0, 1e-9)));
 }
 
 TEST(ResponseTime, IsNinetyPercentAndTheShareWithinTheThreshold) {
@@ -78,6 +80,20 @@ TEST(ResponseTime, IsPairedByReplicationAndResamplesWholeReplications) {
     ASSERT_TRUE(response.in_time_difference->interval);
     EXPECT_TRUE(response.in_time_difference->interval->contains(0.6));
     EXPECT_LE(response.in_time_difference->interval->high, 1.0) << "it is a share";
+}
+
+TEST(ResponseTime, HasNoPercentileOfFewerThanTenTrips) {
+    Study before;
+    Study after;
+    before.add({10.0, 20.0, 30.0, 40.0, 50.0});
+    before.add({10.0, 20.0, 30.0, 40.0, 50.0});
+    after.add({10.0, 20.0, 30.0, 40.0, 50.0});
+    after.add({10.0, 20.0, 30.0, 40.0});
+    const ResponseTime response = response_of(after.rows, before.rows, 35.0);
+    EXPECT_EQ(response.percentile_90_s.has_value(), false);
+    EXPECT_EQ(response.percentile_90_difference_s.has_value(), false);
+    EXPECT_DOUBLE_EQ(response.in_time->mean, 6.0 / 9.0);
+    EXPECT_EQ(response_of(before.rows, after.rows, 35.0).percentile_90_s->mean, 50.0);
 }
 
 TEST(ResponseTime, IsNothingWithoutTrips) {

@@ -1,5 +1,6 @@
 #include "analysis/summary.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
@@ -211,6 +212,23 @@ TEST_F(SmallStudy, TellsPartsThatNeverActFromThoseThatMoveTheEmergencyVehicleAlo
     EXPECT_EQ(parts[1].own_runs, 0U);
 }
 
+TEST_F(SmallStudy, NamesTheFirstConditionWithTheSameTracesInAllRuns) {
+    add_all();
+    for (std::uint32_t replication = 0; replication < 4; ++replication)
+        add("other", replication, 80.0, 100.0);
+    EXPECT_EQ(scenario().find("other")->same_as, "") << "no traces are known";
+    for (RunRecord& run : results_.runs)
+        run.provenance.trace_hash = fmt::format("{}{}", run.key.condition == "baseline", run.key.replication);
+    EXPECT_EQ(scenario().find("treated")->same_as, "");
+    EXPECT_EQ(scenario().find("other")->same_as, "treated");
+    EXPECT_EQ(scenario().find("solo")->same_as, "treated");
+    EXPECT_EQ(scenario().find("baseline")->same_as, "");
+    results_.runs.back().provenance.trace_hash = "another";  // the last run of `other`
+    EXPECT_EQ(scenario().find("other")->same_as, "");
+    results_.runs.pop_back();
+    EXPECT_EQ(scenario().find("other")->same_as, "") << "a run is missing";
+}
+
 TEST_F(SmallStudy, ComparesWithTheBaselineByReplication) {
     add_all();
     const ScenarioSummary summary = scenario();
@@ -308,12 +326,16 @@ TEST_F(SmallStudy, IsAllMissingBeforeAnythingRan) {
 }
 
 TEST_F(SmallStudy, GivesTheTailOfAllEmergencyVehiclesWithThoseThatDidNotArriveLast) {
+    results_.manifest.replications = 10;
     add_all();
-    const TravelTimeTail before = scenario().find("solo")->travel_time;
-    EXPECT_EQ(before.median->mean, 60.0);
-    EXPECT_EQ(before.percentile_95->mean, 80.0);
+    for (std::uint32_t replication = 4; replication < 9; ++replication)
+        add("solo", replication, 60.0, 80.0);
+    EXPECT_EQ(scenario().find("solo")->travel_time.median->mean, 60.0);
+    EXPECT_FALSE(scenario().find("solo")->travel_time.percentile_95) << "of 18 trips it would be the slowest";
+    add("solo", 9, 60.0, 80.0);
+    EXPECT_EQ(scenario().find("solo")->travel_time.percentile_95->mean, 80.0);
     for (RunRecord& run : results_.runs) {
-        if (run.key.condition == "solo" && run.key.replication == 1)
+        if (run.key.condition == "solo" && run.key.replication <= 1)
             run.vehicles[1].outcome = VehicleOutcome::running_at_end;
     }
     EXPECT_FALSE(scenario().find("solo")->travel_time.percentile_95);

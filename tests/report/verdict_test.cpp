@@ -256,6 +256,14 @@ TEST(Verdict, says_in_how_many_runs_a_part_never_acted) {
             "Only changed the EV's own lane: recover_signals in 2 of 20 runs."));
 }
 
+TEST(Verdict, says_which_condition_has_the_same_runs) {
+    ScenarioFacts scenario = tests::scenario("merge");
+    scenario.conditions[1].same_as = scenario.conditions[2].name();
+    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(),
+                HasSubstr(". The same runs as " + scenario.conditions[2].label() + ", to the last command."));
+    EXPECT_THAT(verdict(scenario, scenario.conditions[2], Script::plain).text(), Not(HasSubstr("The same")));
+}
+
 TEST(ConditionLabel, says_who_knows_the_truth) {
     ConditionFacts facts = tests::condition("ceiling", "ceiling", 90.0);
     EXPECT_EQ(facts.label(), "ceiling");

@@ -201,7 +201,8 @@ void response_tables(const StudyFacts& study, Writer& writer) {
     writer.heading("Response time");
     writer.markup(
         "<p>As dispatchers count: the time that nine in ten EVs do not exceed, and the share of EVs that "
-        "are in time. An EV that did not arrive counts with the horizon and is late. Unless a threshold was "
+        "are in time. An EV that did not arrive counts with the horizon and is late; of fewer than ten trips "
+        "there is no such time. Unless a threshold was "
         "given, it is 100 s per km of the mean EV route, the pace of the 240 s of NFPA 1710 over 1.5 miles. "
         "Intervals come from resampling whole replications; differences are paired.</p>\n");
     for (const ScenarioFacts& scenario : study.scenarios) {
