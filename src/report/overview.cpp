@@ -261,7 +261,8 @@ std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scena
 }
 
 Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
-    Tile tile = time_tile({"Emergency vehicles", "faster trips", "slower trips"}, condition, primary, script);
+    Tile tile = time_tile({"Emergency vehicles: travel time", "faster trips", "slower trips"}, condition,
+                          primary, script);
     const std::optional<double> percent = percent_of_baseline(scenario, condition);
     if (percent) tile.figure += fmt::format(", {} %", number(*percent, {0, script, Sign::always}));
     if (condition.objections.on_emergency()) {
@@ -272,8 +273,8 @@ Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& conditi
 }
 
 Tile others_tile(const ScenarioFacts& /*scenario*/, const ConditionFacts& condition, Script script) {
-    Tile tile = time_tile({"Other drivers", "lose less time each", "lose more time each"}, condition,
-                          Measure::other_time_loss, script);
+    Tile tile = time_tile({"Other drivers: time loss", "lose less time each", "lose more time each"},
+                          condition, Measure::other_time_loss, script);
     if (condition.objections.on_others()) {
         const std::string objections = analysis::other_objections(condition.objections);
         if (!objections.empty()) tile.tone = Tile::Tone::worse;

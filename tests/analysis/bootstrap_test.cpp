@@ -140,6 +140,7 @@ TEST(PooledQuantile, CountsMembersWithoutAValueAboveAllOthers) {
     const Resamples resamples = resamples_of(clusters.size());
     // Ascending: 10 20 30 40 50 and one that did not arrive.
     EXPECT_EQ(pooled_quantile(clusters, 0.5, resamples)->mean, 30.0);
+    EXPECT_EQ(pooled_quantile(clusters, 0.5, resamples)->deviation, 0.0) << "it has none";
     EXPECT_EQ(pooled_quantile(clusters, 5.0 / 6.0, resamples)->mean, 50.0);
     EXPECT_FALSE(pooled_quantile(clusters, 0.95, resamples));
 }

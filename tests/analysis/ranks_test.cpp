@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <gmock/gmock.h>
 
 #include "analysis/estimate.hpp"
@@ -44,6 +46,15 @@ TEST(Wilcoxon, ExactAndNormalAgreeWhereOneTakesOver) {
     // V = 243 of 351: z = (243 - 175.5 - 0.5) / sqrt(1550.25) = 1.7017, by the normal table 0.0888.
     values.back() = 26.0;
     EXPECT_NEAR(p(), 0.088818, 5e-6);
+}
+
+TEST(Wilcoxon, CorrectsTheNormalApproximationForTies) {
+    // scipy.stats.wilcoxon(values, correction=True, mode="approx")
+    std::vector<double> values;
+    for (const auto& [value, count] :
+         {std::pair{1.0, 20}, std::pair{-1.0, 8}, std::pair{2.0, 7}, std::pair{-2.0, 3}})
+        values.insert(values.end(), static_cast<std::size_t>(count), value);
+    EXPECT_NEAR(*wilcoxon_p(values, std::vector<double>(values.size(), 0.0)), 0.01892343582, 1e-10);
 }
 
 TEST(Holm, AdjustsAsInTheTextbookExample) {

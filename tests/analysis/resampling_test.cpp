@@ -45,6 +45,8 @@ TEST(RunResampling, GivesAPThatIsLargerForFewRuns) {
     for (double& value : values)
         value = -value;
     EXPECT_NEAR(*RunResampling({4, 6}).p(values), 0.0787, 5e-5) << "on either side";
+    std::ranges::replace(values, 1.0, 0.0);
+    EXPECT_NEAR(*RunResampling({4, 6}).p(values), 0.0787, 5e-5) << "0 is on both sides";
     EXPECT_EQ(RunResampling({4, 6}).p(std::vector{-1.0, 1.0}), 1.0);
 }
 
