@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/process.hpp"
+#include "core/program.hpp"
 #include "core/usage.hpp"
 
 namespace clearway::training {
@@ -110,24 +111,16 @@ int run(int argument_count, char** argument_values) {
     if (const auto code = parse(app, argument_count - 1, argument_values + 1)) return *code;
     watch_signals();
     core::make_folder(arguments.out);
-    const core::ExitCode code = train();
-    if (std::fflush(stdout) != 0) throw core::EnvironmentError("standard output cannot be written");
-    return static_cast<int>(code);
+    return static_cast<int>(train());
 }
 
 }  // namespace
 }  // namespace clearway::training
 
 int main(int argument_count, char** argument_values) {
-    using clearway::core::ExitCode;
-    clearway::core::begin_program();
-    try {
-        return clearway::training::run(argument_count, argument_values);
-    } catch (const clearway::core::Error& error) {
-        fmt::print(stderr, "clearway-train: {}\n", error.what());
-        return static_cast<int>(error.exit_code());
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "clearway-train: {}\n", error.what());
-        return static_cast<int>(ExitCode::environment);
-    }
+    using namespace clearway;
+    core::begin_program();
+    return static_cast<int>(core::end_of("clearway-train", [&] {
+        return static_cast<core::ExitCode>(training::run(argument_count, argument_values));
+    }));
 }

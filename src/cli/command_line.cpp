@@ -4,10 +4,8 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <new>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -17,9 +15,8 @@
 #include "cli/verb.hpp"
 #include "core/build_stamp.hpp"
 #include "core/error.hpp"
-#include "core/machine_failure.hpp"
 #include "core/process.hpp"
-#include "core/read_failure.hpp"
+#include "core/program.hpp"
 #include "core/usage.hpp"
 
 namespace clearway::cli {
@@ -242,38 +239,6 @@ void declare(CLI::App& app, Action& action) {
     declare(app, all_verbs, action);
 }
 
-/// Never throws: standard error may be on the same full disk.
-core::ExitCode complain(const std::exception& error, core::ExitCode code) {
-    std::fflush(stdout);
-    std::fputs("clearway: ", stderr);
-    std::fputs(error.what(), stderr);
-    std::fputs("\n", stderr);
-    return code;
-}
-
-core::EnvironmentError no_output() {
-    return core::EnvironmentError(
-        "standard output cannot be written. Check where it goes and give the same command again");
-}
-
-core::ExitCode act(const Action& action, const Invocation& invocation) {
-    try {
-        const core::ExitCode code = action(invocation);
-        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw no_output();
-        return code;
-    } catch (const std::system_error& error) {
-        if (std::ferror(stdout) != 0) return complain(no_output(), core::ExitCode::environment);
-        const core::Error told = core::error_of(error);
-        return complain(told, told.exit_code());
-    } catch (const core::Error& error) {
-        return complain(error, error.exit_code());
-    } catch (const std::bad_alloc&) {
-        return complain(core::no_memory(), core::ExitCode::environment);
-    } catch (const std::exception& error) {
-        return complain(error, core::ExitCode::environment);
-    }
-}
-
 /// `help run` is `run --help`; `version` and `run --version` are `--version`.
 std::vector<const char*> meant_arguments(std::vector<const char*> words) {
     const auto is = [&](std::size_t at, std::string_view word) {
@@ -316,7 +281,8 @@ int run_command_line(int argument_count, const char* const* arguments) {
         fmt::print(stderr, "{}", usage_message(app, error));
         return usage;
     }
-    return static_cast<int>(act(action, invocation_of(argument_count, arguments)));
+    const Invocation invocation = invocation_of(argument_count, arguments);
+    return static_cast<int>(core::end_of("clearway", [&] { return action(invocation); }));
 }
 
 }  // namespace clearway::cli

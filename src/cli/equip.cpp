@@ -14,7 +14,8 @@
 namespace clearway::cli {
 namespace {
 
-constexpr std::uint32_t usual_seeds = 10;  // FHWA's minimum number of replications
+constexpr std::uint32_t usual_seeds = 10;   // FHWA's minimum number of replications
+constexpr std::uint32_t most_seeds = 1000;  // the demand of each is made before anything runs
 constexpr std::size_t most_signals = 10000;
 
 enum class Mode : std::uint8_t { run, dry_run };
@@ -45,8 +46,8 @@ void add_study_options(App& app, const std::shared_ptr<Arguments>& arguments) {
         "Print numbers of runs and estimated time, and run nothing [off]");
     app.add_option("--seeds", request.replications,
                    "Replications that decide, and fresh ones that estimate; all sets share their demand")
-        .range(2U, most_replications)
-        .option_text(fmt::format("N, 2 to {} [{}]", most_replications, request.replications));
+        .range(2U, most_seeds)
+        .option_text(fmt::format("N, 2 to {} [{}]", most_seeds, request.replications));
     add_seed_option(app, request.seed);
     app.add_option("--out", request.run.folder,
                    "Folder of the result and of the runs; what was interrupted there is continued")

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/leftovers.hpp"
+#include "core/machine_failure.hpp"
 #include "core/process.hpp"
 #include "core/temporary_folder.hpp"
 #include "report/figure_files.hpp"
@@ -49,10 +50,9 @@ void convert(const std::vector<std::filesystem::path>& drawings, const std::stri
         if (exit.ok()) continue;
         if (exit.code == campaign::program_not_started)
             throw core::EnvironmentError(fmt::format(
-                "{} cannot be started; it makes PDF and PNG files. Install the package "
-                "librsvg2-bin, or give --svg-only. The SVG, CSV and LaTeX files and index.html are "
-                "written",
-                rasteriser));
+                "{} cannot be started; it makes PDF and PNG files. {}. The SVG, CSV and LaTeX "
+                "files and index.html are written",
+                rasteriser, core::cure_of_no_start("Install the package librsvg2-bin, or give --svg-only")));
         throw core::EnvironmentError(fmt::format("{}: {} ended with {}: {}", drawing.string(), rasteriser,
                                                  exit.describe(), core::tail(log, 3)));
     }

@@ -29,6 +29,11 @@ std::string text_of(const study::MergeResult& result, const std::string& out) {
     std::string text = fmt::format("{}: {} complete, {} failed, {} missing; {} new, {} seen before\n", out,
                                    core::counted(counts.complete, "run"), counts.failed, counts.missing,
                                    result.adopted, result.duplicates);
+    for (const std::string& lost : result.lost)
+        text += fmt::format(
+            "lost: {}: no folder has it whole; give the command of that study again there, "
+            "then this one\n",
+            lost);
     if (!result.absent_shards.empty())
         text += fmt::format("not there: shard {}\n", core::listed(result.absent_shards));
     for (const experiment::RunKey& key : result.missing)
@@ -49,6 +54,7 @@ campaign::Printout printout_of(const study::MergeResult& result, const std::stri
              {"new_runs", result.adopted},
              {"runs_seen_before", result.duplicates},
              {"damaged", result.damaged},
+             {"lost", result.lost},
              {"absent_shards", result.absent_shards},
              {"first_missing", missing}},
             {},
@@ -68,7 +74,7 @@ core::ExitCode merge(const Arguments& arguments) {
     for (const std::string& damaged : result.damaged)
         fmt::print(stderr, "clearway: {}\n", damaged);
     campaign::print(printout_of(result, arguments.out), arguments.printing);
-    if (result.counts.missing > 0) return core::ExitCode::incomplete;
+    if (result.counts.missing > 0 || !result.lost.empty()) return core::ExitCode::incomplete;
     return result.counts.failed > 0 ? core::ExitCode::runs_failed : core::ExitCode::ok;
 }
 

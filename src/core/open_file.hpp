@@ -24,13 +24,17 @@ class OpenFile {
     explicit OpenFile(const std::filesystem::path& file, int flags = 0)
         : file_(file), descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | flags)) {
         if (descriptor_ < 0) fail_to_read(file, errno);
-        if (is_regular() || is_folder()) return;
-        if (!is_handed_over()) {
-            ::close(descriptor_);
-            throw InputError({file.string(), "is neither a file nor a folder", "a file",
-                              "Remove it, or put a copy of what it stands for in its place"});
+        struct stat status {};
+        const int reason = ::fstat(descriptor_, &status) == 0 ? 0 : errno;
+        if (reason == 0 && (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode))) return;
+        if (reason == 0 && is_handed_over()) {
+            ::fcntl(descriptor_, F_SETFL, 0);  // waits for whoever writes
+            return;
         }
-        ::fcntl(descriptor_, F_SETFL, 0);  // waits for whoever writes
+        ::close(descriptor_);
+        if (reason != 0) fail_to_read(file, reason);
+        throw InputError({file.string(), "is neither a file nor a folder", "a file",
+                          "Remove it, or put a copy of what it stands for in its place"});
     }
     ~OpenFile() { ::close(descriptor_); }
     OpenFile(const OpenFile&) = delete;
@@ -55,12 +59,6 @@ class OpenFile {
     }
 
   private:
-    bool has_type(mode_t type) const {
-        struct stat status {};
-        return ::fstat(descriptor_, &status) == 0 && (status.st_mode & S_IFMT) == type;
-    }
-    bool is_regular() const { return has_type(S_IFREG); }
-    bool is_folder() const { return has_type(S_IFDIR); }  // read(2) says that it is one
     bool is_handed_over() const {
         const std::string name = file_.string();
         return name.starts_with("/dev/std") || name.starts_with("/dev/fd/") || name.starts_with("/proc/") ||

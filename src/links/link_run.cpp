@@ -185,6 +185,24 @@ std::filesystem::path timing_file(std::filesystem::path link_run_file) {
     return link_run_file.replace_extension(".timing.json");
 }
 
+LinkTiming timing_in(const std::filesystem::path& file) {
+    const Json json = core::parse_object(core::read_file(file), file.string());
+    std::vector<core::Problem> problems;
+    LinkTiming timing;
+    core::ObjectReader root(json, file.string(), problems);
+    for (const Json& one : root.child("cases", Json::value_t::array)) {
+        LinkTiming::Case& timed = timing.cases.emplace_back();
+        core::ObjectReader reader(one, file.string(), problems);
+        reader.read("failure", timed.failure);
+        reader.read("exits", timed.exits);
+        reader.read("reports", timed.reports);
+        reader.read("vehicles", timed.vehicles);
+        reader.read("predict_s", timed.predict_s);
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    return timing;
+}
+
 }  // namespace
 
 void write_link_run(const std::filesystem::path& file, const LinkRun& run, const LinkTiming& timing) {
@@ -235,21 +253,11 @@ LinkRun read_link_run(const std::filesystem::path& file) {
 
 LinkTiming read_link_timing(const std::filesystem::path& link_run_file) {
     const std::filesystem::path file = timing_file(link_run_file);
-    const Json json = core::parse_object(core::read_file(file), file.string());
-    std::vector<core::Problem> problems;
-    LinkTiming timing;
-    core::ObjectReader root(json, file.string(), problems);
-    for (const Json& one : root.child("cases", Json::value_t::array)) {
-        LinkTiming::Case& timed = timing.cases.emplace_back();
-        core::ObjectReader reader(one, file.string(), problems);
-        reader.read("failure", timed.failure);
-        reader.read("exits", timed.exits);
-        reader.read("reports", timed.reports);
-        reader.read("vehicles", timed.vehicles);
-        reader.read("predict_s", timed.predict_s);
+    try {
+        return timing_in(file);
+    } catch (const core::InputError& error) {
+        refuse(file, error.problems().front().what);
     }
-    if (!problems.empty()) throw core::InputError(std::move(problems));
-    return timing;
 }
 
 }  // namespace clearway::links

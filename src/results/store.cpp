@@ -241,9 +241,8 @@ Store::Written Store::adopt(const Store& other, const experiment::RunKey& key) c
 void Store::adopt_recording(const Store& other, const experiment::RunKey& key) const {
     const fs::path recording = trace::recording_file(other.folder_, key);
     const fs::path place = trace::recording_file(folder_, key);
-    if (!fs::exists(recording)) return;
+    if (!fs::exists(recording) || fs::exists(place)) return;
     trace::check_recording(recording);
-    if (fs::exists(place)) return;
     core::make_folder(place.parent_path());
     core::copy_file(recording, place, core::Copying::links);
     core::flush_folder(place.parent_path());

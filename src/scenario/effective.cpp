@@ -26,7 +26,9 @@ std::string value_text(const Member& value) {
     } else if constexpr (std::is_enum_v<Member>) {
         return detail::quoted(std::string(core::name(value)));
     } else if constexpr (core::OptionalMember<Member>::value) {
-        return fmt::format("{}", *value);
+        return value_text(*value);
+    } else if constexpr (std::is_floating_point_v<Member>) {
+        return fmt::format("{}", value + 0.0);  // a negative zero is "-0", which is read as a whole number
     } else {
         return fmt::format("{}", value);
     }

@@ -155,7 +155,7 @@ BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::
     const std::filesystem::path raw = folder / "raw.net.xml";
     const bool is_taken_whole = !config.network.plain() && config.network.restrict == Restriction::none;
     if (config.network.plain()) {
-        detail::check_signal_programs(config);
+        detail::check_sources(config);
         std::vector<std::string> arguments = plain_arguments(config);
         arguments.insert(arguments.end(), {"--output-file", raw.string()});
         run_netconvert(config, arguments, folder);

@@ -67,14 +67,17 @@ void copy_scenario(const std::vector<fs::path>& folders, const results::Scenario
                    const results::Store& target, MergeResult& result) {
     const fs::path copy = target.scenario_folder(entry.name);
     if (!damage_of(copy, entry)) return;
+    bool exists = false;
     for (const fs::path& folder : folders) {
         const fs::path source = folder / "scenarios" / entry.name;
         if (!fs::exists(source)) continue;
+        exists = true;
         const auto damage = damage_of(source, entry);
         // Demand of single runs is made anew where it is needed.
         if (!damage) return core::copy_folder(source, copy, "demand");
         result.damaged.push_back(*damage + ". It is left out");
     }
+    if (exists) result.lost.push_back("scenario " + entry.name);
 }
 
 /// The first of these run folders' `part`; an empty path when none has it.
@@ -106,11 +109,12 @@ std::string holder_of(const experiment::RunKey& key, std::span<const fs::path> f
 }
 
 /// Adds the runs of `folders[number]` to `target`. A damaged record is never adopted, and one that the target
-/// has gives way.
-void adopt_runs(const std::vector<fs::path>& folders, std::size_t number, const results::Store& target,
-                MergeResult& result) {
+/// has gives way. Returns the runs of which something is damaged.
+std::vector<experiment::RunKey> adopt_runs(const std::vector<fs::path>& folders, std::size_t number,
+                                           const results::Store& target, MergeResult& result) {
     const results::Store source = results::Store::open(folders[number]);
     const std::vector<experiment::RunKey> keys = source.complete_runs();
+    std::vector<experiment::RunKey> refused;
     for (const experiment::RunKey& key : keys) {
         for (const auto& moved :
              {target.set_damaged_aside({key}), target.set_damaged_recordings_aside({key})})
@@ -123,12 +127,27 @@ void adopt_runs(const std::vector<fs::path>& folders, std::size_t number, const 
             target.adopt_recording(source, key);
         } catch (const core::InputError& error) {
             result.damaged.push_back(fmt::format("{}. It is left out", error.what()));
+            refused.push_back(key);
         } catch (const core::ConflictError& error) {
             throw core::ConflictError(fmt::format("{}. The other one is from {}", error.what(),
                                                   holder_of(key, std::span(folders).first(number))));
         }
     }
     target.flush(keys);
+    return refused;
+}
+
+/// Recordings of complete runs that one folder has damaged and no other has.
+void find_lost_recordings(const results::Store& source, const std::vector<experiment::RunKey>& refused,
+                          const results::Store& target, MergeResult& result) {
+    for (const experiment::RunKey& key : refused) {
+        if (!target.complete(key)) continue;
+        try {
+            target.adopt_recording(source, key);
+        } catch (const core::InputError&) {
+            result.lost.push_back("recording " + experiment::to_text(key));
+        }
+    }
 }
 
 void adopt_errors(const results::Store& source, const results::Store& target, MergeResult& result) {
@@ -198,10 +217,13 @@ MergeResult merge(const std::vector<fs::path>& sources, const fs::path& out,
     const results::Store target = results::Store::create(out, first.manifest());
     MergeResult result;
     copy_surroundings(folders, target, result);
+    std::vector<std::vector<experiment::RunKey>> refused;
     for (std::size_t number = 0; number < folders.size(); ++number) {
         on_folder(number);
-        adopt_runs(folders, number, target, result);
+        refused.push_back(adopt_runs(folders, number, target, result));
     }
+    for (std::size_t number = 0; number < folders.size(); ++number)
+        find_lost_recordings(results::Store::open(folders[number]), refused[number], target, result);
     for (const fs::path& folder : folders)
         adopt_errors(results::Store::open(folder), target, result);
     target.remove_leftovers();

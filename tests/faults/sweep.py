@@ -21,17 +21,17 @@ import tempfile
 
 from tracing import require_strace
 
-CALLS = ("openat", "getdents64", "read", "pread64", "write", "pwrite64", "fsync", "rename", "mkdir", "clone", "mmap", "ftruncate")
+CALLS = ("openat", "getdents64", "read", "pread64", "write", "pwrite64", "fsync", "rename", "mkdir", "clone", "mmap", "ftruncate", "newfstatat")
 ERRORS = ("EIO", "ENOSPC", "EMFILE", "ENOMEM")
 LIMIT_S = 120
 # What two equal commands write differently: times, process numbers.
 CHANGING = re.compile(r"/timing\.json$|^units/|/jobs/|^logs/|^\.lock$|\.pdf$|/netconvert\.log$")
-# What a killed process leaves under a name that the next one does not take, and the log of a second attempt.
-LEFT = re.compile(r"\.\d+\.clearway-part$|^logs/.*\.\d+\.log$")
+# What a killed process leaves under a name that the next one does not take, jobs of links, and the log of a second attempt.
+LEFT = re.compile(r"\.\d+\.clearway-part$|^jobs/.*-\d+\.(json|log)$|^logs/.*\.\d+\.log$")
 # Whoever exits with 3 blames the input; of a machine that failed in passing it has to say so beside that.
 BLAMELESS = re.compile(r"give the same command again|in case the machine failed", re.IGNORECASE)
 # A message ends with what to do; the system's loader knows nothing better.
-CURE = re.compile(r"(again|[Cc]hoose|[Cc]heck|Free|Set|[Ii]nstall|[Rr]emove)\b[^.:]*$|error while loading shared libraries|Fatal glibc error", re.M)
+CURE = re.compile(r"(again|[Cc]hoose|[Cc]heck|Free|Set|[Ii]nstall|[Rr]emove)\b[^.:]*$|error while loading shared libraries|Fatal glibc error|cannot allocate TLS", re.M)
 SILENCED = re.compile(r"write\(2, .*INJECTED")
 LOADED = re.compile(r'"[^"]*(\.so\b|/ld\.so\.cache)')
 STUDY = """name = "study"
@@ -56,6 +56,8 @@ VERBS = [
          programs=("clearway", "clearway-run", "netconvert")),
     Verb("study", "study study.toml --jobs 1 --out out", "out", programs=("clearway", "clearway-run")),
     Verb("dataset", "links dataset merge --out out", "out", programs=("clearway", "clearway-run")),
+    Verb("evaluate", "links evaluate merge --predictor none last_seen --failure B10 --exits known --seeds 1 --validation-seeds 1 --jobs 1 "
+         "--out out", "out", programs=("clearway", "clearway-run")),
     Verb("import of a map", "scenario import town.osm --name town", "town", programs=("clearway", "netconvert"), once=True),
     Verb("import of a SUMO scenario", "scenario import line.sumocfg --name line", "line", once=True),
     Verb("merge", "study merge one two --out out", "out", given=("one", "two"), counts=True),

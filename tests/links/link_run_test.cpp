@@ -82,6 +82,20 @@ TEST_F(LinkRunFile, is_refused_when_damaged_with_the_cure) {
         EXPECT_THAT(refusal(other), AllOf(HasSubstr("kalman-0123.links"), HasSubstr("version 2")));
 }
 
+TEST_F(LinkRunFile, with_damaged_times_is_refused_with_the_cure) {
+    std::filesystem::path times = file();
+    times.replace_extension(".timing.json");
+    for (const char* const damaged : {"", "[1", "{\"cases\": [{\"failure\": 1}]}"}) {
+        core::write_atomically(times, damaged);
+        try {
+            read_link_timing(file());
+            FAIL() << damaged;
+        } catch (const core::InputError& error) {
+            EXPECT_THAT(error.what(), AllOf(HasSubstr("kalman-0123.timing.json"), HasSubstr("Remove it")));
+        }
+    }
+}
+
 TEST_F(LinkRunFile, is_missed_by_name) {
     std::filesystem::remove(file());
     try {

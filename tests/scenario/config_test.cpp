@@ -282,6 +282,14 @@ TEST_F(Config, unknown_scenario_suggests_the_nearest) {
     EXPECT_THAT(problems[0].cure, HasSubstr("intersection"));
 }
 
+TEST_F(Config, a_negative_zero_is_written_as_zero) {
+    Options options;
+    options.set("density", "-0.0");
+    options.set("warm_up_s", "-0.0");
+    const std::string text = to_toml(load("merge", options));
+    EXPECT_THAT(text, AllOf(HasSubstr("density = 0\n"), Not(HasSubstr("= -0\n"))));
+}
+
 TEST_F(Config, density_above_one_is_refused_for_measured_demand) {
     Options options;
     options.set("density", "2");

@@ -314,13 +314,24 @@ TEST_F(PlainNetworks, with_programs_that_sumo_cannot_run_are_refused_with_file_a
     EXPECT_EQ(refusal_of(name, " type=\"static\"", ""), "") << "netconvert makes it static";
 }
 
+TEST_F(PlainNetworks, nested_so_deep_that_netconvert_never_ends_are_refused) {
+    std::string deep;
+    for (const char* const tag : {"<a>", "</a>"})
+        for (int level = 0; level < 300; ++level)
+            deep += tag;
+    for (const auto& [name, end] :
+         {std::pair{"intersection.nod.xml", "</nodes>"}, std::pair{"intersection.edg.xml", "</edges>"},
+          std::pair{"intersection.con.xml", "</connections>"}})
+        EXPECT_THAT(refusal_of(name, end, deep + end), AllOf(HasSubstr(name), HasSubstr("levels")));
+}
+
 TEST_F(PlainNetworks, that_netconvert_refuses_are_told_with_its_words_and_the_key_at_fault) {
     EXPECT_THAT(refusal_of("intersection.tll.xml", "GGGgrrrr", "GGG"),
                 AllOf(HasSubstr("scenario.toml:10:1: network.signals: netconvert refuses this network"),
                       HasSubstr("state length of"), HasSubstr("Correct"), HasSubstr("intersection.tll.xml"),
                       Not(HasSubstr("Quitting")), Not(HasSubstr("Warning"))));
     EXPECT_THAT(refusal_of("intersection.edg.xml", "<edge ", "<edge <"),
-                AllOf(HasSubstr("network.edges: "), HasSubstr("intersection.edg.xml")));
+                HasSubstr((folder() / "mine" / "intersection.edg.xml").string() + ":"));
     EXPECT_THAT(refusal_of("intersection.nod.xml", "id=\"center\"", ""), HasSubstr("network.nodes: "));
 }
 

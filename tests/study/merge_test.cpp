@@ -351,10 +351,13 @@ TEST_F(Merge, ReplacesCopiesThatAPowerFailureEmptiedAndTakesNone) {
         const std::filesystem::path damaged = sources[1] / "scenarios" / "alpha" / name;
         const std::string whole = core::read_file(damaged);
         core::write_atomically(damaged, whole.substr(0, whole.size() / 2));
-        EXPECT_THAT(merge_into("out", {sources[1]}).damaged, testing::IsEmpty()) << name;
+        const MergeResult intact = merge_into("out", {sources[1]});
+        EXPECT_THAT(intact.damaged, testing::IsEmpty()) << name;
+        EXPECT_THAT(intact.lost, testing::IsEmpty()) << name;
         EXPECT_EQ(core::read_file(copy), "network/network.net.xml") << name;
-        EXPECT_THAT(merge_into("other", {sources[1]}).damaged, ElementsAre(HasSubstr("It is left out")))
-            << name;
+        const MergeResult other = merge_into("other", {sources[1]});
+        EXPECT_THAT(other.damaged, ElementsAre(HasSubstr("It is left out"))) << name;
+        EXPECT_THAT(other.lost, ElementsAre("scenario alpha")) << name;
         EXPECT_FALSE(std::filesystem::exists(place("other") / "scenarios" / "alpha")) << name;
         core::write_atomically(damaged, whole);
     }

@@ -136,10 +136,13 @@ std::vector<std::filesystem::path> find_files(const std::filesystem::path& folde
                                               std::string_view what, std::string_view cure) {
     std::vector<std::filesystem::path> files;
     std::error_code error;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {
-        if (entry.path().filename().string().ends_with(ending)) files.push_back(entry.path());
+    std::filesystem::path at = folder;  // the folder that cannot be listed, where one cannot
+    for (auto entry = std::filesystem::recursive_directory_iterator(folder, error);
+         !error && entry != std::filesystem::recursive_directory_iterator(); entry.increment(error)) {
+        at = entry->path();
+        if (at.filename().string().ends_with(ending)) files.push_back(at);
     }
-    if (error) core::fail_to_read(folder, error.value());
+    if (error) core::fail_to_read(at, error.value());
     if (files.empty()) {
         throw core::InputError({folder.string(), fmt::format("holds no file of {}", what),
                                 fmt::format("a folder with *{} files", ending), std::string(cure)});

@@ -112,11 +112,23 @@ std::vector<core::Problem> problems_of_source(const ScenarioConfig& config, cons
     return problems;
 }
 
+/// For what no reader of XML takes, such as the deep nesting that netconvert follows for hours.
+class Anything : public core::XmlHandler {
+  public:
+    void start(std::string_view, const core::XmlAttributes&, unsigned long) override {}
+    void end(std::string_view) override {}
+};
+
 }  // namespace
 
-void check_signal_programs(const ScenarioConfig& config) {
-    if (!config.network.plain() || config.network.signals.empty()) return;
-    const std::filesystem::path file = resolve(config, config.network.signals);
+void check_sources(const ScenarioConfig& config) {
+    const NetworkSource& network = config.network;
+    if (!network.plain()) return;
+    Anything anything;
+    for (const std::string* const file : {&network.nodes, &network.edges, &network.connections})
+        if (!file->empty()) core::stream_xml(resolve(config, *file), anything);
+    if (network.signals.empty()) return;
+    const std::filesystem::path file = resolve(config, network.signals);
     Programs programs(file);
     core::stream_xml(file, programs);
     std::vector<core::Problem> problems = programs.problems();

@@ -10,9 +10,9 @@
 
 namespace clearway::scenario::detail {
 
-/// Throws core::InputError, with file and line, for signal programs of plain XML that SUMO could not run.
-/// Netconvert names no file, and takes some of them.
-void check_signal_programs(const ScenarioConfig& config);
+/// Throws core::InputError, with file and line, for plain XML that cannot be read, and for signal programs in
+/// it that SUMO could not run. Netconvert names no file, and takes some of them.
+void check_sources(const ScenarioConfig& config);
 
 /// What netconvert says in its log of why it ended, to be shown after the log is gone; paths of files that
 /// were made from the sources are replaced by `source`. `made` is the folder of those files.

@@ -42,7 +42,8 @@ void read_table(const toml::table& table, const std::string& prefix, const Readi
 std::optional<std::string> setting_value(const toml::node& node) {
     if (const auto text = node.value_exact<std::string>()) return *text;
     if (const auto whole = node.value_exact<std::int64_t>()) return fmt::format("{}", *whole);
-    if (const auto number = node.value_exact<double>()) return fmt::format("{}", *number);
+    if (const auto number = node.value_exact<double>())
+        return fmt::format("{}", *number + 0.0);  // not the negative zero
     if (const auto truth = node.value_exact<bool>()) return *truth ? "true" : "false";
     return std::nullopt;
 }
