@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
-import errno
 import importlib.util
 import inspect
 import json
@@ -23,15 +22,12 @@ from typing import Any
 
 import numpy as np
 
-from . import _program
+from . import _files, _program
 from ._channel import ANSWER, DECIDE, FAILED, LOST, Channel, Sheet
 from .parts import Belief, Network, Observation, Policy, Predictor, checked_leases, checked_probabilities
 from .torchscript import TorchScript, Unusable
 
 METHODS = {"policy": "act", "predictor": "predict"}
-#: By these the machine fails, not the code; as core::is_of_machine.
-REASONS_OF_MACHINE = {errno.EIO, errno.EMFILE, errno.ENFILE, errno.ENOMEM, errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.ESTALE}
-NO_MEMORY = os.strerror(errno.ENOMEM)
 PR_SET_CHILD_SUBREAPER = 36
 
 
@@ -134,24 +130,13 @@ def serve(channel: Channel) -> None:
         channel.ring(ANSWER)
 
 
-def is_of_machine(error: BaseException | None) -> bool:
-    """Also when the code caught what the machine did and raised something else, and in words, as torch tells it."""
-    if error is None:
-        return False
-    if isinstance(error, OSError):
-        failed = error.errno in REASONS_OF_MACHINE
-    else:
-        failed = isinstance(error, MemoryError) or (isinstance(error, RuntimeError) and NO_MEMORY in str(error))
-    return failed or is_of_machine(error.__cause__ or (None if error.__suppress_context__ else error.__context__))
-
-
 def report(channel: Channel, error: BaseException) -> None:
     try:
         text = told(error)
     except MemoryError:
         text = type(error).__name__
     channel.write_text(text)
-    channel.ring(LOST if is_of_machine(error) else FAILED)
+    channel.ring(LOST if _files.is_of_machine(error) else FAILED)
 
 
 def told(error: BaseException) -> str:

@@ -18,7 +18,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from . import _host
+from . import _files, _host
 
 PR_SET_PDEATHSIG = 1
 #: From SIGTERM to SIGKILL, s.
@@ -104,7 +104,7 @@ class Nursery:
             sys.path[0] = folder  # as -m makes it
             _host.be_part(memory, read, write, owner)
         except OSError as error:
-            if _host.is_of_machine(error):
+            if _files.is_of_machine(error):
                 os.kill(os.getpid(), signal.SIGKILL)  # as what the machine did is told
         finally:
             os._exit(1)

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import dataclasses
+import io
 import json
 import struct
 from pathlib import Path
@@ -9,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _program
+from . import _files, _program
 
 _GRAPH_LINE = b"clearway graph samples 1\n"
 _REPAIR_LINE = b"clearway repair samples "
@@ -47,21 +48,23 @@ def dataset(folder: str | Path) -> list[Sample]:
     """Reads a data set: of ``--samples`` (many graphs, with the failures that hid vehicles), or as published (one graph).
 
     A published data set has no observed links, so its messages go along the listed pairs, as the dissertation's training does.
-    Raises InputError for a folder without either and for files that are cut short or of another version.
+    Raises InputError for a folder without either and for files that are cut short, changed or of another version.
     """
-    folder = Path(folder)
-    files = sorted(folder.rglob("*.samples"))
+    folder = _files.path_of("folder", folder)
+    found = _files.below(folder, (".samples", ".csv"))
+    files = [file for file in found if file.name.endswith(".samples")]
     if files:
         return [sample for file in files for sample in _graph_samples(file)]
-    if (folder / "edge_list.csv").exists():
+    if folder / "edge_list.csv" in found:
         return [_published(folder)]
     raise _program.InputError(f"{folder} holds neither *.samples nor edge_list.csv. {_CURE}, or without --samples")
 
 
 def _numbers(file: Path, dtype: type) -> np.ndarray:
+    content = _files.content(file)
     try:
-        return np.loadtxt(file, delimiter=",", dtype=dtype, ndmin=2)
-    except (OSError, ValueError) as error:
+        return np.loadtxt(io.StringIO(content.decode()), delimiter=",", dtype=dtype, ndmin=2)
+    except ValueError as error:
         raise _program.InputError(f"{file}: {error}. Record it again with `clearway links dataset SCENARIO --out DIR`") from None
 
 
@@ -77,7 +80,7 @@ def _published(folder: Path) -> Sample:
 
 
 def _graph_samples(file: Path) -> list[Sample]:
-    content = file.read_bytes()
+    content = _files.content(file)
     if content.startswith(_REPAIR_LINE):
         raise _program.InputError(f"{file}: holds the inputs of the net graphsage, whose tables are its own "
                                   "(docs/reference/formats.md). Record without `--net graphsage` for edge lists")
@@ -87,6 +90,10 @@ def _graph_samples(file: Path) -> list[Sample]:
     last = content[start + 1:].split()
     if start < 0 or not content.endswith(b"\n") or len(last) != 3 or len(content) - start > 60:
         raise _program.InputError(f"{file}: its last line is missing: it is cut short. {_CURE}")
+    found = _files.content_hash([content[:start]])
+    if found.encode() != last[2]:
+        raise _program.InputError(f"{file}: its content hash is {found}, but its last line says {last[2].decode('ascii', 'replace')}. It "
+                                  f"was changed or damaged. {_CURE}")
     header_end = content.index(b"\n", len(_GRAPH_LINE))
     try:
         origin = json.loads(content[len(_GRAPH_LINE):header_end])

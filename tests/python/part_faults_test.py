@@ -10,7 +10,7 @@ import unittest
 from pathlib import Path
 
 import clearway
-from clearway._host import REASONS_OF_MACHINE
+from clearway._files import REASONS_OF_MACHINE, is_of_machine, refusal
 from support import FolderCase, PROGRAMS, SOURCE, program
 
 FAULTS = """
@@ -351,6 +351,12 @@ class FaultTest(FolderCase):
         source = (SOURCE / "src/core/read_failure.cpp").read_text()
         named = re.search(r"reasons_of_machine = \{(.*?)\}", source)[1]
         self.assertEqual({getattr(errno, name) for name in named.split(", ")}, REASONS_OF_MACHINE)
+
+    def test_a_file_that_the_machine_did_not_read_is_not_blamed_on_the_part(self) -> None:
+        for reason in REASONS_OF_MACHINE:
+            self.assertTrue(is_of_machine(refusal("data", reason)))
+        for reason in (errno.ENOENT, errno.EACCES, errno.EISDIR):
+            self.assertFalse(is_of_machine(refusal("data", reason)))
 
     def test_a_part_that_gets_no_memory_while_it_is_loaded_is_not_blamed(self) -> None:
         self.write("large.py", "raise MemoryError\n")

@@ -1,7 +1,9 @@
 """What the suites share: a folder of one's own, the programs, and a small study that is run once."""
 from __future__ import annotations
 
+import functools
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -39,6 +41,24 @@ def program(*arguments: str, code: int = 0) -> str:
     ended = subprocess.run([str(PROGRAMS / "clearway"), *arguments], capture_output=True, text=True, check=False)
     assert ended.returncode == code, f"{arguments}: {ended.returncode}\n{ended.stdout}\n{ended.stderr}"
     return ended.stdout
+
+
+@functools.cache
+def may_trace() -> bool:
+    return shutil.which("strace") is not None and subprocess.run(["strace", "-qq", "-o", os.devnull, "true"], check=False).returncode == 0
+
+
+def told_when(call: str, reason: str, place: str | Path, expression: str, first: int = 1) -> str:
+    """What a Python of its own raises for an expression while a system call on a file or folder fails, from its ``first`` on. Skips
+    where strace may not trace."""
+    if not may_trace():
+        raise unittest.SkipTest("strace is not installed or may not trace")
+    code = (f"import clearway\ntry:\n    {expression}\n    print('nothing')\n"
+            "except Exception as error:\n    print(f'{type(error).__name__}: {error}')\n")
+    ended = subprocess.run(["strace", "-qq", "-o", os.devnull, "-P", str(place), "-e", f"trace={call}",
+                            "-e", f"inject={call}:error={reason}:when={first}+", sys.executable, "-c", code],
+                           capture_output=True, text=True, check=False, timeout=60)
+    return ended.stdout.removesuffix("\n")
 
 
 def python(code: str, executable: str = sys.executable, **environment: str) -> subprocess.CompletedProcess:
