@@ -1,16 +1,25 @@
 """Recordings (docs/reference/recording.md) as arrays, one step at a time. Needs h5py (Debian: python3-h5py)."""
 from __future__ import annotations
 
-from collections.abc import Iterator
+import errno
+import re
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
-from . import _program
+from . import _files, _program
 from .results import Table
 
 NONE = 4294967295
+#: As src/trace/detail/seal.cpp.
+_FIRST_WORDS, _FORMAT, _SEAL_LENGTH = "CLEARWAY recording, format ", 5, 512
+_CURE = "Record the run again, or take the file from a backup"
+#: What h5py raises; HDF5's words stand in it.
+_H5PY_ERRORS = (OSError, KeyError, RuntimeError, TypeError, ValueError)
+
+T = TypeVar("T")
 
 
 class Step:
@@ -58,7 +67,7 @@ class Step:
         """What the policy asked for in this step."""
         texts, names = self._recording._texts, self._recording.ids
         columns: dict[str, np.ndarray] = {}
-        for name in self._recording._file["leases"]:
+        for name in self._recording._read("leases", list):
             values = self._rows("leases", name)
             if name in ("policy", "reason"):
                 values = _named(values, texts)
@@ -80,17 +89,16 @@ class Recording:
     """A recording that is open; iterate it for its steps. Use it in a ``with`` block, or close it."""
 
     def __init__(self, file: str | Path) -> None:
-        self.file = Path(file)
+        self.file = _files.path_of("file", file)
         try:
             import h5py
         except ImportError as error:
             raise _program.EnvironmentFault("h5py is not installed (Debian: python3-h5py); recordings are HDF5 files") from error
-        if not self.file.is_file():
-            raise _program.InputError(f"{self.file} is not a file; `record=True` (--record) keeps recordings in a run folder")
+        _check_seal(self.file)
         try:
             self._file = h5py.File(self.file, "r")
-        except OSError as error:
-            raise self._damaged(error) from None
+        except _H5PY_ERRORS as error:
+            raise self._told("the file", error) from None
         try:
             self._steps = {"time_s": self._file["steps/time_s"][:]}
             self.ids: np.ndarray = self._file["vehicles/id"].asstr()[:].astype(str)
@@ -98,22 +106,33 @@ class Recording:
             attributes = self._file.attrs
             self.scenario, self.condition = str(attributes["scenario"]), str(attributes["condition"])
             self.replication = int(attributes["replication"])
-        except (OSError, KeyError, StopIteration) as error:
+        except (*_H5PY_ERRORS, StopIteration) as error:
             self._file.close()
-            raise self._damaged(error) from None
+            raise self._told("the file", error) from None
         self._loaded: dict[str, np.ndarray] = {}
 
-    def _damaged(self, error: Exception) -> _program.InputError:
-        return _program.InputError(f"{self.file}: is not a recording of Clearway, or is damaged ({error}); record the run again")
+    def _told(self, what: str, error: Exception) -> _program.ClearwayError:
+        """What h5py raised. HDF5 writes the ``errno`` of the system among its words; where it lacks memory, it has none."""
+        words = " ".join(str(error).split())
+        reason = re.search(r"errno = (\d+)", words)
+        if reason or re.search("alloc|inflateInit", words):
+            return _files.refusal(self.file, int(reason[1]) if reason else errno.ENOMEM)
+        return _program.InputError(f"{self.file}: {what} is damaged ({words}). {_CURE}")
+
+    def _read(self, path: str, read: Callable[[Any], T]) -> T:
+        """What ``read`` makes of the group or data set. Raises KeyError where there is none."""
+        if not self._file:
+            raise _program.ClearwayError(f"{self.file} is closed; read what you need before")
+        try:
+            return read(self._file[path])
+        except _H5PY_ERRORS as error:
+            if isinstance(error, KeyError) and "doesn't exist" in str(error):
+                raise
+            raise self._told(path, error) from None
 
     def _array(self, path: str) -> np.ndarray:
         if path not in self._loaded:
-            if not self._file:
-                raise _program.ClearwayError(f"{self.file} is closed; read what you need before")
-            try:
-                self._loaded[path] = self._file[path][:]
-            except OSError as error:
-                raise _program.InputError(f"{self.file}: {path} is damaged ({error}); record the run again") from None
+            self._loaded[path] = self._read(path, lambda data_set: data_set[:])
         return self._loaded[path]
 
     def _begin(self, group: str) -> np.ndarray:
@@ -122,12 +141,11 @@ class Recording:
     @property
     def events(self) -> Table:
         """Departures, arrivals, teleports, collisions, emergency brakings: one row each, with its time."""
-        group = self._file["events"]
         begin = self._begin("events")
         columns: dict[str, np.ndarray] = {"time_s": np.repeat(self._steps["time_s"], np.diff(begin.astype(np.int64)))}
-        for name in group:
-            values = self._array(f"events/{name}")
-            columns[name] = _words(group[name], values)
+        for name in self._read("events", list):
+            path = f"events/{name}"
+            columns[name] = _in_words(self._array(path), self._read(path, _words))
         for name in ("vehicle", "other"):
             columns[name] = _named(columns[name], self.ids)
         return Table(columns)
@@ -162,9 +180,31 @@ def _texts_path(file: Any) -> str:
     return next(f"texts/{name}" for name in file["texts"])
 
 
-def _words(data_set: Any, values: np.ndarray) -> np.ndarray:
+def _check_seal(file: Path) -> None:
+    """Raises InputError for what is no recording of this format, and for one that is not as it was written: HDF5 would not always see."""
+    with _files.reading(file, f"{_files.CURE}: record=True (--record) keeps recordings in a run folder") as stream:
+        head = stream.read(_SEAL_LENGTH).decode("latin-1")
+        found = _files.content_hash(iter(lambda: stream.read(1 << 20), b""))
+        length = stream.tell() - _SEAL_LENGTH
+    if not head.startswith(_FIRST_WORDS):
+        raise _program.InputError(f"{file}: is not a recording (allowed: a file written with --record, in recordings/ of a run folder). "
+                                  "Give the file as Clearway wrote it: tools that rewrite HDF5 drop its seal")
+    format_number = head[len(_FIRST_WORDS):].partition("\n")[0]
+    if format_number != str(_FORMAT):
+        raise _program.InputError(f"{file}: is a recording of format {format_number[:20]!r} (allowed: {_FORMAT}). Read it with the version "
+                                  "of Clearway that wrote it, or record the run again")
+    seal = f"{_FIRST_WORDS}{_FORMAT}\nHDF5 follows this block.\nlength {length:020}\nhash {found}\n"
+    if head != seal.ljust(_SEAL_LENGTH, "\0"):
+        raise _program.InputError(f"{file}: is cut short or damaged: it does not fit its hash. {_CURE}")
+
+
+def _words(data_set: Any) -> dict[str, int] | None:
+    """The words that its numbers stand for."""
     import h5py
-    words = h5py.check_enum_dtype(data_set.dtype)
+    return h5py.check_enum_dtype(data_set.dtype)
+
+
+def _in_words(values: np.ndarray, words: dict[str, int] | None) -> np.ndarray:
     if not words or values.dtype == bool:
         return values
     by_value = np.array([word for word, _ in sorted(words.items(), key=lambda item: item[1])])

@@ -9,10 +9,11 @@ import shutil
 import sqlite3
 import tempfile
 import unittest
+from unittest import mock
 
 import clearway
 import numpy as np
-from support import FolderCase, program
+from support import FolderCase, program, told_when
 
 T_975_4 = 2.7764451051977987  # Student's t, 4 degrees of freedom
 
@@ -161,7 +162,7 @@ class ResultsTest(FolderCase):
                            (lambda: self.results.paired_difference("nothing_s", "corridor"), "nothing_s"),
                            (lambda: self.results.paired_difference("collisions", "mine"), "intersection/corridor"),
                            (lambda: clearway.open("no-folder"), "no-folder"),
-                           (lambda: clearway.trace("no.h5"), "no.h5 is not a file"),
+                           (lambda: clearway.trace("no.h5"), "no.h5: cannot be read: No such file or directory. Check"),
                            (lambda: clearway.trace(__file__), "is not a recording"),
                            (lambda: clearway.study("no.toml"), "no.toml"),
                            (lambda: clearway.run("intersectoin", seeds=1), "intersectoin"),
@@ -214,16 +215,52 @@ class ResultsTest(FolderCase):
 
     def test_damaged_and_closed_recordings_are_told(self) -> None:
         with self.results.recording("intersection", "corridor") as recording:
+            whole = recording.file.read_bytes()
+            start = recording._file["snapshot/x_m"].id.get_chunk_info(0).byte_offset
+            with self.assertRaisesRegex(AttributeError, "no 'x_km'"):
+                _ = recording[0].x_km
+        for closed in (lambda: recording[0].x_m, lambda: recording[0].leases, lambda: recording.events):
+            self.assertIn("is closed", self.message_of(clearway.ClearwayError, closed))
+        for at in (100, 512 + 200, start, len(whole) - 1):  # of the seal, of HDF5's structure, of numbers
+            changed = bytearray(whole)
+            changed[at] ^= 1
+            (self.folder / "bad.h5").write_bytes(changed)
+            self.assertIn("bad.h5: is cut short or damaged", self.message_of(clearway.InputError, lambda: clearway.trace("bad.h5")))
+        (self.folder / "bad.h5").write_bytes(whole[:-1])
+        self.assertIn("cut short", self.message_of(clearway.InputError, lambda: clearway.trace("bad.h5")))
+        (self.folder / "bad.h5").write_bytes(whole.replace(b"format 5", b"format 4", 1))
+        self.assertIn("of format '4' (allowed: 5)", self.message_of(clearway.InputError, lambda: clearway.trace("bad.h5")))
+
+    def test_what_changes_after_the_seal_was_read_is_told_in_one_line(self) -> None:
+        with self.results.recording("intersection", "corridor") as recording:
             content = bytearray(recording.file.read_bytes())
             start = recording._file["snapshot/x_m"].id.get_chunk_info(0).byte_offset
-        self.assertIn("is closed", self.message_of(clearway.ClearwayError, lambda: recording[0].x_m))
         content[start:start + 20] = b"\xff" * 20
         (self.folder / "bad.h5").write_bytes(content)
+        with mock.patch("clearway.recording._check_seal"), clearway.trace("bad.h5") as bad:
+            self.assertRegex(self.message_of(clearway.InputError, lambda: bad[0].x_m), r"^bad\.h5: snapshot/x_m is damaged \(.*\)\. Record")
 
-        def read() -> None:
-            with clearway.trace("bad.h5") as bad:
-                _ = bad[0].x_m
-        self.assertIn("snapshot/x_m is damaged", self.message_of(clearway.InputError, read))
+    def test_no_file_is_blamed_for_the_machine(self) -> None:
+        file = self.results.folder / "recordings/intersection/corridor/00000.h5"
+        read = f"list(step.x_m for step in clearway.trace({str(file)!r})), clearway.trace({str(file)!r}).events"
+        device, descriptors = "Input/output error", "Too many open files"
+        for call, reason, said, place, expression, firsts in (
+                ("read", "EIO", device, file, read, (1,)), ("pread64", "EIO", device, file, read, (1, 4, 6, 8, 12, 20, 60)),
+                ("openat", "EMFILE", descriptors, file, read, (1, 2))):
+            for first in firsts:
+                with self.subTest(call=call, place=place.name, first=first):
+                    told = told_when(call, reason, place, expression, first)
+                    self.assertEqual(told, f"EnvironmentFault: {place}: cannot be read: {said}. The machine failed, not the file's content: "
+                                           "give the same call again")
+
+    def test_a_data_set_of_the_programs_fits_its_hash(self) -> None:
+        program("links", "dataset", "merge", "--samples", "--failure", "B10", "--seeds", "1", "--out", "data")
+        self.assertGreater(len(clearway.dataset("data")), 0)
+        (file,) = self.folder.glob("data/*.samples")
+        changed = bytearray(file.read_bytes())
+        changed[400] ^= 0x80
+        file.write_bytes(changed)
+        self.assertIn("It was changed or damaged", self.message_of(clearway.InputError, lambda: clearway.dataset("data")))
 
 
 if __name__ == "__main__":
