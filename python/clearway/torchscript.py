@@ -14,8 +14,12 @@ A module that was trained on `clearway.dataset` is saved with a mark, and then g
 """
 from __future__ import annotations
 
+import io
+from pathlib import Path
+
 import numpy as np
 
+from . import _files
 from .parts import AUTOMATED, EMERGENCY, Observation, Predictor
 
 
@@ -65,10 +69,13 @@ class TorchScript(Predictor):
             raise Unusable(f"torch is not installed (Debian: python3-torch), and a TorchScript file needs it; {weights}, which "
                            "does not") from None
         torch.set_num_threads(1)
+        content = io.BytesIO(_files.content(Path(file)))  # torch would call any file damaged that the machine cannot read
         try:
             marks = {"inputs": b""}
-            self._module = torch.jit.load(file, map_location="cpu", _extra_files=marks).eval()
+            self._module = torch.jit.load(content, map_location="cpu", _extra_files=marks).eval()
         except RuntimeError as error:
+            if _files.is_of_machine(error):
+                raise
             raise Unusable(f"{file} is not a TorchScript file (torch.jit.save writes one; {weights}): "
                            f"{str(error).splitlines()[0]}") from None
         inputs = marks["inputs"].decode() or "observation"

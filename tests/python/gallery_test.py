@@ -1,14 +1,16 @@
 """Every example of examples/python runs and says what it promises."""
+import errno
 import importlib.util
 import json
 import os
 import subprocess
 import sys
 import unittest
+from unittest import mock
 
 import clearway
 import numpy as np
-from support import FolderCase, PROGRAMS, SOURCE, program
+from support import FolderCase, PROGRAMS, SOURCE, program, told_when
 
 GALLERY = SOURCE / "examples/python"
 
@@ -124,6 +126,12 @@ class TorchTest(FolderCase):
         self.assertIn('inputs "odd" are not known (allowed: observation, dataset)', self.message_of(
             clearway.InputError, lambda: clearway.run(
                 "intersection", [clearway.Condition("no", policy="corridor", predictor="odd.pt")], seeds=1, out="other")))
+        self.assertRegex(told_when("read", "EIO", self.folder / "near.pt", "clearway.torchscript.TorchScript('near.pt')"),
+                         "^EnvironmentFault: near.pt: cannot be read: Input/output error")
+        no_memory = RuntimeError(f"DefaultCPUAllocator: {os.strerror(errno.ENOMEM)}")
+        with mock.patch("torch.jit.load", side_effect=no_memory), self.assertRaises(RuntimeError) as raised:
+            clearway.torchscript.TorchScript("near.pt")
+        self.assertIs(raised.exception, no_memory)
         (self.folder / "no.pt").write_bytes(b"nothing")
         self.assertIn("is not a TorchScript file", self.message_of(clearway.InputError, lambda: clearway.run(
             "intersection", [clearway.Condition("no", policy="corridor", predictor="no.pt")], seeds=1, out="other")))
