@@ -4,6 +4,7 @@ from __future__ import annotations
 import collections
 import difflib
 import json
+import numbers
 import os
 import shutil
 import subprocess
@@ -26,7 +27,10 @@ class InputError(ClearwayError, ValueError):
 
 
 class EnvironmentFault(ClearwayError, OSError):
-    """Something is wrong with the machine: programs that are not built, no SUMO, a full disk, another Python."""
+    """Something is wrong with the machine: programs that are not built, no SUMO, a disk that is full or fails, another Python.
+
+    ``errno`` is the system's where a file could not be read.
+    """
 
     def __str__(self) -> str:
         return str(self.args[0])
@@ -58,6 +62,17 @@ def require_first_load(call_name: str) -> None:
 _ERROR_OF = {2: InputError, 3: InputError, 4: EnvironmentFault}
 #: The study went on, and what failed is in its tables (1: runs failed, 5: incomplete).
 RUNS_FAILED, INCOMPLETE = 1, 5
+
+
+def require_whole(what: str, value: Any, least: int, most: int) -> None:
+    if isinstance(value, bool) or not isinstance(value, numbers.Integral) or not least <= value <= most:
+        raise InputError(f"{what}: {value!r} (allowed: a whole number from {least} to {most})")
+
+
+def without_null(text: str) -> str:
+    if "\0" in text:
+        raise InputError(f"{text!r} has the character U+0000 (allowed: names and paths without it)")
+    return text
 
 
 def counted(count: int, noun: str) -> str:
@@ -127,6 +142,11 @@ def _listen(stream: IO[str], said: collections.deque[str], progress: bool) -> No
             sys.stderr.write(line)
 
 
+def command(arguments: Iterable[str]) -> list[str]:
+    """``clearway ARGUMENTS``. Raises InputError for what no program can be given."""
+    return [str(programs() / "clearway"), *map(without_null, arguments)]
+
+
 def call(arguments: Sequence[str], *, progress: bool = False, accept: Sequence[int] = ()) -> tuple[int, str]:
     """Calls ``clearway ARGUMENTS``; returns exit code and standard output.
 
@@ -135,7 +155,7 @@ def call(arguments: Sequence[str], *, progress: bool = False, accept: Sequence[i
     the end of this process, however it comes.
     """
     said: collections.deque[str] = collections.deque(maxlen=60)
-    with subprocess.Popen([*_owned(), str(programs() / "clearway"), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    with subprocess.Popen([*_owned(), *command(arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           stdin=subprocess.DEVNULL, env=environment(), encoding="utf-8", errors="replace") as process:
         assert process.stdout is not None and process.stderr is not None
         listener = threading.Thread(target=_listen, args=(process.stderr, said, progress), daemon=True)

@@ -43,8 +43,7 @@ class Worker:
         self._log = tempfile.TemporaryFile(dir=folder)
         try:
             self._process = subprocess.Popen(
-                [str(_program.programs() / "clearway"), "python", "environment", *arguments, "--out", str(folder), "--channel",
-                 *map(str, theirs)],
+                _program.command(["python", "environment", *arguments, "--out", str(folder), "--channel", *map(str, theirs)]),
                 stdin=subprocess.DEVNULL, stdout=self._log, stderr=self._log, pass_fds=theirs, env=_program.environment())
         except BaseException:
             for descriptor in (*theirs, our_read, our_write):

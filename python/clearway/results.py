@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import dataclasses
+import errno
 import html
 import json
 import sqlite3
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _program
+from . import _files, _program
 
 if TYPE_CHECKING:
     import pandas
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 SHOWN_ROWS = 10
 #: What verdicts judge.
 PRIMARY_METRIC = "emergency_restricted_travel_time_s"
+#: Replications of a study.
+MOST_SEEDS = 100000
+_SQLITE_OF_MACHINE = {sqlite3.SQLITE_IOERR, sqlite3.SQLITE_NOMEM, sqlite3.SQLITE_CANTOPEN}
 
 
 class Table(Mapping[str, np.ndarray]):
@@ -159,7 +163,7 @@ class Results:
     """A run folder (``clearway.open``). Its tables are read once, when they are first asked for."""
 
     def __init__(self, folder: str | Path) -> None:
-        self.folder = Path(folder)
+        self.folder = _files.path_of("folder", folder)
         #: Names of the tables.
         self.tables: list[str] = _program.call(["export", "results", str(self.folder.absolute()), "--list"])[1].split()
         self._read: dict[str, Table] = {}
@@ -178,13 +182,27 @@ class Results:
                            if "." in column and values.dtype.kind == "U"}
                 self._read[name] = Table(columns, self._names() | factors)
             except sqlite3.Error as error:
-                raise _program.InputError(f"{database}: cannot be read: {error}. Remove it; `clearway report` on the folder "
-                                         "writes it again") from None
+                if getattr(error, "sqlite_errorcode", 0) & 0xff in _SQLITE_OF_MACHINE:
+                    raise _files.refusal(database, errno.EIO) from None
+                raise _program.InputError(f"{database}: cannot be read: {error}. Give the same call again, in case the machine "
+                                         "failed to read it; otherwise remove it: `clearway report` on the folder writes it again") from None
         return self._read[name]
 
     def _names(self) -> dict[str, list[str]]:
-        manifest = json.loads((self.folder / "manifest.json").read_text(encoding="utf-8"))
-        return {kind: [one["name"] for one in manifest[f"{kind}s"]] for kind in ("scenario", "condition")}
+        file = self.folder / "manifest.json"
+        content = _files.content(file)
+        try:
+            manifest = json.loads(content)
+            return {kind: [one["name"] for one in manifest[f"{kind}s"]] for kind in ("scenario", "condition")}
+        except (ValueError, LookupError, TypeError) as error:
+            raise _program.InputError(f"{file}: is damaged ({error!r}). Take it from a backup, or run the study into another folder"
+                                      ) from None
+
+    def _require_names(self, **names: str) -> None:
+        for kind, known in self._names().items():
+            if kind in names and names[kind] not in known:
+                raise _program.InputError(f"the study has no {kind} {names[kind]!r}; it has {', '.join(known)}"
+                                          f"{_program.did_you_mean(names[kind], known)}")
 
     @property
     def runs(self) -> Table:
@@ -209,7 +227,8 @@ class Results:
     @property
     def events(self) -> Table:
         """Departures, arrivals, teleports, collisions, ... of every recorded run. Needs ``--record`` (``record=True``)."""
-        found = sorted(self.folder.glob("recordings/*/*/*.h5"))
+        found = [file for scenario in _files.listed(self.folder / "recordings") for condition in _files.listed(scenario)
+                 for file in _files.listed(condition) if file.suffix == ".h5"]
         if not found:
             raise _program.InputError(f"{self.folder} holds no recordings, which contain the events; run it with record=True (--record)")
         from .recording import Recording
@@ -224,6 +243,8 @@ class Results:
     def recording(self, scenario: str, condition: str, replication: int = 0) -> "Recording":
         """The recording of a run; see ``clearway.trace``."""
         from .recording import Recording
+        self._require_names(scenario=scenario, condition=condition)
+        _program.require_whole("replication", replication, 0, MOST_SEEDS - 1)
         return Recording(self.folder / "recordings" / scenario / condition / f"{replication:05d}.h5")
 
     def paired_difference(self, metric: str, condition: str, scenario: str | None = None, against: str | None = None) -> Difference:
@@ -233,10 +254,8 @@ class Results:
         in place of the baseline. Raises InputError for names that the folder does not have.
         """
         there = self.paired_differences(metric, against)
-        scenarios = self._names()["scenario"]
-        if scenario is not None and scenario not in scenarios:
-            raise _program.InputError(f"the study has no scenario {scenario!r}; it has {', '.join(scenarios)}"
-                                      f"{_program.did_you_mean(scenario, scenarios)}")
+        if scenario is not None:
+            self._require_names(scenario=scenario)
         found = [one for one in there if one.condition == condition]
         if scenario is not None:
             found = [one for one in found if one.scenario == scenario]
@@ -274,6 +293,8 @@ def open(folder: str | Path) -> Results:
 
 
 def _read_table(database: Path, name: str) -> dict[str, np.ndarray]:
+    with _files.reading(database):  # tells what SQLite does not: no file, no right, no descriptor
+        pass
     connection = sqlite3.connect(database.resolve().as_uri() + "?mode=ro", uri=True)
     try:
         cursor = connection.execute(f'SELECT * FROM "{name}"')

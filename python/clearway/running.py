@@ -5,6 +5,7 @@ import dataclasses
 import hashlib
 import inspect
 import json
+import os
 import re
 import tempfile
 import warnings
@@ -14,8 +15,8 @@ from typing import Any, Union
 
 import numpy as np
 
-from . import _program
-from .results import Results
+from . import _files, _program
+from .results import MOST_SEEDS, Results
 
 #: A name of ``clearway list``, ``FILE.py:Class``, or a class that is written in a file.
 Part = Union[str, type]
@@ -58,7 +59,7 @@ def part_name(part: Part) -> str:
                                       "write it into a file (in a notebook: %%writefile my_policy.py) and name it "
                                       f"my_policy.py:{part.__name__}")
         return f"{Path(file).resolve()}:{part.__qualname__}"
-    if not isinstance(part, (str, Path)):
+    if not isinstance(part, (str, Path)) or "\0" in str(part):
         raise _program.InputError(f"a policy or predictor is {part!r} (allowed: a name of `clearway list`, FILE.py:Class, or a class)")
     file, colon, name = str(part).rpartition(":")
     if file.endswith(".py") or str(part).endswith((".pt", ".pth")):
@@ -97,10 +98,10 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
         raise _program.InputError(f"conditions: {wrong[0]!r} is neither a name nor a clearway.Condition")
     if not isinstance(scenario, (str, Path)) or not str(scenario):
         raise _program.InputError(f"scenario is {scenario!r} (allowed: a name of `clearway list`, a folder or a file)")
-    _require_whole("seeds", seeds, 1, 100000)
-    _require_whole("seed", seed, 0, 2**63 - 1)
-    place = Path(scenario)
-    scenario_word = str(place.resolve()) if place.exists() else str(scenario)
+    _program.require_whole("seeds", seeds, 1, MOST_SEEDS)
+    _program.require_whole("seed", seed, 0, 2**63 - 1)
+    place = _files.path_of("scenario", scenario)
+    scenario_word = str(place.resolve()) if os.path.exists(place) else str(scenario)
     text = _study_text(scenario_word, place.stem, names, own, seeds, seed, overrides)
     if out is None:
         name = re.sub(r"[^A-Za-z0-9_-]+", "-", place.stem)
@@ -121,10 +122,11 @@ def study(file: str | Path, *, out: str | Path | None = None, jobs: int = 0, rec
           progress: bool = False) -> Results:
     """Runs a study file (docs/reference/study-file.md), or what of it is missing, and opens the results."""
     _program.require_first_load("clearway.study")
+    file = _files.path_of("file", file)
     words = ["study", str(file), "--json"]
     if out is None:
-        out = Path("runs") / (_study_name(Path(file)) + ("-quick" if quick else ""))
-    out = Path(out)
+        out = Path("runs") / (_study_name(file) + ("-quick" if quick else ""))
+    out = _files.path_of("out", out)
     words += ["--out", str(out)]
     words += ["--jobs", str(jobs)] if jobs else []
     words += ["--record"] if record else []
@@ -137,13 +139,11 @@ def study(file: str | Path, *, out: str | Path | None = None, jobs: int = 0, rec
 
 
 def _study_name(file: Path) -> str:
+    content = _files.content(file, "A study file is TOML, docs/reference/study-file.md")
     try:
-        text = file.read_text(encoding="utf-8")
+        text = content.decode()
     except UnicodeDecodeError as error:
         raise _program.InputError(f"{file}: is not UTF-8 text (byte {error.start}). A study file is TOML, docs/reference/study-file.md"
-                                  ) from None
-    except OSError as error:
-        raise _program.InputError(f"{file}: cannot be read: {error.strerror}. A study file is TOML, docs/reference/study-file.md"
                                   ) from None
     import tomllib
     try:
@@ -152,16 +152,11 @@ def _study_name(file: Path) -> str:
         return file.stem  # the program says what is wrong, with line and column
 
 
-def _require_whole(what: str, value: Any, least: int, most: int) -> None:
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= most:
-        raise _program.InputError(f"{what}: {value!r} (allowed: a whole number from {least} to {most})")
-
-
 def _toml(value: Any) -> str:
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, (str, Path)):
-        return json.dumps(str(value), ensure_ascii=False)
+        return json.dumps(_program.without_null(str(value)), ensure_ascii=False)
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (list, tuple)):
@@ -188,7 +183,8 @@ def _study_text(scenario: str, name: str, names: list[str], own: list[Condition]
         if condition.set:
             lines.append(f"set = {_toml(dict(condition.set))}")
         if condition.model is not None:
-            lines.append(f"model = {_toml(Path(condition.model).resolve())}")
+            model = _files.path_of(f"condition {condition.name}: model", condition.model)
+            lines.append(f"model = {_toml(model.resolve())}")
         for key in _PLAIN_KEYS:
             value = getattr(condition, key)
             if value is not None:

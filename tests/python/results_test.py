@@ -1,6 +1,7 @@
 """Runs, tables, paired differences and recordings, against the program's own tables and sums made here."""
 import csv
 import dataclasses
+import errno
 import io
 import json
 import math
@@ -243,15 +244,49 @@ class ResultsTest(FolderCase):
     def test_no_file_is_blamed_for_the_machine(self) -> None:
         file = self.results.folder / "recordings/intersection/corridor/00000.h5"
         read = f"list(step.x_m for step in clearway.trace({str(file)!r})), clearway.trace({str(file)!r}).events"
+        events, runs = f"clearway.open({str(self.results.folder)!r}).events", f"clearway.open({str(self.results.folder)!r}).runs"
         device, descriptors = "Input/output error", "Too many open files"
         for call, reason, said, place, expression, firsts in (
                 ("read", "EIO", device, file, read, (1,)), ("pread64", "EIO", device, file, read, (1, 4, 6, 8, 12, 20, 60)),
-                ("openat", "EMFILE", descriptors, file, read, (1, 2))):
+                ("openat", "EMFILE", descriptors, file, read, (1, 2)),
+                ("getdents64", "EIO", device, file.parent, events, (1,)),
+                ("read", "EIO", device, self.results.folder / "manifest.json", runs, (1,)),
+                ("pread64", "EIO", device, self.results.folder / "results.sqlite", runs, (1,)),
+                ("openat", "EMFILE", descriptors, self.results.folder / "results.sqlite", runs, (1,))):
             for first in firsts:
                 with self.subTest(call=call, place=place.name, first=first):
                     told = told_when(call, reason, place, expression, first)
                     self.assertEqual(told, f"EnvironmentFault: {place}: cannot be read: {said}. The machine failed, not the file's content: "
                                            "give the same call again")
+
+    def test_what_is_no_file_is_refused_and_not_waited_for(self) -> None:
+        os.mkfifo("pipe")
+        self.assertIn("pipe: is no file", self.message_of(clearway.InputError, lambda: clearway.study("pipe")))
+        self.assertIn("pipe: is no file", self.message_of(clearway.InputError, lambda: clearway.trace("pipe")))
+        opened = self.copy()
+        for name, read in (("manifest.json", lambda: opened.recording("intersection", "corridor")), ("results.sqlite", lambda: opened.runs)):
+            os.remove(opened.folder / name)
+            os.mkfifo(opened.folder / name)
+            self.assertIn(f"{name}: is no file", self.message_of(clearway.InputError, read))
+
+    def copy(self) -> clearway.Results:
+        return clearway.open(shutil.copytree(self.results.folder, self.folder / "copy"))
+
+    def test_a_damaged_manifest_is_told(self) -> None:
+        for text in ("{", "[]", '{"scenarios": [{}]}'):
+            shutil.rmtree("copy", ignore_errors=True)
+            opened = self.copy()
+            (opened.folder / "manifest.json").write_text(text)
+            self.assertIn("manifest.json: is damaged", self.message_of(clearway.InputError, lambda: opened.recording("a", "b")))
+
+    def test_a_folder_of_recordings_that_cannot_be_listed_is_told(self) -> None:
+        def refuse(place: os.PathLike) -> list[str]:
+            if os.path.basename(place) == "corridor":
+                raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), place)
+            return listing(place)
+        listing = os.listdir
+        with mock.patch("os.listdir", refuse):
+            self.assertIn("/corridor: cannot be read: Permission denied", self.message_of(clearway.InputError, lambda: self.results.events))
 
     def test_a_data_set_of_the_programs_fits_its_hash(self) -> None:
         program("links", "dataset", "merge", "--samples", "--failure", "B10", "--seeds", "1", "--out", "data")
@@ -261,6 +296,26 @@ class ResultsTest(FolderCase):
         changed[400] ^= 0x80
         file.write_bytes(changed)
         self.assertIn("It was changed or damaged", self.message_of(clearway.InputError, lambda: clearway.dataset("data")))
+
+    def test_names_that_no_run_has_are_refused(self) -> None:
+        recording, null = self.results.recording, "has the character U+0000"
+        for call, says in ((lambda: recording("intersection", "corridor", "a"), "replication: 'a' (allowed: a whole number from 0 to"),
+                           (lambda: recording("intersection", "corridor", -1), "replication: -1"),
+                           (lambda: recording("intersectoin", "corridor"), "no scenario 'intersectoin'"),
+                           (lambda: recording("intersection", "\0"), "no condition '\\x00'; it has baseline, corridor"),
+                           (lambda: recording("intersection", "corridor", 7), "00007.h5: cannot be read: No such file"),
+                           (lambda: clearway.open("\0"), "folder is '\\x00'"),
+                           (lambda: clearway.open(None), "folder is None"),
+                           (lambda: clearway.trace("a\0"), "file is 'a\\x00'"),
+                           (lambda: clearway.study("a\0"), "file is 'a\\x00'"),
+                           (lambda: clearway.run("a\0"), "scenario is 'a\\x00'"),
+                           (lambda: clearway.run("merge", out="\0"), "out is '\\x00'"),
+                           (lambda: clearway.run("merge", ["a\0"]), null),
+                           (lambda: clearway.run("merge", [clearway.Condition("a", policy="a\0.py:A")]), "is 'a\\x00.py:A'"),
+                           (lambda: clearway.run("merge", [clearway.Condition("a", model="a\0")]), "condition a: model is 'a\\x00'"),
+                           (lambda: self.results.paired_difference("a\0", "corridor"), null),
+                           (lambda: clearway.env("a\0"), null)):
+            self.assertIn(says, self.message_of(clearway.InputError, call))
 
 
 if __name__ == "__main__":
