@@ -215,6 +215,7 @@ def trace(file: str | Path) -> Recording:
     """Opens a recording: ``for step in clearway.trace(file): step.x_m``.
 
     Its arrays are numpy; columns are read when they are first asked for, and kept. ``len(recording)`` is the number of steps,
-    ``recording.events`` what happened.
+    ``recording.events`` what happened. Raises InputError for what is no recording, or not as Clearway wrote it: the whole file is
+    read once for its hash.
     """
     return Recording(file)

@@ -240,6 +240,7 @@ class ResultsTest(FolderCase):
         (self.folder / "bad.h5").write_bytes(content)
         with mock.patch("clearway.recording._check_seal"), clearway.trace("bad.h5") as bad:
             self.assertRegex(self.message_of(clearway.InputError, lambda: bad[0].x_m), r"^bad\.h5: snapshot/x_m is damaged \(.*\)\. Record")
+            self.assertIn("x is damaged (one two)", str(bad._told("x", OSError("one\n two"))))
 
     def test_no_file_is_blamed_for_the_machine(self) -> None:
         file = self.results.folder / "recordings/intersection/corridor/00000.h5"
