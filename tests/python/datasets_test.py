@@ -9,7 +9,7 @@ from unittest import mock
 
 import clearway
 import numpy as np
-from clearway._files import content_hash
+from clearway._files import _xxhash, content_hash
 from support import FolderCase, told_when
 
 ORIGIN = {"scenario": "s", "failure": "B10", "feature_name": "corrected", "feature_version": 2, "feature_count": 2,
@@ -75,6 +75,12 @@ class DatasetTest(FolderCase):
     def test_the_hash_is_that_of_the_programs(self) -> None:
         self.assertEqual(content_hash([]), "99aa06d3014798d86001c324468d497f")  # of xxHash's own tests; results_test has files of the programs
         self.assertEqual(content_hash([b"clearway ", b"", b"graph"]), content_hash([b"clearway graph"]))
+
+    def test_without_the_library_of_the_hash_nothing_is_taken_for_whole(self) -> None:
+        (self.folder / "a.samples").write_bytes(sample_file())
+        _xxhash.cache_clear()
+        with mock.patch("ctypes.CDLL", side_effect=OSError("no such file")):
+            self.assertIn("(Debian: libxxhash0)", self.message_of(clearway.EnvironmentFault, lambda: clearway.dataset(self.folder)))
 
     def test_a_flipped_bit_is_refused(self) -> None:
         whole = sample_file()
