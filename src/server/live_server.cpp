@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "core/read_failure.hpp"
 #include "server/access.hpp"
 #include "server/detail/client.hpp"
 #include "server/detail/feed.hpp"
@@ -54,6 +55,7 @@ asio::ip::tcp::acceptor listen_at(asio::io_context& loop, const LiveConfig& conf
         const asio::ip::tcp::endpoint place(asio::ip::make_address(address), config.port);
         return {loop, place, true};
     } catch (const boost::system::system_error& error) {
+        if (core::is_of_machine(error.code().value())) throw;
         const bool is_elsewhere = error.code() == boost::system::errc::address_not_available;
         throw core::EnvironmentError(fmt::format(
             "cannot serve at {} port {}: {}. {}", config.host, config.port, error.code().message(),
@@ -257,9 +259,15 @@ LiveServer::LiveServer(const LiveConfig& config, const std::filesystem::path& so
     if (!is_loopback(config.host, "--host") && config.token.empty())
         throw core::InputError(
             {"--host", config.host + " can be reached from other machines", "an address with a token", ""});
-    state_ = std::make_unique<State>(config, sockets);
-    state_->accept_runs();
-    state_->accept_browsers();
+    try {
+        state_ = std::make_unique<State>(config, sockets);
+        state_->accept_runs();
+        state_->accept_browsers();
+    } catch (const boost::system::system_error& error) {
+        throw core::EnvironmentError(fmt::format("the live page cannot be served: {}. {}",
+                                                 error.code().message(),
+                                                 core::cure_of(error.code().value())));
+    }
 }
 LiveServer::~LiveServer() = default;
 

@@ -24,14 +24,14 @@ from tracing import require_strace
 CALLS = ("openat", "getdents64", "read", "pread64", "write", "pwrite64", "fsync", "rename", "mkdir", "clone", "mmap", "ftruncate", "newfstatat")
 ERRORS = ("EIO", "ENOSPC", "EMFILE", "ENOMEM")
 LIMIT_S = 120
-# What two equal commands write differently: times, process numbers.
-CHANGING = re.compile(r"/timing\.json$|^units/|/jobs/|^logs/|^\.lock$|\.pdf$|/netconvert\.log$")
+# What two equal commands write differently: times, process numbers. What evaluation.csv says beside times is in runs/*.links.
+CHANGING = re.compile(r"[/.]timing\.json$|^units/|/jobs/|^logs/|^\.lock$|\.pdf$|/netconvert\.log$|^evaluation\.(csv|json)$|^links\.html$")
 # What a killed process leaves under a name that the next one does not take, jobs of links, and the log of a second attempt.
 LEFT = re.compile(r"\.\d+\.clearway-part$|^jobs/.*-\d+\.(json|log)$|^logs/.*\.\d+\.log$")
 # Whoever exits with 3 blames the input; of a machine that failed in passing it has to say so beside that.
 BLAMELESS = re.compile(r"give the same command again|in case the machine failed", re.IGNORECASE)
 # A message ends with what to do; the system's loader knows nothing better.
-CURE = re.compile(r"(again|[Cc]hoose|[Cc]heck|Free|Set|[Ii]nstall|[Rr]emove)\b[^.:]*$|error while loading shared libraries|Fatal glibc error|cannot allocate TLS", re.M)
+CURE = re.compile(r"(again|[Cc]hoose|[Cc]heck|Free|Set|[Ii]nstall|[Rr]emove)\b[^.:]*$|error while loading shared libraries|Fatal glibc error|cannot allocate TLS|To continue:|Mount /proc:", re.M)
 SILENCED = re.compile(r"write\(2, .*INJECTED")
 LOADED = re.compile(r'"[^"]*(\.so\b|/ld\.so\.cache)')
 STUDY = """name = "study"

@@ -296,6 +296,23 @@ class NoDescriptors {
     rlimit before_{};
 };
 
+TEST(LiveServer, that_gets_no_descriptor_blames_the_machine) {
+    const LiveConfig config = config_of(1);
+    std::string said;
+    {
+        const NoDescriptors limit;
+        try {
+            const LiveServer server(config, "/tmp");
+        } catch (const core::EnvironmentError& error) {
+            said = error.what();
+        }
+    }
+    EXPECT_EQ(
+        said,
+        "the live page cannot be served: Too many open files. The machine failed: give the same command "
+        "again");
+}
+
 TEST(LiveServer, a_connection_without_a_descriptor_waits_and_takes_no_time_of_the_processor) {
     LiveShow show(config_of(1));
     boost::asio::io_context loop;
