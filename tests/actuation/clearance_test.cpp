@@ -46,6 +46,17 @@ TEST(ClearanceOfRule, has_the_red_that_the_formulas_give_for_a_crossing) {
         << "a lane on which nobody may drive is left at 1 m/s";
 }
 
+TEST(Clearance, of_vehicles_that_enter_late_is_shorter_than_a_second) {
+    double shortest_s = 10.0;
+    for (const roads::Signal& signal : two_crossings().signals()) {
+        const Clearance rilsa({.clearance = ClearanceRule::rilsa}, signal, two_crossings());
+        for (std::uint16_t link = 0; link < signal.links.size(); ++link)
+            for (std::uint16_t other = 0; other < signal.links.size(); ++other)
+                if (signal.foes[link][other]) shortest_s = std::min(shortest_s, rilsa.red_s(link, other));
+    }
+    EXPECT_LT(shortest_s, 1.0);
+}
+
 TEST(Yellow, is_longer_on_a_slippery_road_by_the_braking_that_takes_longer) {
     using actuation::detail::yellow_on_road_s;
     EXPECT_DOUBLE_EQ(yellow_on_road_s(3.0, 1.0), 3.0);

@@ -57,6 +57,7 @@ TEST(ResponseTime, IsNinetyPercentAndTheShareWithinTheThreshold) {
     EXPECT_EQ(response.trips, 10U);
     EXPECT_DOUBLE_EQ(response.percentile_90_s->mean, 90.0) << "nine of ten took no longer";
     EXPECT_DOUBLE_EQ(response.in_time->mean, 0.7) << "one at the threshold is in time, the lost one is not";
+    EXPECT_EQ(response.in_time->deviation, 0.0) << "it has none";
     EXPECT_EQ(response.in_time->interval, std::nullopt) << "two replications give no interval";
     EXPECT_EQ(response.in_time_difference.has_value(), false);
 }

@@ -1,5 +1,6 @@
 #include "metrics/recorder.hpp"
 
+#include <array>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -126,6 +127,23 @@ TEST_F(RecorderAtTheEnd, AVehicleMayArriveInTheFirstStep) {
         Recorder().finish(end(trip("h1", "0.00", "0.00", "0.00", "0.00", "0.00", "0.00")));
     EXPECT_EQ(summary.vehicles.front().outcome, VehicleOutcome::arrived);
     EXPECT_EQ(summary.vehicles.front().arrival_s, 0.0);
+}
+
+TEST_F(RecorderAtTheEnd, CountsRequestsToVehicles) {
+    RunEnd end;
+    end.leases.requests = {.sent = 1,
+                           .heard = 2,
+                           .relayed = 3,
+                           .needed = 4,
+                           .useless = 5,
+                           .missed = 6,
+                           .messages = 7,
+                           .vehicles_asked = 8};
+    const RunMetrics metrics = Recorder().finish(end).metrics;
+    EXPECT_THAT((std::array{metrics.requests_sent, metrics.requests_heard, metrics.requests_relayed,
+                            metrics.requests_needed, metrics.requests_useless, metrics.requests_missed,
+                            metrics.request_messages, metrics.vehicles_asked}),
+                testing::ElementsAre(1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U));
 }
 
 TEST_F(RecorderAtTheEnd, CountsRequestsToSignalsThatWereMessagesAndThoseThatWereLeases) {

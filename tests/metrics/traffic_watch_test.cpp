@@ -34,9 +34,9 @@ class TrafficWatch : public testing::Test {
   protected:
     TrafficWatch() { watch_anew(); }
 
-    void watch_anew() {
+    void watch_anew(const RoadLayout& layout = crossing()) {
         recorder_ = Recorder();
-        recorder_.watch(crossing());
+        recorder_.watch(layout);
     }
 
     void put(const std::string& id, VehicleClass vehicle_class, std::uint32_t lane, float speed_mps,
@@ -62,11 +62,12 @@ class TrafficWatch : public testing::Test {
         recorder_.step(snapshot, {}, {}, leases);
         rows_.clear();
     }
-    TrafficTables tables() {
+    RunSummary summary() {
         RunEnd end;
         end.tripinfo_files = {folder_.write("tripinfo.xml", "<tripinfos></tripinfos>")};
-        return recorder_.finish(end).traffic;
+        return recorder_.finish(end);
     }
+    TrafficTables tables() { return summary().traffic; }
 
   private:
     struct Vehicle {
@@ -96,6 +97,30 @@ TEST_F(TrafficWatch, SumsLostAndStoodTimeByApproachAndClass) {
                 ElementsAre(ApproachRow{"main", VehicleClass::human, 1, 0.0, 0.0, 0.0},
                             ApproachRow{"main", VehicleClass::automated, 1, 0.0, 0.25, 0.0},
                             ApproachRow{"side", VehicleClass::human, 1, 1.0, 1.0, 0.0}));
+}
+
+TEST_F(TrafficWatch, DoesNotTakeWhoCreepsForStanding) {
+    for (const double time_s : {10.0, 10.5}) {
+        put("h1", VehicleClass::human, 1, 0.1F);
+        step(time_s);
+    }
+    ASSERT_EQ(tables().approaches.size(), 1U);
+    EXPECT_EQ(tables().approaches[0].waiting_time_s, 0.0);
+    EXPECT_NEAR(tables().approaches[0].time_loss_s, 0.5 * 0.99, 1e-6);
+}
+
+TEST_F(TrafficWatch, AveragesTheQueueOfASingleApproach) {
+    RoadLayout layout = crossing();
+    layout.approaches.pop_back();
+    layout.approach_of_lane[1] = RoadLayout::no_approach;
+    watch_anew(layout);
+    step(0.0);
+    for (const double time_s : {1.0, 2.0}) {
+        put("h1", VehicleClass::human, 0, 0.0F);
+        if (time_s > 1.0) put("h2", VehicleClass::human, 0, 0.0F);
+        step(time_s);
+    }
+    EXPECT_EQ(summary().metrics.signal_queue_vehicles, 1.5);
 }
 
 TEST_F(TrafficWatch, CountsAVehicleAgainWhenItComesBack) {
@@ -146,6 +171,21 @@ TEST_F(TrafficWatch, ShowsTheQueueOnTheOtherApproachesAroundAPassage) {
         EXPECT_EQ(row.halted_vehicles, row.offset_s >= 0.0 && row.offset_s < 20.0 ? 2.0 : 1.0)
             << row.offset_s;
     }
+}
+
+TEST_F(TrafficWatch, CountsTheFirstApproachAmongTheOthers) {
+    RoadLayout layout = crossing();
+    layout.routes[0].approach[0] = 1;
+    watch_anew(layout);
+    for (int second = 0; second <= 40; ++second) {
+        put("h1", VehicleClass::human, 0, 0.0F);
+        put("ev", VehicleClass::emergency, second < 20 ? 1 : 3, 5.0F, 0.0F, second < 20 ? 0 : 1);
+        step(second);
+    }
+    const TrafficTables found = tables();
+    ASSERT_FALSE(found.recovery.empty());
+    for (const RecoveryRow& row : found.recovery)
+        EXPECT_EQ(row.halted_vehicles, 1.0) << row.offset_s;
 }
 
 TEST_F(TrafficWatch, TakesTheLastLookBeforeAPassageThatFallsBetweenTwo) {
