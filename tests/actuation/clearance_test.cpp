@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -9,6 +10,8 @@
 #include "actuation/detail/link_history.hpp"
 #include "actuation/detail/ways.hpp"
 #include "actuation/signal_watch.hpp"
+#include "core/files.hpp"
+#include "support/temporary_folder.hpp"
 #include "traffic/signal.hpp"
 
 namespace clearway::testing {
@@ -125,6 +128,19 @@ TEST(SharedArea, of_two_ways_that_cross_begins_and_ends_where_vehicles_would_tou
     EXPECT_GT(area.first_on_second_m, 3.0);
     EXPECT_TRUE(actuation::detail::turns(two_crossings(), signal.links[west[3]].front()));
     EXPECT_FALSE(actuation::detail::turns(two_crossings(), signal.links[west[1]].front()));
+}
+
+TEST(Turns, bend_by_more_than_an_eighth_of_a_circle) {
+    const std::string straight = "510.40,295.20 789.60,295.20";
+    const std::string text = core::read_file(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml");
+    const support::TemporaryFolder folder;
+    for (const auto& [bent, is_turn] : {std::pair{"510.40,295.20 587.00,359.48 789.60,295.20", false},
+                                        std::pair{"510.40,295.20 574.68,371.80 789.60,295.20", true}}) {
+        const roads::Network network = roads::Network::read(folder.write(
+            "bent.net.xml", std::string(text).replace(text.find(straight), straight.size(), bent)));
+        const roads::SignalLink& way = network.signal(signal_a).links[west[1]].front();
+        EXPECT_EQ(actuation::detail::turns(network, way), is_turn) << "by 40 and 50 degrees";
+    }
 }
 
 TEST(SharedArea, of_a_left_turn_goes_on_behind_the_place_where_it_waits) {
