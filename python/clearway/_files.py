@@ -1,4 +1,4 @@
-"""Reads files as the programs do: what is no file is refused, what changed is told, and no file is blamed for the machine."""
+"""Reads files as the programs do: what is no file is refused, what changed is told, and a failure of the machine is no damaged file."""
 from __future__ import annotations
 
 import contextlib
@@ -23,13 +23,15 @@ CURE = "Check that it exists and is readable"
 
 def is_of_machine(error: BaseException | None) -> bool:
     """Also when the code caught what the machine did and raised something else, and in words, as torch tells it."""
-    if error is None:
-        return False
-    if isinstance(error, OSError):
-        failed = error.errno in REASONS_OF_MACHINE
-    else:
-        failed = isinstance(error, MemoryError) or (isinstance(error, RuntimeError) and NO_MEMORY in str(error))
-    return failed or is_of_machine(error.__cause__ or (None if error.__suppress_context__ else error.__context__))
+    seen: set[int] = set()  # code may chain errors in a circle
+    while error is not None and id(error) not in seen:
+        seen.add(id(error))
+        if isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno in REASONS_OF_MACHINE):
+            return True
+        if isinstance(error, RuntimeError) and any(NO_MEMORY in word for word in error.args if isinstance(word, str)):
+            return True
+        error = error.__cause__ or (None if error.__suppress_context__ else error.__context__)
+    return False
 
 
 def refusal(place: Any, reason: int | None, cure: str = CURE) -> ClearwayError:
@@ -59,7 +61,7 @@ def reading(file: Path, cure: str = CURE) -> Iterator[IO[bytes]]:
     try:
         with open(file, "rb", opener=_without_waiting) as stream:
             if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
-                raise InputError(f"{file}: is no file (allowed: a file; a pipe or a device may have no end). Remove it, or put a copy of "
+                raise InputError(f"{file}: is not a regular file (allowed: a file; a pipe or a device may have no end). Remove it, or put a copy of "
                                  "what it stands for in its place")
             yield stream
     except ClearwayError:

@@ -26,7 +26,7 @@ SHOWN_ROWS = 10
 PRIMARY_METRIC = "emergency_restricted_travel_time_s"
 #: Replications of a study.
 MOST_SEEDS = 100000
-_SQLITE_OF_MACHINE = {sqlite3.SQLITE_IOERR, sqlite3.SQLITE_NOMEM, sqlite3.SQLITE_CANTOPEN}
+_SQLITE_OF_MACHINE = {sqlite3.SQLITE_IOERR: errno.EIO, sqlite3.SQLITE_NOMEM: errno.ENOMEM, sqlite3.SQLITE_CANTOPEN: errno.EMFILE}
 
 
 class Table(Mapping[str, np.ndarray]):
@@ -182,8 +182,8 @@ class Results:
                            if "." in column and values.dtype.kind == "U"}
                 self._read[name] = Table(columns, self._names() | factors)
             except sqlite3.Error as error:
-                if getattr(error, "sqlite_errorcode", 0) & 0xff in _SQLITE_OF_MACHINE:
-                    raise _files.refusal(database, errno.EIO) from None
+                if reason := _SQLITE_OF_MACHINE.get(getattr(error, "sqlite_errorcode", 0) & 0xff):
+                    raise _files.refusal(database, reason) from None
                 raise _program.InputError(f"{database}: cannot be read: {error}. Give the same call again, in case the machine "
                                          "failed to read it; otherwise remove it: `clearway report` on the folder writes it again") from None
         return self._read[name]

@@ -88,11 +88,14 @@ class PresentEstimate {
 
 void say_how_to_continue(const study::Plan& plan, const std::filesystem::path& folder,
                          const StudyProgress& progress, const RunOptions& options) {
-    const auto left_s = estimated_time_left_s(plan, folder, options.workers);
     fmt::print(stderr,
-               "clearway: interrupted with {} of {} complete; they are kept in {}. To continue{}:\n  {}\n",
-               progress.done, core::counted(progress.total, "run"), folder.string(),
-               left_s ? fmt::format(", for about {}", core::clock_text(*left_s)) : "", options.command);
+               "clearway: interrupted with {} of {} complete; they are kept in {}. To continue:\n  {}\n",
+               progress.done, core::counted(progress.total, "run"), folder.string(), options.command);
+    try {
+        if (const auto left_s = estimated_time_left_s(plan, folder, options.workers))
+            fmt::print(stderr, "clearway: about {} is left\n", core::clock_text(*left_s));
+    } catch (const std::exception&) {  // a run folder beside it that cannot be read: no estimate
+    }
 }
 
 void write_report(const report::StudyFacts& facts, const ReportReplays& replays,

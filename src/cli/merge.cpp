@@ -31,9 +31,7 @@ std::string text_of(const study::MergeResult& result, const std::string& out) {
                                    result.adopted, result.duplicates);
     for (const std::string& lost : result.lost)
         text += fmt::format(
-            "lost: {}: no folder has it whole; give the command of that study again there, "
-            "then this one\n",
-            lost);
+            "lost: {}: no folder has it whole. Continue the study in one of them, then merge again\n", lost);
     if (!result.absent_shards.empty())
         text += fmt::format("not there: shard {}\n", core::listed(result.absent_shards));
     for (const experiment::RunKey& key : result.missing)

@@ -19,15 +19,20 @@ std::string some_of(const std::vector<std::string>& places) {
     return fmt::format("{} and {} more", places.front(), places.size() - 1);
 }
 
-/// Text from a file may hold what ends a C string or commands a terminal: `\x00`, `\x1b`.
+/// Text from a file may hold what ends a C string or commands a terminal: `\x00`, `\x1b`, in UTF-8 also
+/// U+009B.
 std::string visible(const std::string& text) {
     constexpr std::string_view whitespace = "\n\t";
     std::string shown;
-    for (const char letter : text) {
-        const auto code = static_cast<unsigned char>(letter);
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        auto code = static_cast<unsigned char>(text[at]);
+        const auto next = static_cast<unsigned char>(at + 1 < text.size() ? text[at + 1] : '\0');
+        const bool is_wide = code == 0xc2 && next >= 0x80 && next < 0xa0;
+        if (is_wide) code = next;
+        if (is_wide) ++at;
         const bool is_control =
-            (code < 0x20 && whitespace.find(letter) == std::string_view::npos) || code == 0x7f;
-        shown += is_control ? fmt::format("\\x{:02x}", code) : std::string(1, letter);
+            is_wide || code == 0x7f || (code < 0x20 && whitespace.find(text[at]) == std::string_view::npos);
+        shown += is_control ? fmt::format("\\x{:02x}", code) : std::string(1, text[at]);
     }
     return shown;
 }

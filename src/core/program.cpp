@@ -1,7 +1,6 @@
 #include "core/program.hpp"
 
 #include <cstdio>
-#include <exception>
 #include <new>
 #include <system_error>
 
@@ -11,10 +10,9 @@
 namespace clearway::core {
 namespace {
 
-ExitCode complain(const std::string& name, const std::exception& error, ExitCode code) {
+ExitCode end_with(const std::string& name, const std::exception& error, ExitCode code) {
     std::fflush(stdout);
-    for (const char* const part : {name.c_str(), ": ", error.what(), "\n"})
-        std::fputs(part, stderr);
+    complain(name, error);
     return code;
 }
 
@@ -25,21 +23,26 @@ EnvironmentError no_output() {
 
 }  // namespace
 
+void complain(const std::string& name, const std::exception& error) {
+    for (const char* const part : {name.c_str(), ": ", error.what(), "\n"})
+        std::fputs(part, stderr);
+}
+
 ExitCode end_of(const std::string& name, const std::function<ExitCode()>& act, ExitCode of_bug) {
     try {
         const ExitCode code = act();
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw no_output();
         return code;
     } catch (const std::system_error& error) {
-        if (std::ferror(stdout) != 0) return complain(name, no_output(), ExitCode::environment);
+        if (std::ferror(stdout) != 0) return end_with(name, no_output(), ExitCode::environment);
         const Error told = error_of(error);
-        return complain(name, told, told.exit_code());
+        return end_with(name, told, told.exit_code());
     } catch (const Error& error) {
-        return complain(name, error, error.exit_code());
+        return end_with(name, error, error.exit_code());
     } catch (const std::bad_alloc&) {
-        return complain(name, no_memory(), ExitCode::environment);
+        return end_with(name, no_memory(), ExitCode::environment);
     } catch (const std::exception& error) {
-        return complain(name, error, of_bug);
+        return end_with(name, error, of_bug);
     }
 }
 

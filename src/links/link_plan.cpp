@@ -43,7 +43,7 @@ std::vector<experiment::JudgedPredictor> missing_predictors(const LinkPlan& plan
     std::vector<experiment::JudgedPredictor> jobs;
     for (const LinkPredictor& predictor : plan.predictors) {
         const fs::path file = files.file(entry, replication, predictor);
-        if (fs::exists(file)) continue;
+        if (fs::exists(file) && fs::exists(timing_file(file))) continue;
         const fs::path model = predictor.model_file.empty() ? fs::path() : fs::absolute(predictor.model_file);
         core::Settings settings = predictor.settings;
         if (plan.benchmark.candidates == prediction::CandidateReach::reported)

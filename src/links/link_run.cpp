@@ -181,10 +181,6 @@ LinkRun run_from(const Json& json, const std::string& where, std::vector<core::P
     return run;
 }
 
-std::filesystem::path timing_file(std::filesystem::path link_run_file) {
-    return link_run_file.replace_extension(".timing.json");
-}
-
 LinkTiming timing_in(const std::filesystem::path& file) {
     const Json json = core::parse_object(core::read_file(file), file.string());
     std::vector<core::Problem> problems;
@@ -204,6 +200,10 @@ LinkTiming timing_in(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+std::filesystem::path timing_file(std::filesystem::path link_run_file) {
+    return link_run_file.replace_extension(".timing.json");
+}
 
 void write_link_run(const std::filesystem::path& file, const LinkRun& run, const LinkTiming& timing) {
     Json cases = Json::array();

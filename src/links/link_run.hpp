@@ -51,6 +51,9 @@ struct LinkTiming {
 
 inline constexpr const char* link_run_extension = ".links";
 
+/// Where the timing of a run lies.
+std::filesystem::path timing_file(std::filesystem::path link_run_file);
+
 /// Writes both files atomically, the timing first: when the LinkRun exists, the run is finished. Throws
 /// core::EnvironmentError.
 void write_link_run(const std::filesystem::path& file, const LinkRun& run, const LinkTiming& timing);

@@ -14,6 +14,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/program.hpp"
 #include "core/read_failure.hpp"
 
 namespace clearway::loop {
@@ -28,7 +29,7 @@ namespace {
         core::make_folder(folder);
         found_s = drive().value;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "a copy of the run: {}\n", error.what());
+        core::complain("a copy of the run", error);
     }
     std::fflush(nullptr);
     const ssize_t written = ::write(answer, &found_s, sizeof found_s);

@@ -9,6 +9,7 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@
 #include "core/files.hpp"
 #include "core/machine_failure.hpp"
 #include "core/process.hpp"
+#include "core/program.hpp"
 #include "core/read_failure.hpp"
 #include "experiment/job.hpp"
 #include "loop/jobs.hpp"
@@ -107,9 +109,11 @@ core::ExitCode try_to_store_error(const Unit& unit, const experiment::RunKey& ke
         store_error(unit, key, cause, folder);
         return core::ExitCode::ok;
     } catch (const core::EnvironmentError& environment) {
-        fmt::print(stderr, "{}: {}\n", experiment::to_text(key), environment.what());
-        return core::ExitCode::environment;
+        core::complain(experiment::to_text(key), environment);
+    } catch (const std::system_error& error) {
+        core::complain(experiment::to_text(key), error);
     }
+    return core::ExitCode::environment;
 }
 
 /// Everything the forked child does. Never returns, because the parent's objects must not be destroyed twice.
@@ -124,15 +128,18 @@ core::ExitCode try_to_store_error(const Unit& unit, const experiment::RunKey& ke
         unit.store.write(record, timing);
         std::filesystem::remove_all(folder);
     } catch (const core::Error& error) {
-        fmt::print(stderr, "{}: {}\n", experiment::to_text(key), error.what());
+        core::complain(experiment::to_text(key), error);
         code = error.exit_code();
         if (code == core::ExitCode::runs_failed || code == core::ExitCode::bad_input)
             code = try_to_store_error(unit, key, error, folder);
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "{}: {}\n", experiment::to_text(key), core::no_memory().what());
+        core::complain(experiment::to_text(key), core::no_memory());
+        code = core::ExitCode::environment;
+    } catch (const std::system_error& error) {
+        core::complain(experiment::to_text(key), core::error_of(error));
         code = core::ExitCode::environment;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "{}: {}\n", experiment::to_text(key), error.what());
+        core::complain(experiment::to_text(key), error);
         std::fflush(nullptr);
         std::abort();  // a bug of ours: die by a signal, as an assertion would
     }

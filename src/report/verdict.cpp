@@ -262,7 +262,7 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     text += sentence_of_parts("Only changed the EV's own lane", condition.idle_parts,
                               &analysis::IdlePart::own_runs);
     if (const std::size_t same = scenario.place_of(condition.same_as); same < scenario.conditions.size())
-        text += fmt::format(" The same runs as {}, to the last command.", scenario.conditions[same].label());
+        text += fmt::format(" Every run is identical to that of {}.", scenario.conditions[same].label());
     if (condition.is_unchecked())
         text += " Safety checks of the simulator were off: vehicles may drive through each other.";
     return words;

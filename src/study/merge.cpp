@@ -77,7 +77,7 @@ void copy_scenario(const std::vector<fs::path>& folders, const results::Scenario
         if (!damage) return core::copy_folder(source, copy, "demand");
         result.damaged.push_back(*damage + ". It is left out");
     }
-    if (exists) result.lost.push_back("scenario " + entry.name);
+    if (exists || fs::exists(copy)) result.lost.push_back("scenario " + entry.name);
 }
 
 /// The first of these run folders' `part`; an empty path when none has it.
@@ -108,46 +108,59 @@ std::string holder_of(const experiment::RunKey& key, std::span<const fs::path> f
     return "an earlier merge";
 }
 
+/// Adds a recording, unless the target has it or the source has none. Why it is not taken, if it is damaged.
+std::optional<std::string> damage_of_recording(const results::Store& source, const experiment::RunKey& key,
+                                               const results::Store& target) try {
+    target.adopt_recording(source, key);
+    return std::nullopt;
+} catch (const core::InputError& error) {
+    return error.what();
+}
+
 /// Adds the runs of `folders[number]` to `target`. A damaged record is never adopted, and one that the target
-/// has gives way. Returns the runs of which something is damaged.
+/// has gives way. Returns the runs whose recording is damaged there.
 std::vector<experiment::RunKey> adopt_runs(const std::vector<fs::path>& folders, std::size_t number,
                                            const results::Store& target, MergeResult& result) {
     const results::Store source = results::Store::open(folders[number]);
     const std::vector<experiment::RunKey> keys = source.complete_runs();
-    std::vector<experiment::RunKey> refused;
+    std::vector<experiment::RunKey> damaged;
     for (const experiment::RunKey& key : keys) {
         for (const auto& moved :
              {target.set_damaged_aside({key}), target.set_damaged_recordings_aside({key})})
-            for (const results::SetAside& damaged : moved)
+            for (const results::SetAside& aside : moved)
                 result.damaged.push_back(
-                    fmt::format("{}. It is kept in {}", damaged.why, damaged.place.string()));
+                    fmt::format("{}. It is kept in {}", aside.why, aside.place.string()));
         try {
             const bool first = target.adopt(source, key) == results::Store::Written::first;
             ++(first ? result.adopted : result.duplicates);
-            target.adopt_recording(source, key);
         } catch (const core::InputError& error) {
             result.damaged.push_back(fmt::format("{}. It is left out", error.what()));
-            refused.push_back(key);
+            continue;
         } catch (const core::ConflictError& error) {
             throw core::ConflictError(fmt::format("{}. The other one is from {}", error.what(),
                                                   holder_of(key, std::span(folders).first(number))));
         }
-    }
-    target.flush(keys);
-    return refused;
-}
-
-/// Recordings of complete runs that one folder has damaged and no other has.
-void find_lost_recordings(const results::Store& source, const std::vector<experiment::RunKey>& refused,
-                          const results::Store& target, MergeResult& result) {
-    for (const experiment::RunKey& key : refused) {
-        if (!target.complete(key)) continue;
-        try {
-            target.adopt_recording(source, key);
-        } catch (const core::InputError&) {
-            result.lost.push_back("recording " + experiment::to_text(key));
+        if (const auto damage = damage_of_recording(source, key, target)) {
+            result.damaged.push_back(*damage + ". It is left out");
+            damaged.push_back(key);
         }
     }
+    target.flush(keys);
+    return damaged;
+}
+
+/// Of the damaged recordings of each folder those that no other folder had.
+void find_lost_recordings(const std::vector<fs::path>& folders,
+                          const std::vector<std::vector<experiment::RunKey>>& damaged,
+                          const results::Store& target, MergeResult& result) {
+    std::set<experiment::RunKey> lost;
+    for (std::size_t number = 0; number < folders.size(); ++number) {
+        const results::Store source = results::Store::open(folders[number]);
+        for (const experiment::RunKey& key : damaged[number])
+            if (damage_of_recording(source, key, target)) lost.insert(key);
+    }
+    for (const experiment::RunKey& key : lost)
+        result.lost.push_back("recording " + experiment::to_text(key));
 }
 
 void adopt_errors(const results::Store& source, const results::Store& target, MergeResult& result) {
@@ -217,13 +230,12 @@ MergeResult merge(const std::vector<fs::path>& sources, const fs::path& out,
     const results::Store target = results::Store::create(out, first.manifest());
     MergeResult result;
     copy_surroundings(folders, target, result);
-    std::vector<std::vector<experiment::RunKey>> refused;
+    std::vector<std::vector<experiment::RunKey>> damaged;  // recordings, by folder
     for (std::size_t number = 0; number < folders.size(); ++number) {
         on_folder(number);
-        refused.push_back(adopt_runs(folders, number, target, result));
+        damaged.push_back(adopt_runs(folders, number, target, result));
     }
-    for (std::size_t number = 0; number < folders.size(); ++number)
-        find_lost_recordings(results::Store::open(folders[number]), refused[number], target, result);
+    find_lost_recordings(folders, damaged, target, result);
     for (const fs::path& folder : folders)
         adopt_errors(results::Store::open(folder), target, result);
     target.remove_leftovers();

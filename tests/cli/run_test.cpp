@@ -428,8 +428,9 @@ void RunTest::interrupt_and_resume(int signal, int expected_code) const {
     ::kill(child.pid, signal);
     const Ended interrupted = finish(child);
     EXPECT_EQ(interrupted.code, expected_code) << interrupted.err;
-    EXPECT_THAT(interrupted.err, AllOf(testing::ContainsRegex("To continue, for about [0-9:]+:\n"),
-                                       HasSubstr("clearway run line")));
+    EXPECT_THAT(interrupted.err,
+                AllOf(testing::ContainsRegex("To continue:\n.*\n.*about [0-9]+:[0-9:]+ is left\n"),
+                      HasSubstr("clearway run line")));
     const std::size_t kept = complete_runs("out");
     EXPECT_GE(kept, 1U);
     ASSERT_LT(kept, 2U * seeds);

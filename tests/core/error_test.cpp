@@ -9,6 +9,7 @@ TEST(Problem, PrintsWhereWhatAllowedAndCure) {
     EXPECT_EQ(format_problem({"city.toml:3", "-3 is negative", "0 to 100", "Use a count"}),
               "city.toml:3: -3 is negative (allowed: 0 to 100). Use a count");
     EXPECT_EQ(format_problem({{"a\0b", 3}, "\x1b[31mc\x7f\td", "", ""}), "a\\x00b: \\x1b[31mc\\x7f\td");
+    EXPECT_EQ(format_problem({"\u00e9\u009b\u00a0", "b", "", ""}), "\u00e9\\x9b\u00a0: b");
     EXPECT_EQ(format_problem({"a.py", "no B. Did you mean 'C'?", "", "correct it"}),
               "a.py: no B. Did you mean 'C'? Correct it");
     EXPECT_EQ(format_problem({"a", "is b", "", "a.csv has it"}), "a: is b. a.csv has it");

@@ -93,7 +93,7 @@ class DatasetTest(FolderCase):
 
     def test_what_is_no_file_is_refused_and_not_waited_for(self) -> None:
         os.mkfifo("x.samples")
-        self.assertIn("x.samples: is no file", self.message_of(clearway.InputError, lambda: clearway.dataset(self.folder)))
+        self.assertIn("x.samples: is not a regular file", self.message_of(clearway.InputError, lambda: clearway.dataset(self.folder)))
         os.remove("x.samples")
         os.mkdir("x.samples")
         self.assertIn("x.samples: cannot be read: Is a directory", self.message_of(clearway.InputError, lambda: clearway.dataset(self.folder)))
@@ -102,7 +102,7 @@ class DatasetTest(FolderCase):
             self.write_published()
             os.remove(name)
             os.mkfifo(name)
-            self.assertIn(f"{name}: is no file", self.message_of(clearway.InputError, lambda: clearway.dataset(self.folder)))
+            self.assertIn(f"{name}: is not a regular file", self.message_of(clearway.InputError, lambda: clearway.dataset(self.folder)))
             os.remove(name)
 
     def test_a_folder_that_cannot_be_listed_is_told(self) -> None:

@@ -347,6 +347,13 @@ class FaultTest(FolderCase):
             self.assertEqual(list(clearway.open("crashed").errors["cause"]), ["python"])
         self.assertEqual((self.folder / "tries").read_text(), "x")
 
+    def test_errors_that_are_chained_in_a_circle_have_an_end(self) -> None:
+        first, second = ValueError("first"), ValueError("second")
+        first.__cause__, second.__cause__ = second, first
+        self.assertFalse(is_of_machine(first))
+        second.__cause__ = MemoryError()
+        self.assertTrue(is_of_machine(first))
+
     def test_the_reasons_of_the_machine_are_those_of_the_programs(self) -> None:
         source = (SOURCE / "src/core/read_failure.cpp").read_text()
         named = re.search(r"reasons_of_machine = \{(.*?)\}", source)[1]

@@ -262,13 +262,13 @@ class ResultsTest(FolderCase):
 
     def test_what_is_no_file_is_refused_and_not_waited_for(self) -> None:
         os.mkfifo("pipe")
-        self.assertIn("pipe: is no file", self.message_of(clearway.InputError, lambda: clearway.study("pipe")))
-        self.assertIn("pipe: is no file", self.message_of(clearway.InputError, lambda: clearway.trace("pipe")))
+        self.assertIn("pipe: is not a regular file", self.message_of(clearway.InputError, lambda: clearway.study("pipe")))
+        self.assertIn("pipe: is not a regular file", self.message_of(clearway.InputError, lambda: clearway.trace("pipe")))
         opened = self.copy()
         for name, read in (("manifest.json", lambda: opened.recording("intersection", "corridor")), ("results.sqlite", lambda: opened.runs)):
             os.remove(opened.folder / name)
             os.mkfifo(opened.folder / name)
-            self.assertIn(f"{name}: is no file", self.message_of(clearway.InputError, read))
+            self.assertIn(f"{name}: is not a regular file", self.message_of(clearway.InputError, read))
 
     def copy(self) -> clearway.Results:
         return clearway.open(shutil.copytree(self.results.folder, self.folder / "copy"))

@@ -331,7 +331,7 @@ TEST_F(PlainNetworks, that_netconvert_refuses_are_told_with_its_words_and_the_ke
                       HasSubstr("state length of"), HasSubstr("Correct"), HasSubstr("intersection.tll.xml"),
                       Not(HasSubstr("Quitting")), Not(HasSubstr("Warning"))));
     EXPECT_THAT(refusal_of("intersection.edg.xml", "<edge ", "<edge <"),
-                HasSubstr((folder() / "mine" / "intersection.edg.xml").string() + ":"));
+                AllOf(HasSubstr("network.edges: "), HasSubstr("intersection.edg.xml")));
     EXPECT_THAT(refusal_of("intersection.nod.xml", "id=\"center\"", ""), HasSubstr("network.nodes: "));
 }
 

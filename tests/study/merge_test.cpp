@@ -329,6 +329,19 @@ TEST_F(Merge, ReplacesADamagedRecordThatItAlreadyHas) {
     EXPECT_EQ(merge_into("out", sources).counts.complete, 20U) << "a folder without a record blocks nothing";
 }
 
+TEST_F(Merge, NamesARecordingThatIsDamagedEverywhereOnce) {
+    const std::vector<std::filesystem::path> sources = {divided(1, "a")[0], divided(1, "b")[0]};
+    for (const std::filesystem::path& source : sources) {
+        const std::filesystem::path recordings = source / "recordings" / "beta" / "treated";
+        core::make_folder(recordings);
+        core::write_atomically(recordings / "00003.h5", "not what it was");
+    }
+    const MergeResult result = merge_into("out", sources);
+    EXPECT_EQ(result.counts.complete, 20U);
+    EXPECT_EQ(result.damaged.size(), 2U);
+    EXPECT_THAT(result.lost, ElementsAre("recording " + experiment::to_text(RunKey{"beta", "treated", 3})));
+}
+
 TEST_F(Merge, ReplacesCopiesThatAPowerFailureEmptiedAndTakesNone) {
     results::Manifest manifest = results::synthetic::manifest(merged_replications);
     manifest.scenarios[0].configuration_hash = scenario::scenario_hash(scenario::load("merge"));

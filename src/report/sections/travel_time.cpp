@@ -51,6 +51,8 @@ std::string distribution_note(const ScenarioFacts& scenario) {
     std::string note =
         "Share of all EVs of the demand, so a curve that ends below 1 shows EVs that did not arrive. "
         "Replications are pooled; the intervals under Data come from resampling whole replications.";
+    note += fmt::format(" There is no 95th percentile of fewer than {} trips.",
+                        analysis::TravelTimeTail::fewest_trips);
     const bool thinned = std::any_of(
         scenario.conditions.begin(), scenario.conditions.end(),
         [](const auto& one) { return one.distribution.arrived > one.distribution.points.size(); });
@@ -199,12 +201,13 @@ void response_tables(const StudyFacts& study, Writer& writer) {
     const auto has_trips = [](const ScenarioFacts& scenario) { return scenario.response_threshold_s > 0.0; };
     if (std::none_of(study.scenarios.begin(), study.scenarios.end(), has_trips)) return;
     writer.heading("Response time");
-    writer.markup(
+    writer.markup(fmt::format(
         "<p>As dispatchers count: the time that nine in ten EVs do not exceed, and the share of EVs that "
-        "are in time. An EV that did not arrive counts with the horizon and is late; of fewer than ten trips "
-        "there is no such time. Unless a threshold was "
-        "given, it is 100 s per km of the mean EV route, the pace of the 240 s of NFPA 1710 over 1.5 miles. "
-        "Intervals come from resampling whole replications; differences are paired.</p>\n");
+        "are in time. An EV that did not arrive counts with the horizon and is late; of fewer than {} trips "
+        "there is no such time. Unless a threshold was given, it is 100 s per km of the mean EV route, the "
+        "pace of the 240 s of NFPA 1710 over 1.5 miles. Intervals come from resampling whole replications; "
+        "differences are paired.</p>\n",
+        analysis::ResponseTime::fewest_trips));
     for (const ScenarioFacts& scenario : study.scenarios) {
         if (has_trips(scenario))
             writer.table(

@@ -136,13 +136,13 @@ std::vector<std::filesystem::path> find_files(const std::filesystem::path& folde
                                               std::string_view what, std::string_view cure) {
     std::vector<std::filesystem::path> files;
     std::error_code error;
-    std::filesystem::path at = folder;  // the folder that cannot be listed, where one cannot
+    std::filesystem::path at = folder;
     for (auto entry = std::filesystem::recursive_directory_iterator(folder, error);
          !error && entry != std::filesystem::recursive_directory_iterator(); entry.increment(error)) {
         at = entry->path();
         if (at.filename().string().ends_with(ending)) files.push_back(at);
     }
-    if (error) core::fail_to_read(at, error.value());
+    if (error) core::fail_to_read(std::filesystem::is_directory(at) ? at : at.parent_path(), error.value());
     if (files.empty()) {
         throw core::InputError({folder.string(), fmt::format("holds no file of {}", what),
                                 fmt::format("a folder with *{} files", ending), std::string(cure)});

@@ -112,21 +112,28 @@ std::vector<core::Problem> problems_of_source(const ScenarioConfig& config, cons
     return problems;
 }
 
-/// For what no reader of XML takes, such as the deep nesting that netconvert follows for hours.
+/// Takes any elements.
 class Anything : public core::XmlHandler {
   public:
     void start(std::string_view, const core::XmlAttributes&, unsigned long) override {}
     void end(std::string_view) override {}
 };
 
+/// Netconvert does not end on elements that are nested deeply. What else is wrong it says itself.
+void check_levels(const std::filesystem::path& file) try {
+    Anything anything;
+    core::stream_xml(file, anything);
+} catch (const core::InputError& error) {
+    if (error.problems().front().what == core::too_many_levels("").what) throw;
+}
+
 }  // namespace
 
 void check_sources(const ScenarioConfig& config) {
     const NetworkSource& network = config.network;
     if (!network.plain()) return;
-    Anything anything;
     for (const std::string* const file : {&network.nodes, &network.edges, &network.connections})
-        if (!file->empty()) core::stream_xml(resolve(config, *file), anything);
+        if (!file->empty()) check_levels(resolve(config, *file));
     if (network.signals.empty()) return;
     const std::filesystem::path file = resolve(config, network.signals);
     Programs programs(file);

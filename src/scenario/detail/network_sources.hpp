@@ -10,8 +10,8 @@
 
 namespace clearway::scenario::detail {
 
-/// Throws core::InputError, with file and line, for plain XML that cannot be read, and for signal programs in
-/// it that SUMO could not run. Netconvert names no file, and takes some of them.
+/// Throws core::InputError, with file and line, for plain XML that is nested so deep that netconvert does not
+/// end, and for signal programs in it that SUMO could not run, of which netconvert takes some.
 void check_sources(const ScenarioConfig& config);
 
 /// What netconvert says in its log of why it ended, to be shown after the log is gone; paths of files that
