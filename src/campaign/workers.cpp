@@ -23,6 +23,9 @@ using experiment::RunKey;
 using results::ErrorCause;
 
 constexpr auto progress_period = std::chrono::milliseconds(250);
+/// Of a worker that could not even write into its log.
+constexpr const char* speechless =
+    "Perhaps the disk is full. Free some space there and give the same command again";
 constexpr int log_lines = 30;
 
 RunKey key_of(const experiment::RunJob& unit, const experiment::ConditionSpec& condition) {
@@ -264,10 +267,12 @@ class Workers : private core::TaskList {
         if (code == program_not_started)
             throw core::EnvironmentError(fmt::format("{} cannot be started. {}",
                                                      options_.worker_program.string(), cure_of_no_start()));
-        if (code == static_cast<int>(ExitCode::environment))
+        if (code == static_cast<int>(ExitCode::environment)) {
+            const std::string said = core::tail(log_file(end.id), log_lines);
             throw core::EnvironmentError(
                 fmt::format("a worker could not continue; completed runs are kept in {}\n{}",
-                            store_.folder().string(), core::tail(log_file(end.id), log_lines)));
+                            store_.folder().string(), said.empty() ? speechless : said));
+        }
         if (code == static_cast<int>(ExitCode::conflict))
             throw core::ConflictError(core::tail(log_file(end.id), log_lines));
     }
