@@ -1,8 +1,9 @@
 // clearway-train: trains link prediction. A program of its own because linking libtorch costs 0.24 s and 90
 // MB at each launch; `clearway links train` becomes this program.
 #include <cstdio>
-#include <exception>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -118,9 +119,9 @@ int run(int argument_count, char** argument_values) {
 }  // namespace clearway::training
 
 int main(int argument_count, char** argument_values) {
-    using namespace clearway;
+    namespace core = clearway::core;
     core::begin_program();
     return static_cast<int>(core::end_of("clearway-train", [&] {
-        return static_cast<core::ExitCode>(training::run(argument_count, argument_values));
+        return static_cast<core::ExitCode>(clearway::training::run(argument_count, argument_values));
     }));
 }
