@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/number.hpp"
+#include "core/read_failure.hpp"
 #include "trace/recording.hpp"
 
 namespace clearway::results {
@@ -24,8 +25,10 @@ struct Parts {
 };
 
 bool is_run_folder(const fs::path& folder) {
-    std::error_code none;
-    return fs::exists(folder / "manifest.json", none);
+    std::error_code error;  // a text that is no path is no folder either
+    const bool exists = fs::exists(folder / "manifest.json", error);
+    if (core::is_of_machine(error.value())) core::fail_to_read(folder / "manifest.json", error.value());
+    return exists;
 }
 
 std::optional<Parts> parts_of(const std::string& name) {
