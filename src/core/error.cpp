@@ -28,8 +28,10 @@ std::string visible(const std::string& text) {
         auto code = static_cast<unsigned char>(text[at]);
         const auto next = static_cast<unsigned char>(at + 1 < text.size() ? text[at + 1] : '\0');
         const bool is_wide = code == 0xc2 && next >= 0x80 && next < 0xa0;
-        if (is_wide) code = next;
-        if (is_wide) ++at;
+        if (is_wide) {
+            code = next;
+            ++at;
+        }
         const bool is_control =
             is_wide || code == 0x7f || (code < 0x20 && whitespace.find(text[at]) == std::string_view::npos);
         shown += is_control ? fmt::format("\\x{:02x}", code) : std::string(1, text[at]);

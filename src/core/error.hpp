@@ -21,7 +21,7 @@ enum class ExitCode : int {
     terminated = 143,
 };
 
-/// One problem with the user's input. All members may hold text from the user's files; printers escape it.
+/// One problem with the user's input. All members may hold text from the user's files; pages escape it.
 struct Problem {
     std::string where;    ///< File and place: `city.toml:12:3: demand.count` or `--step-length`.
     std::string what;     ///< What is wrong, with the value found: `-3 is negative`.
@@ -74,7 +74,7 @@ class ConflictError : public Error {
     explicit ConflictError(const std::string& message) : Error(ExitCode::conflict, message) {}
 };
 
-/// One line per problem: `where: what (allowed: ...). cure`.
+/// One line per problem: `where: what (allowed: ...). cure`; control characters are shown as `\x1b`.
 std::string format_problem(const Problem& problem);
 
 /// The texts that `projection` gives for the elements of a range, in their order.

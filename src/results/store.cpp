@@ -241,11 +241,16 @@ Store::Written Store::adopt(const Store& other, const experiment::RunKey& key) c
 void Store::adopt_recording(const Store& other, const experiment::RunKey& key) const {
     const fs::path recording = trace::recording_file(other.folder_, key);
     const fs::path place = trace::recording_file(folder_, key);
-    if (!fs::exists(recording) || fs::exists(place)) return;
+    if (!fs::exists(recording)) return;
     trace::check_recording(recording);
+    if (has_recording(key)) return;
     core::make_folder(place.parent_path());
     core::copy_file(recording, place, core::Copying::links);
     core::flush_folder(place.parent_path());
+}
+
+bool Store::has_recording(const experiment::RunKey& key) const {
+    return fs::exists(trace::recording_file(folder_, key));
 }
 
 std::vector<experiment::RunKey> Store::complete_runs() const {
@@ -313,8 +318,7 @@ bool Store::done(const experiment::RunJob& unit, const experiment::ConditionSpec
     const experiment::RunKey key{unit.scenario, condition.name, unit.replication};
     if (!complete(key)) return false;
     return unit.recording == experiment::StepRecording::off ||
-           condition.traffic_model == experiment::TrafficModel::free_flow ||
-           fs::exists(trace::recording_file(folder_, key));
+           condition.traffic_model == experiment::TrafficModel::free_flow || has_recording(key);
 }
 
 RunRecord Store::read_checked(const experiment::RunKey& key, std::string& vehicles) const {

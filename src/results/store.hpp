@@ -74,6 +74,7 @@ class Store {
     Written adopt(const Store& other, const experiment::RunKey& key) const;
     /// Likewise its recording, unless this store has one. Throws core::InputError for one that is damaged.
     void adopt_recording(const Store& other, const experiment::RunKey& key) const;
+    bool has_recording(const experiment::RunKey& key) const;
     /// Complete runs, and failed runs that are not complete; in no particular order.
     std::vector<experiment::RunKey> complete_runs() const;
     std::vector<experiment::RunKey> failed_runs() const;

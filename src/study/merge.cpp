@@ -108,22 +108,13 @@ std::string holder_of(const experiment::RunKey& key, std::span<const fs::path> f
     return "an earlier merge";
 }
 
-/// Adds a recording, unless the target has it or the source has none. Why it is not taken, if it is damaged.
-std::optional<std::string> damage_of_recording(const results::Store& source, const experiment::RunKey& key,
-                                               const results::Store& target) try {
-    target.adopt_recording(source, key);
-    return std::nullopt;
-} catch (const core::InputError& error) {
-    return error.what();
-}
-
 /// Adds the runs of `folders[number]` to `target`. A damaged record is never adopted, and one that the target
 /// has gives way. Returns the runs whose recording is damaged there.
-std::vector<experiment::RunKey> adopt_runs(const std::vector<fs::path>& folders, std::size_t number,
-                                           const results::Store& target, MergeResult& result) {
+std::set<experiment::RunKey> adopt_runs(const std::vector<fs::path>& folders, std::size_t number,
+                                        const results::Store& target, MergeResult& result) {
     const results::Store source = results::Store::open(folders[number]);
     const std::vector<experiment::RunKey> keys = source.complete_runs();
-    std::vector<experiment::RunKey> damaged;
+    std::set<experiment::RunKey> damaged;
     for (const experiment::RunKey& key : keys) {
         for (const auto& moved :
              {target.set_damaged_aside({key}), target.set_damaged_recordings_aside({key})})
@@ -140,27 +131,15 @@ std::vector<experiment::RunKey> adopt_runs(const std::vector<fs::path>& folders,
             throw core::ConflictError(fmt::format("{}. The other one is from {}", error.what(),
                                                   holder_of(key, std::span(folders).first(number))));
         }
-        if (const auto damage = damage_of_recording(source, key, target)) {
-            result.damaged.push_back(*damage + ". It is left out");
-            damaged.push_back(key);
+        try {
+            target.adopt_recording(source, key);
+        } catch (const core::InputError& error) {
+            result.damaged.push_back(fmt::format("{}. It is left out", error.what()));
+            damaged.insert(key);
         }
     }
     target.flush(keys);
     return damaged;
-}
-
-/// Of the damaged recordings of each folder those that no other folder had.
-void find_lost_recordings(const std::vector<fs::path>& folders,
-                          const std::vector<std::vector<experiment::RunKey>>& damaged,
-                          const results::Store& target, MergeResult& result) {
-    std::set<experiment::RunKey> lost;
-    for (std::size_t number = 0; number < folders.size(); ++number) {
-        const results::Store source = results::Store::open(folders[number]);
-        for (const experiment::RunKey& key : damaged[number])
-            if (damage_of_recording(source, key, target)) lost.insert(key);
-    }
-    for (const experiment::RunKey& key : lost)
-        result.lost.push_back("recording " + experiment::to_text(key));
 }
 
 void adopt_errors(const results::Store& source, const results::Store& target, MergeResult& result) {
@@ -230,12 +209,13 @@ MergeResult merge(const std::vector<fs::path>& sources, const fs::path& out,
     const results::Store target = results::Store::create(out, first.manifest());
     MergeResult result;
     copy_surroundings(folders, target, result);
-    std::vector<std::vector<experiment::RunKey>> damaged;  // recordings, by folder
+    std::set<experiment::RunKey> damaged_recordings;
     for (std::size_t number = 0; number < folders.size(); ++number) {
         on_folder(number);
-        damaged.push_back(adopt_runs(folders, number, target, result));
+        damaged_recordings.merge(adopt_runs(folders, number, target, result));
     }
-    find_lost_recordings(folders, damaged, target, result);
+    for (const experiment::RunKey& key : damaged_recordings)
+        if (!target.has_recording(key)) result.lost.push_back("recording " + experiment::to_text(key));
     for (const fs::path& folder : folders)
         adopt_errors(results::Store::open(folder), target, result);
     target.remove_leftovers();

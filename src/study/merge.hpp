@@ -21,8 +21,8 @@ struct MergeResult {
     std::size_t adopted = 0;                  ///< Runs that were new to it.
     std::size_t duplicates = 0;               ///< Runs that it already had, with the same bytes.
     std::vector<experiment::RunKey> missing;  ///< The first ten runs that no folder has, sorted.
-    std::vector<std::string>
-        damaged;  ///< Damaged records and scenarios: where, what is wrong, what became of them.
+    /// Damaged records, recordings and scenarios: where, what is wrong, what became of them.
+    std::vector<std::string> damaged;
     std::vector<std::string> lost;  ///< Scenarios and recordings of the sources of which none is whole.
     std::vector<std::string> absent_shards;  ///< `3/8`, ...; if all sources are shards of the same count.
 };

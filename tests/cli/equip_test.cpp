@@ -194,6 +194,7 @@ TEST_F(EquipTest, refuses_what_has_no_answer_and_leaves_nothing_behind) {
     refused({"equip", "./crossings", "--budget", "1.5"}, 2, "--budget");
     refused({"equip", "./crossings", "--budget", "-1"}, 2, "--budget");
     refused({"equip", "./crossings", "--budget", "1", "--seeds", "1"}, 2, "--seeds");
+    refused({"equip", "./crossings", "--budget", "1", "--seeds", "1001"}, 2, "--seeds");
     refused({"equip", "./crossings", "--budget", "1", "--policy", "clear_lane"}, 3,
             "has no policy that requests green from signals");
     refused({"equip", "./crossings", "--budget", "1", "--condition", "baseline"}, 3,

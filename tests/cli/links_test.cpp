@@ -127,6 +127,12 @@ TEST_F(LinksTest, names_the_damaged_file_of_a_run_and_goes_on_once_it_is_gone) {
                 AllOf(HasSubstr(damaged.filename().string()), HasSubstr("damaged"), HasSubstr("Remove it")));
     std::filesystem::remove(damaged);
     EXPECT_EQ(clearway(words).code, 0);
+    std::filesystem::path times = damaged;
+    times.replace_extension(".timing.json");
+    core::write_atomically(times, "{");
+    EXPECT_THAT(clearway(words).err, AllOf(HasSubstr(times.filename().string()), HasSubstr("Remove it")));
+    std::filesystem::remove(times);
+    EXPECT_EQ(clearway(words).code, 0) << "the run is made again";
 }
 
 TEST_F(LinksTest, settings_reach_the_predictor_and_make_runs_of_their_own) {

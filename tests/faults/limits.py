@@ -63,6 +63,22 @@ def try_recording(study):
         study.faults.append(f"no limit of memory let a replay begin and not end: {ends}")
 
 
+def try_figures(study):
+    """Where memory keeps rsvg-convert from starting, its package is not what is missing."""
+    blamed = 0
+    for size_mb in range(45, 90, 5):
+        limit = size_mb * 1_000_000
+        ended = subprocess.run([study.words[0], "export", "figures", "clean", "--out", "figures"], cwd=study.folder, capture_output=True,
+                               text=True, errors="replace", check=False,
+                               preexec_fn=lambda limit=limit: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+        if "rsvg-convert cannot be started" in ended.stderr:
+            blamed += 1
+            if "ulimit -v" not in ended.stderr:
+                study.faults.append(f"rsvg-convert in {size_mb} MB: {ended.stderr[-400:]}")
+    if not blamed:
+        study.faults.append("no limit of memory kept rsvg-convert from starting")
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
@@ -75,6 +91,7 @@ def main():
         if subprocess.run([*hide, "true"], check=False, capture_output=True).returncode == 0:
             ends.append(study.check("no /proc", "Mount /proc", prefix=hide))
         try_recording(study)
+        try_figures(study)
     print("\n".join(study.faults), ends)
     sys.exit(bool(study.faults) or not any(ends))
 

@@ -112,19 +112,26 @@ std::vector<core::Problem> problems_of_source(const ScenarioConfig& config, cons
     return problems;
 }
 
-/// Takes any elements.
-class Anything : public core::XmlHandler {
+/// How deep elements are nested.
+class Levels : public core::XmlHandler {
   public:
-    void start(std::string_view, const core::XmlAttributes&, unsigned long) override {}
-    void end(std::string_view) override {}
+    void start(std::string_view, const core::XmlAttributes&, unsigned long) override { ++level_; }
+    void end(std::string_view) override { --level_; }
+    /// Where reading ended.
+    int level() const { return level_; }
+
+  private:
+    int level_ = 0;
 };
 
 /// Netconvert does not end on elements that are nested deeply. What else is wrong it says itself.
-void check_levels(const std::filesystem::path& file) try {
-    Anything anything;
-    core::stream_xml(file, anything);
-} catch (const core::InputError& error) {
-    if (error.problems().front().what == core::too_many_levels("").what) throw;
+void check_levels(const std::filesystem::path& file) {
+    Levels levels;
+    try {
+        core::stream_xml(file, levels);
+    } catch (const core::InputError&) {
+        if (levels.level() >= core::most_xml_levels) throw;
+    }
 }
 
 }  // namespace
