@@ -1,7 +1,8 @@
 """Prints the files that a part in Python is made of, its own first: `python3 -I -S _sources.py FILE`. Run by Clearway to hash them.
 
 Besides the file itself these are the modules that it imports from its own folder, and what they import from there. Imports are read
-from the text, so nothing of it is run here; a file that cannot be parsed counts alone, and loading it tells why.
+from the text, so nothing of it is run here; a file that cannot be parsed counts alone, and loading it tells why. What the machine
+fails to read is told: without it, the same part would have another hash.
 """
 from __future__ import annotations
 
@@ -40,7 +41,7 @@ def sources(file: Path) -> list[Path]:
         module = waiting.pop()
         try:
             tree = ast.parse(module.read_bytes())
-        except (SyntaxError, ValueError, OSError):
+        except (SyntaxError, ValueError, FileNotFoundError, PermissionError):
             continue
         package = list(module.relative_to(folder).parent.parts)
         for name in imported_names(tree, package):
@@ -51,4 +52,7 @@ def sources(file: Path) -> list[Path]:
 
 
 if __name__ == "__main__":
-    print("\n".join(str(file) for file in sources(Path(sys.argv[1]))))
+    try:
+        print("\n".join(str(file) for file in sources(Path(sys.argv[1]))))
+    except OSError as error:
+        sys.exit(str(error))

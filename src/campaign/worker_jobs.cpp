@@ -67,6 +67,9 @@ class JobList : public core::TaskList {
         const bool is_kept = std::filesystem::exists(job.log);
         fmt::print(stderr, "\nclearway: {}: {}{}\n{}", job.label, exit.describe(),
                    is_kept ? fmt::format(" ({})", job.log.string()) : "", words);
+        constexpr int not_loaded = 127;
+        if (exit.signal != 0 || exit.code == not_loaded)
+            fmt::print(stderr, "clearway: give the same command again, in case the machine failed\n");
         if (exit_code_ == core::ExitCode::ok) exit_code_ = exit_code_of(exit);
     }
 

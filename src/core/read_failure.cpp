@@ -78,6 +78,8 @@ bool is_of_machine(int reason) {
 }
 
 bool tells_of_machine(std::string_view words) {
+    // SUMO, of a file that it may read
+    if (words.find("Cannot get file attributes for file") != std::string_view::npos) return true;
     return std::ranges::any_of(reasons_of_machine, [&](int reason) {
         return words.find(std::strerror(reason)) != std::string_view::npos;
     });

@@ -1,5 +1,6 @@
 #include "python/sources.hpp"
 
+#include <csignal>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/process.hpp"
+#include "core/read_failure.hpp"
 #include "core/temporary_folder.hpp"
 #include "python/interpreter.hpp"
 
@@ -25,6 +27,13 @@ std::vector<fs::path> sources_of(const fs::path& file, const std::string& where)
                    .arguments = {"-I", "-S", "-W", "ignore", script.string(), file.string()},
                    .output = said});
     const std::string text = core::read_file(said);
+    const bool tells_of_machine =
+        core::tells_of_machine(text) || text.find("MemoryError") != std::string::npos;
+    if (exit.signal == SIGKILL || (!exit.ok() && tells_of_machine))
+        throw core::EnvironmentError(fmt::format(
+            "{}: its imports could not be read ({}):\n{}\nThe machine failed: give the same command "
+            "again",
+            file.string(), exit.describe(), text));
     if (!exit.ok())
         throw core::InputError(
             {where,

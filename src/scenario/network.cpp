@@ -1,7 +1,6 @@
 #include "scenario/network.hpp"
 
 #include <algorithm>
-#include <csignal>
 #include <map>
 #include <set>
 
@@ -10,12 +9,10 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
-#include "core/machine_failure.hpp"
 #include "core/open_file.hpp"
-#include "core/process.hpp"
-#include "core/read_failure.hpp"
 #include "core/running_hash.hpp"
 #include "core/units.hpp"
+#include "scenario/detail/netconvert.hpp"
 #include "scenario/detail/network_sources.hpp"
 #include "scenario/mean_times.hpp"
 #include "scenario/network_document.hpp"
@@ -31,30 +28,6 @@ constexpr const char* network_hash_name = "network.hash";
 /// The key that messages about the network's sources point to.
 std::string source_place(const ScenarioConfig& config) {
     return config.where(config.network.plain() ? "network.edges" : "network.file");
-}
-
-void run_netconvert(const ScenarioConfig& config, std::vector<std::string> arguments,
-                    const std::filesystem::path& folder) {
-    arguments.insert(arguments.end(), {"--xml-validation", "never"});
-    core::Command command;
-    command.program = "netconvert";
-    command.arguments = std::move(arguments);
-    command.output = folder / "netconvert.log";
-    const core::Exit exit = core::run(command);
-    constexpr int not_found = 127;
-    if (exit.code == not_found)
-        throw core::EnvironmentError(
-            "netconvert does not start. " +
-            core::cure_of_no_start(
-                "Install the package sumo, or give the same command again if the machine failed"));
-    if (exit.ok()) return require_whole(*(std::ranges::find(command.arguments, "--output-file") + 1));
-    const std::string complaint =
-        detail::complaint_in(command.output, folder, resolve(config, config.network.file).string());
-    if (exit.signal == SIGKILL || core::tells_of_machine(complaint))  // so the system ends it without memory
-        throw core::EnvironmentError(
-            fmt::format("netconvert fails ({}):\n{}\nThe machine failed: give the same command again",
-                        exit.describe(), complaint));
-    throw core::InputError(detail::refusal(config, exit.describe(), complaint));
 }
 
 std::vector<std::string> plain_arguments(const ScenarioConfig& config) {
@@ -92,10 +65,10 @@ void restrict_network(const ScenarioConfig& config, const std::filesystem::path&
     const std::filesystem::path whole = folder / "whole.net.xml";
     std::filesystem::rename(raw, whole);
     core::write_atomically(kept, kept_edges(config, detail::read_made(config, whole)));
-    run_netconvert(config,
-                   {"--sumo-net-file", whole.string(), "--keep-edges.input-file", kept.string(),
-                    "--output-file", raw.string()},
-                   folder);
+    detail::run_netconvert(config,
+                           {"--sumo-net-file", whole.string(), "--keep-edges.input-file", kept.string(),
+                            "--output-file", raw.string()},
+                           folder);
     std::filesystem::remove(whole);
 }
 
@@ -158,7 +131,7 @@ BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::
         detail::check_sources(config);
         std::vector<std::string> arguments = plain_arguments(config);
         arguments.insert(arguments.end(), {"--output-file", raw.string()});
-        run_netconvert(config, arguments, folder);
+        detail::run_netconvert(config, arguments, folder);
     } else if (!is_taken_whole) {
         core::write_atomically(
             raw, NetworkDocument(resolve(config, config.network.file)).without_newer_classes().text());

@@ -86,6 +86,24 @@ TEST(Yellow, of_the_signals_own_program_is_longer_on_a_slippery_road_and_its_red
     }
 }
 
+TEST(Clearance, keeps_the_red_of_the_signals_own_program_where_it_is_shorter_than_a_rule_asks) {
+    const support::TemporaryFolder folder;
+    const auto own_program = folder.write("tls.add.xml", R"(<additional>
+    <tlLogic id="A" type="static" programID="0">
+        <phase duration="30" state="GGGgrrrrGGGgrrrr"/><phase duration="4" state="yyyyrrrryyyyrrrr"/>
+        <phase duration="1" state="rrrrrrrrrrrrrrrr"/>
+        <phase duration="30" state="rrrrGGGgrrrrGGGg"/><phase duration="4" state="rrrryyyyrrrryyyy"/>
+        <phase duration="1" state="rrrrrrrrrrrrrrrr"/>
+    </tlLogic></additional>)");
+    const roads::Network network =
+        roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml", {own_program});
+    const actuation::ActuatorConfig config{.clearance = ClearanceRule::ite};
+    const Clearance ruled(config, two_crossings().signal(signal_a), two_crossings());
+    const Clearance own(config, network.signal(signal_a), network);
+    EXPECT_GT(ruled.red_s(north[1], west[1]), 1.0);
+    EXPECT_DOUBLE_EQ(own.red_s(north[1], west[1]), 1.0);
+}
+
 TEST(LinkHistory, knows_since_when_a_link_is_green_or_red) {
     LinkHistory history;
     history.watch("Gr", core::Seconds(0.0));
@@ -288,6 +306,19 @@ TEST(ConformingHold, waits_for_a_vehicle_inside_the_junction_where_it_is_in_the_
         ASSERT_LT(free_s, 9.0);
         EXPECT_NEAR(opened_s, leaves_s < 50.0 ? leaves_s + 0.25 : free_s + 6.0, 0.3);
     }
+}
+
+TEST(ConformingHold, for_links_that_turn_yellow_shows_them_red_for_less_than_a_second) {
+    ActuationBench bench(0.25, {});
+    bench.run_until(10.0);
+    bench.shown[0] = "yyyyrrrryyyyrrrr";
+    const std::vector<Shown> history = watch(bench, 30.0, hold_until(north, 30.0));
+    for (const Stretch& run : stretches_of(history, north[1])) {
+        if (run.letter == 'r') {
+            EXPECT_LT(run.to_s - run.from_s, 1.0) << "those that it conflicts with have been red for long";
+        }
+    }
+    EXPECT_EQ(history.back().state[north[1]], 'G');
 }
 
 TEST(ConformingHold, shows_that_it_takes_right_of_way_before_the_others_open) {

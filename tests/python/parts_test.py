@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 import clearway
-from support import FolderCase, PROGRAMS, SOURCE, program
+from support import FolderCase, PROGRAMS, SOURCE, may_trace, program
 
 # preempt_signals without its count of halted vehicles, as src/policy/preempt_signals.cpp has it.
 PREEMPT = """
@@ -267,6 +267,19 @@ class SourcesTest(FolderCase):
         program(*arguments)
         self.write("helper.py", "def leases(belief):\n    return list()\n")
         program(*arguments, code=3)
+
+    def test_an_import_that_the_machine_fails_to_read_is_not_left_out_of_the_hash(self) -> None:
+        if not may_trace():
+            self.skipTest("strace is not installed or may not trace")
+        self.write("mine.py", "import helper\nclass Mine:\n    def act(self, belief):\n        return []\n")
+        self.write("helper.py", "")
+        for call in ("openat", "newfstatat"):
+            ended = subprocess.run(["strace", "-f", "-qq", "-o", os.devnull, "-P", str(self.folder / "helper.py"), "-e", f"trace={call}",
+                                    "-e", f"inject={call}:error=EIO:when=1", str(PROGRAMS / "clearway"), "run", "intersection", "--policy",
+                                    "mine.py:Mine", "--seeds", "1", "--no-solo", "--out", call], capture_output=True, text=True, check=False)
+            self.assertEqual(ended.returncode, 4, ended.stderr)
+            for words in ("its imports could not be read", "helper.py", "Input/output error", "give the same command again"):
+                self.assertIn(words, ended.stderr)
 
 
 class JudgedTest(FolderCase):

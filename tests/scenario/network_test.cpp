@@ -9,6 +9,7 @@
 #include "core/files.hpp"
 #include "roads/crossings.hpp"
 #include "scenario/detail/library.hpp"
+#include "scenario/detail/netconvert.hpp"
 #include "scratch.hpp"
 
 namespace clearway::scenario {
@@ -271,6 +272,21 @@ TEST_F(BuiltNetworks, missing_netconvert_is_said_so) {
         EXPECT_THAT(error.what(), HasSubstr("netconvert"));
     }
     setenv("PATH", path.c_str(), 1);
+}
+
+TEST_F(BuiltNetworks, a_netconvert_that_does_not_end_is_ended) {
+    std::filesystem::permissions(write("netconvert", "#!/bin/sh\nexec /bin/sleep 100\n"),
+                                 std::filesystem::perms::owner_all);
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", folder().c_str(), 1);
+    const auto problems = problems_of([&] {
+        detail::run_netconvert(load("merge"), {"--output-file", "out"}, folder(),
+                               std::chrono::milliseconds(200));
+    });
+    setenv("PATH", path.c_str(), 1);
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_THAT(problems[0].where, HasSubstr("network"));
+    EXPECT_EQ(problems[0].what, "netconvert does not end within 0.2 s");
 }
 
 TEST_F(BuiltNetworks, a_folder_that_cannot_be_made_is_an_environment_error) {

@@ -384,12 +384,8 @@ void SignalControl::return_to_program(core::Seconds now, const SignalTiming& tim
     capped_ = false;
 }
 
-void SignalControl::restore(std::vector<traffic::Command>& commands) {
-    holds_.clear();
-    adjustments_.clear();
+void SignalControl::restore(std::vector<traffic::Command>& commands) const {
     if (stage_ != Stage::background_plan) commands.push_back(traffic::RestoreProgram{index_});
-    stage_ = Stage::background_plan;
-    capped_ = false;
 }
 
 }  // namespace clearway::actuation::detail

@@ -61,7 +61,8 @@ class SignalControl {
 
     void offer(const traffic::Lease& lease, Ledger& ledger);
     void step(const SignalContext& around, Ledger& ledger, std::vector<traffic::Command>& commands);
-    void restore(std::vector<traffic::Command>& commands);
+    /// The last call.
+    void restore(std::vector<traffic::Command>& commands) const;
 
     std::size_t active() const { return holds_.size() + adjustments_.size(); }
     /// Whether nothing is held and a new hold would be accepted at once.

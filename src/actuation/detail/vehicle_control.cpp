@@ -368,10 +368,7 @@ void VehicleControl::apply_lane(const VehicleSettings& wanted, core::Seconds now
 }
 
 void VehicleControl::restore(std::vector<traffic::Command>& commands) {
-    for (LeaseQueue& queue : queues_)
-        queue.clear();
     if (!away_since_) apply(VehicleSettings{}, core::Seconds(0.0), commands);
-    applied_ = VehicleSettings{};
 }
 
 }  // namespace clearway::actuation::detail

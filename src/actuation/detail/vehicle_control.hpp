@@ -66,7 +66,7 @@ class VehicleControl {
     void step(const VehicleContext& around, Ledger& ledger, std::vector<traffic::Command>& commands);
     /// Ends the leases for its way.
     void drop_way() { queues_[way].clear(); }
-    /// Restores everything, if the vehicle was on the road at the last step.
+    /// Restores everything, if the vehicle was on the road at the last step. The last call.
     void restore(std::vector<traffic::Command>& commands);
 
     std::size_t active() const;
