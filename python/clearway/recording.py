@@ -14,10 +14,10 @@ from .results import Table
 
 NONE = 4294967295
 #: As src/trace/detail/seal.cpp.
-_FIRST_WORDS, _FORMAT, _SEAL_LENGTH = "CLEARWAY recording, format ", 5, 512
+_FIRST_WORDS, _FORMAT, _SEAL_LENGTH = "CLEARWAY recording, format ", 6, 512
 _CURE = "Record the run again, or take the file from a backup"
 #: What h5py raises; HDF5's words stand in it.
-_H5PY_ERRORS = (OSError, KeyError, RuntimeError, TypeError, ValueError)
+_H5PY_ERRORS = (OSError, KeyError, RuntimeError, TypeError, ValueError, AttributeError)
 
 T = TypeVar("T")
 
@@ -104,7 +104,7 @@ class Recording:
             self.ids: np.ndarray = self._file["vehicles/id"].asstr()[:].astype(str)
             self._texts = self._file[_texts_path(self._file)].asstr()[:].astype(str)
             attributes = self._file.attrs
-            self.scenario, self.condition = str(attributes["scenario"]), str(attributes["condition"])
+            self.scenario, self.condition = (attributes[name].decode() for name in ("scenario", "condition"))
             self.replication = int(attributes["replication"])
         except (*_H5PY_ERRORS, StopIteration) as error:
             self._file.close()

@@ -344,7 +344,7 @@ core::ExitCode complete_runs(const links::LinkPlan& plan, const links::LinkRunFi
 
 core::ExitCode evaluate_links(const LinkRequest& request) {
     const links::LinkPlan plan = plan_of(request);
-    core::claim(plan.folder, {"clearway links evaluate", {".clearway-links", "evaluation.json"}});
+    core::claim(plan.folder, {"clearway links evaluate", {".clearway-links"}});
     const links::LinkRunFiles files(plan, worker_hash());
     const core::ExitCode code = complete_runs(plan, files, request.workers);
     if (code != core::ExitCode::ok) {

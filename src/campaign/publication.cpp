@@ -1,13 +1,18 @@
 #include "campaign/publication.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <sstream>
 
+#include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include "core/build_stamp.hpp"
 #include "core/counted.hpp"
@@ -81,7 +86,28 @@ report::RowSource source_of(const Publication& publication, const std::string& c
     return source;
 }
 
+/// One command at a time changes the files of this folder while this object lives; others wait.
+class Turn {
+  public:
+    explicit Turn(const fs::path& folder)
+        : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+        if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) == 0) return;
+        if (errno == ENOENT) return;  // which writing tells
+        fmt::print(stderr, "{}: cannot be locked ({}): let no other command publish there now\n",
+                   folder.string(), std::strerror(errno));
+    }
+    ~Turn() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+  private:
+    int descriptor_;
+};
+
 void write(const Publication& publication, const std::vector<report::ResultRow>& rows) {
+    const Turn turn(fs::absolute(publication.file).parent_path());
     const std::string existing =
         fs::exists(publication.file) ? core::read_file(publication.file) : std::string();
     core::write_atomically(publication.file, report::with_rows(existing, publication.file, rows));

@@ -1,12 +1,16 @@
 #include "campaign/submit.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,16 +20,21 @@
 #include "campaign/study_run.hpp"
 #include "core/counted.hpp"
 #include "core/files.hpp"
+#include "core/interruption.hpp"
 #include "core/leftovers.hpp"
 #include "core/own_output.hpp"
 #include "core/process.hpp"
+#include "core/read_failure.hpp"
+#include "core/shipped_files.hpp"
+#include "results/store.hpp"
 
 namespace clearway::campaign {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Holds the number of shards; the first file of a submission.
+constexpr const char* verb = "clearway study submit";
+/// Holds the number of shards and, in its second line, the verb; the first file of a submission.
 constexpr const char* shards_file = "shards.txt";
 
 /// Work per shard, s, when the user gives no number of shards: long enough to outweigh its start, short
@@ -54,17 +63,53 @@ std::uint32_t shard_count(const SubmitRequest& request, const study::Plan& plan,
     return std::min(static_cast<std::uint32_t>(wanted), units);
 }
 
-/// Fixes the number of shards at the first submission: shards of two divisions would repeat much work.
-void claim(const fs::path& folder, std::uint32_t shards) {
+/// As the runs themselves do, but before any is tried.
+void refuse_commas(const fs::path& folder) {
+    if (folder.string().find(',') == std::string::npos) return;
+    throw core::InputError({folder.string(), "has a comma in its path, which SUMO takes as a separator",
+                            "a path without commas", "Choose another folder with --out"});
+}
+
+/// Throws core::InputError unless `folder` is new, empty or of a submission in as many shards: those of two
+/// divisions would repeat much work. A user's file may have our file's name, so its content counts too.
+void require_own(const fs::path& folder, const std::string& content) {
+    core::require_own(folder, {verb, {shards_file}});
     const fs::path file = folder / shards_file;
-    const std::string text = fmt::format("{}\n", shards);
-    if (!fs::exists(file)) return core::write_output(file, text);
+    if (!fs::exists(file)) return;
     const std::string held = core::read_file(file);
-    if (held == text) return;
-    throw core::InputError(
-        {folder.string(),
-         fmt::format("is already divided into {} shards, not {}", held.substr(0, held.find('\n')), shards),
-         "the same --shards, or another folder", "Choose another folder with --out"});
+    if (held == content) return;
+    const std::size_t line = held.find('\n');
+    if (line == std::string::npos || held.substr(line + 1) != content.substr(content.find('\n') + 1))
+        throw core::InputError({"--out", fmt::format("{} holds something else", folder.string()),
+                                fmt::format("a new or empty folder, or one of {}", verb),
+                                "Choose another folder"});
+    throw core::InputError({folder.string(),
+                            fmt::format("is already divided into {} shards, not {}", held.substr(0, line),
+                                        content.substr(0, content.find('\n'))),
+                            "the same --shards, or another folder", "Choose another folder with --out"});
+}
+
+/// The run folders of a submission, sorted: those of its shards and the merged one.
+std::set<fs::path> run_folders_of(const fs::path& folder) {
+    std::set<fs::path> folders;
+    const fs::path shards = folder / "shards";
+    std::error_code error;
+    for (auto entry = fs::directory_iterator(shards, error); !error && entry != fs::directory_iterator();
+         entry.increment(error)) {
+        if (fs::exists(entry->path() / "manifest.json")) folders.insert(entry->path());
+    }
+    if (error && error != std::errc::no_such_file_or_directory) core::fail_to_read(shards, error.value());
+    if (fs::exists(folder / "merged" / "manifest.json")) folders.insert(folder / "merged");
+    return folders;
+}
+
+/// Throws core::InputError, as its shards would one by one, when a submission holds another study, or this
+/// one with more replications.
+void require_continues(const fs::path& folder, const results::Manifest& wanted) {
+    for (const fs::path& held : run_folders_of(folder)) {
+        if (results::continues(wanted, results::Store::open(held).manifest())) continue;
+        results::Store::create(held, wanted);  // refuses it in the same words, and writes nothing
+    }
 }
 
 std::vector<std::string> limit_options(const experiment::RunLimits& limits) {
@@ -95,13 +140,20 @@ std::vector<std::string> model_options(const std::vector<experiment::ConditionSp
     return options;
 }
 
+/// The absolute path of a study file, of Clearway's own where there is none of that name, as read_study has
+/// it.
+fs::path study_file(const fs::path& file) {
+    const auto own = fs::exists(file) ? std::nullopt : core::shipped(file);
+    return fs::absolute(own.value_or(file));
+}
+
 study::Submission submission_of(const SubmitRequest& request, const study::Plan& plan) {
     const auto time_s = estimated_time_left_s(plan, request.out, 1);
     study::Submission submission;
     submission.engine = request.engine;
     submission.shards = shard_count(request, plan, time_s);
     submission.program = core::program_folder() / "clearway";
-    submission.study = fs::absolute(request.file);
+    submission.study = study_file(request.file);
     submission.folder = fs::absolute(request.out);
     submission.shard_limit_s =
         std::max(least_limit_s, limit_factor * time_s.value_or(0.0) / submission.shards);
@@ -109,12 +161,44 @@ study::Submission submission_of(const SubmitRequest& request, const study::Plan&
     return submission;
 }
 
-void write_scripts(const study::Submission& submission) {
-    for (const study::Script& script : study::scripts_of(submission)) {
-        const fs::path file = submission.folder / script.name;
+void write_scripts(const fs::path& folder, const std::vector<study::Script>& scripts) {
+    for (const study::Script& script : scripts) {
+        const fs::path file = folder / script.name;
         core::write_output(file, script.text);
         fs::permissions(file, fs::perms::owner_exec | fs::perms::group_exec, fs::perm_options::add);
     }
+}
+
+/// Checks that the folder may be submitted into before it writes anything.
+void write_submission(const study::Submission& submission, const results::Manifest& manifest) {
+    refuse_commas(submission.folder);
+    const std::vector<study::Script> scripts = study::scripts_of(submission);
+    const std::string content = fmt::format("{}\n{}\n", submission.shards, verb);
+    require_own(submission.folder, content);
+    require_continues(submission.folder, manifest);
+    core::make_folder(submission.folder);
+    if (!fs::exists(submission.folder / shards_file))
+        core::write_output(submission.folder / shards_file, content);
+    write_scripts(submission.folder, scripts);
+}
+
+/// Runs submit.sh. A signal is passed on, and the script ends first, after its shards.
+core::ExitCode run_script(const fs::path& script) {
+    constexpr std::chrono::milliseconds pause(20);
+    const core::InterruptionWatch interruption;
+    const core::Child child = core::start({.program = "bash", .arguments = {script.string()}});
+    bool told = false;
+    std::optional<core::Exit> exit = core::poll(child);
+    while (!exit) {
+        if (!told && interruption.signal() != 0) {
+            ::kill(child.pid, SIGTERM);
+            told = true;
+        }
+        std::this_thread::sleep_for(pause);
+        exit = core::poll(child);
+    }
+    return interruption.exit_code(exit->signal != 0 ? core::ExitCode::terminated
+                                                    : static_cast<core::ExitCode>(exit->code));
 }
 
 void print_submission(const study::Submission& submission, const study::Plan& plan, Printing printing) {
@@ -145,15 +229,11 @@ core::ExitCode submit(const study::StudyConfig& in_file, const study::StudyConfi
     if (config.most_runs != results::usual_most_runs)
         submission.study_options.insert(submission.study_options.end(),
                                         {"--most-runs", fmt::format("{}", config.most_runs)});
-    core::require_own(submission.folder, {"clearway study submit", {shards_file}});
-    core::make_folder(submission.folder);
-    claim(submission.folder, submission.shards);
-    write_scripts(submission);
+    write_submission(submission, plan.manifest);
     print_submission(submission, plan, request.printing);
     std::fflush(stdout);
     if (request.start == SubmitRequest::Start::write_only) return core::ExitCode::ok;
-    const core::Exit exit = core::run({.program = "bash", .arguments = {submission.folder / "submit.sh"}});
-    return exit.signal != 0 ? core::ExitCode::terminated : static_cast<core::ExitCode>(exit.code);
+    return run_script(submission.folder / "submit.sh");
 }
 
 }  // namespace clearway::campaign

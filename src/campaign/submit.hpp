@@ -25,7 +25,9 @@ struct SubmitRequest {
 
 /// Writes the scripts of a study in `out` and says so; with `go` it runs submit.sh and returns as that does.
 /// `in_file` is the study as the file has it, `config` the same with models from the command line, which the
-/// shards are given.
+/// shards are given. SIGINT and SIGTERM end the shards, which close their files, and then this. Throws
+/// core::InputError, before it writes anything, where `out` is somebody else's or holds another study or
+/// division, and where SUMO or sbatch could not read its name.
 core::ExitCode submit(const study::StudyConfig& in_file, const study::StudyConfig& config,
                       const SubmitRequest& request);
 

@@ -18,6 +18,7 @@
 #include "core/temporary_folder.hpp"
 #include "results/record_difference.hpp"
 #include "results/run_name.hpp"
+#include "study/plan.hpp"
 #include "trace/difference.hpp"
 #include "trace/recording.hpp"
 
@@ -69,6 +70,22 @@ void require_same_versions(const results::Manifest& manifest) {
             fmt::format("this study was made with other versions ({}), so a run made here may differ. Verify "
                         "with the versions of the study",
                         differing));
+}
+
+/// Throws core::InputError for a scenario of these runs that lacks what they are made of, and, as a continued
+/// study does, for one that was changed: its runs made now would be others.
+void require_unchanged(const results::Store& store, const std::vector<experiment::RunKey>& keys) {
+    for (const results::ScenarioEntry& entry : store.manifest().scenarios) {
+        if (std::ranges::find(keys, entry.name, &experiment::RunKey::scenario) == keys.end()) continue;
+        const std::filesystem::path folder = store.scenario_folder(entry.name);
+        for (const char* const name : {"scenario.toml", "network/network.net.xml"})
+            if (!std::filesystem::exists(folder / name))
+                throw core::InputError({(folder / name).string(), "is missing", "",
+                                        fmt::format("Put it back, or remove {} and repeat the command that "
+                                                    "made the study (command.txt): it is made again",
+                                                    folder.string())});
+        study::require_unchanged(entry, folder);
+    }
 }
 
 /// The runs to verify and the store that holds them.
@@ -179,24 +196,21 @@ Verification verify(const results::Store& stored, const results::Store& again,
                     const experiment::RunKey& key) {
     Verification verification;
     verification.run = results::run_name(stored.folder(), key);
-    std::optional<results::RunRecord> record;
     try {
         stored.check(key);
-        record = stored.read(key);
+        if (const auto record = stored.read(key)) verification.hash = record->provenance.trace_hash;
+        if (!again.complete(key)) {
+            const auto failure = again.read_error(key);
+            verification.verdict = Verdict::failed;
+            verification.cause = failure ? failure->message : "was not made";
+            return verification;
+        }
+        verification.cells = results::differences(stored, again, key);
     } catch (const core::InputError& error) {
         verification.verdict = Verdict::damaged;
         verification.cause = error.what();
         return verification;
     }
-    verification.hash = record->provenance.trace_hash;
-    const auto made = again.read(key);
-    if (!made) {
-        const auto failure = again.read_error(key);
-        verification.verdict = Verdict::failed;
-        verification.cause = failure ? failure->message : "was not made";
-        return verification;
-    }
-    verification.cells = results::differences(*record, *made);
     if (verification.cells.empty()) return verification;
     verification.verdict = Verdict::different;
     verification.first_step = first_differing_step(trace::recording_file(stored.folder(), key),
@@ -204,12 +218,20 @@ Verification verify(const results::Store& stored, const results::Store& again,
     return verification;
 }
 
+/// Names of the tables in which a run differs, in the order in which they were compared.
+std::vector<std::string> tables_of(const std::vector<results::CellDifference>& cells) {
+    std::vector<std::string> tables;
+    for (const results::CellDifference& cell : cells)
+        if (std::ranges::find(tables, cell.table) == tables.end()) tables.push_back(cell.table);
+    return tables;
+}
+
 /// Why, and the first cells of each table that differ.
 std::vector<std::string> lines_of(const Verification& each) {
     std::vector<std::string> lines;
     if (!each.cause.empty()) lines.push_back(each.cause);
     if (!each.first_step.empty()) lines.push_back("recordings first differ " + each.first_step);
-    for (const char* const table : {"provenance", "metrics", "vehicles"}) {
+    for (const std::string& table : tables_of(each.cells)) {
         std::size_t count = 0;
         for (const results::CellDifference& cell : each.cells) {
             if (cell.table != table || ++count > shown_cells) continue;
@@ -282,7 +304,6 @@ void require_elsewhere(const results::Store& stored, const std::string& out) {
 std::pair<results::Store, core::ExitCode> repeat(const results::Store& stored,
                                                  const std::vector<experiment::RunKey>& keys,
                                                  const std::filesystem::path& out, unsigned jobs) {
-    require_same_versions(stored.manifest());
     const study::Plan plan = plan_of(stored, keys, out);
     results::Store again = results::Store::create(out, plan.manifest);
     core::Progress progress("runs", keys.size(), core::Progress::style_for_stderr());
@@ -321,6 +342,9 @@ core::ExitCode verify_runs(const VerifyRequest& request) {
     const auto [stored, keys] = chosen_runs(request);
     require_elsewhere(stored, request.out);
     require_trust(conditions_of(stored, keys), stored.folder().string(), request.trust);
+    // Another version may read the same scenario in another way.
+    require_same_versions(stored.manifest());
+    require_unchanged(stored, keys);
     renew_edited_tables(stored);
     std::optional<core::TemporaryFolder> temporary;
     if (request.out.empty()) temporary.emplace();

@@ -21,12 +21,13 @@ struct VerifyRequest {
     Printing printing = Printing::text;
 };
 
-/// Makes stored runs again elsewhere, from the configurations and networks of their folder, compares every
-/// number of their records, and prints the verdicts. With `signals` it audits event logs instead, as
+/// Makes stored runs again elsewhere, from the configurations and networks of their folder, compares all that
+/// their records hold, and prints the verdicts. With `signals` it audits event logs instead, as
 /// signal_audit.hpp says, and makes no run again. Edited tables of the folder are made anew. Returns the
 /// worst verdict: conflict for a difference, bad_input for a damaged record, runs_failed; or how it was
-/// interrupted. Throws core::InputError, core::EnvironmentError for other versions than the study's, and
-/// core::Error with incomplete where there is nothing to compare.
+/// interrupted. Throws core::InputError, as study::require_unchanged also for a scenario or a network that
+/// was changed; core::EnvironmentError for other versions than the study's; and core::Error with incomplete
+/// where there is nothing to compare.
 core::ExitCode verify_runs(const VerifyRequest& request);
 
 }  // namespace clearway::campaign

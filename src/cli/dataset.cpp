@@ -12,6 +12,7 @@
 #include "cli/detail/condition_options.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
+#include "core/own_output.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/dataset_job.hpp"
 #include "prediction/repair_net.hpp"
@@ -104,6 +105,7 @@ core::ExitCode record(Arguments arguments, const Invocation& invocation) {
     if (std::filesystem::exists(std::filesystem::path(arguments.folder) / "manifest.json"))
         throw core::InputError({"--out", fmt::format("{} holds the runs of a study", arguments.folder),
                                 "a folder of data sets, or a new one", "Choose another folder"});
+    core::claim(arguments.folder, {"clearway links dataset", {".clearway-dataset"}});
     const study::FolderLock lock(arguments.folder);
     scenario::store(config, jobs.front().scenario_file.parent_path());
     scenario::build_network(config, jobs.front().network_folder);

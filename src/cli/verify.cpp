@@ -36,10 +36,11 @@ Action configure_verify(App& app) {
     app.footer(
         app.get_footer() +
         "\n  clearway verify runs/city --sample 20\n\n"
-        "The runs are repeated elsewhere, from the configurations and networks in the folder, and every\n"
-        "number of their records is compared. Exit codes: 0 all the same, 7 one differs (two results for\n"
-        "one run), 3 a stored record is damaged, 1 a run fails now, 5 the run is not complete in the\n"
-        "folder, 4 SUMO or Clearway is of another version than the study's: such runs need not agree.\n\n"
+        "The runs are repeated elsewhere, from the configurations and networks in the folder, and all that\n"
+        "their records hold is compared. Exit codes: 0 all the same, 7 one differs (two results for one\n"
+        "run), 3 a stored record is damaged or a scenario or network was changed, 1 a run fails now, 5 the\n"
+        "run is not complete in the folder, 4 SUMO or Clearway is of another version than the study's:\n"
+        "such runs need not agree.\n\n"
         "With --signals nothing is repeated; exit code 1 tells findings, and 5 also that there was nothing\n"
         "to audit.");
     return [arguments](const Invocation&) { return campaign::verify_runs(*arguments); };

@@ -41,8 +41,24 @@ void flush_folder(const std::filesystem::path& folder) {
 }
 
 std::string read_file(const std::filesystem::path& file) {
+    // Nothing that is read whole comes near it; a file with holes can be of any size.
+    constexpr std::size_t most_bytes = std::size_t{1} << 30;
     std::string text;
-    OpenFile(file).read([&](std::string_view piece) { text += piece; });
+    OpenFile open(file);
+    std::error_code unknown;
+    std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
+    if (unknown) bytes = 0;  // of a folder or a pipe
+    const auto check = [&] {
+        if (bytes > most_bytes)
+            throw InputError(
+                {file.string(), "has more than 1 GiB", "at most 1 GiB", "Check that it is the right file"});
+    };
+    check();
+    open.read([&](std::string_view piece) {
+        text += piece;
+        bytes = text.size();
+        check();
+    });
     return text;
 }
 

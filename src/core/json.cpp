@@ -53,7 +53,9 @@ Json parse_object(const std::string& text, const std::string& where) {
                                     "Check that it is the right file"});
         return true;
     };
-    Json json = Json::parse(text, check_level, false);
+    // The parser takes U+0000 for the end of the text.
+    const bool is_text = text.find('\0') == std::string::npos;
+    Json json = is_text ? Json::parse(text, check_level, false) : Json();
     if (!json.is_object())
         throw core::InputError(
             {where, "is not a JSON object", "", "Check that the file is complete and was not edited"});

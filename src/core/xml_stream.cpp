@@ -64,6 +64,16 @@ void on_text(void* user, const XML_Char* text, int length) {
     job.guarded([&] { job.handler.characters({text, static_cast<std::size_t>(length)}); });
 }
 
+/// With a document type come entities: SUMO would put text, or a file, where this reader sees nothing.
+void on_document_type(void* user, const XML_Char* name, const XML_Char*, const XML_Char*, int) {
+    auto& job = *static_cast<Job*>(user);
+    job.guarded([&] {
+        throw InputError({fmt::format("{}:{}", job.file.string(), XML_GetCurrentLineNumber(job.parser)),
+                          fmt::format("declares the document type \"{}\"", name), "XML without <!DOCTYPE>",
+                          "Remove it, and write what its entities stand for in their place"});
+    });
+}
+
 [[noreturn]] void fail_unreadable(const std::filesystem::path& file, const std::string& reason) {
     throw core::InputError({file.string(), "cannot be read: " + reason, "",
                             "Check that the file exists, is readable and is complete"});
@@ -116,6 +126,7 @@ void stream_xml(const std::filesystem::path& file, XmlHandler& handler) {
     XML_SetUserData(parser.get(), &job);
     XML_SetElementHandler(parser.get(), on_start, on_end);
     XML_SetCharacterDataHandler(parser.get(), on_text);
+    XML_SetStartDoctypeDeclHandler(parser.get(), on_document_type);
     for (bool at_end = false; !at_end;) {
         void* buffer = XML_GetBuffer(parser.get(), chunk_bytes);
         if (buffer == nullptr) throw no_memory();

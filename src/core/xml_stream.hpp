@@ -46,7 +46,8 @@ class XmlHandler {
 };
 
 /// Streams an XML file, plain or gzipped, to `handler` in a fixed amount of memory. Throws core::InputError
-/// naming file and line when it is missing, damaged, not XML or nested deeper than `most_xml_levels`.
+/// naming file and line when it is missing, damaged, not XML, has a document type or is nested deeper than
+/// `most_xml_levels`.
 void stream_xml(const std::filesystem::path& file, XmlHandler& handler);
 
 /// The problem of a file with more levels; `where` is the file, with the line where it is known.

@@ -3,20 +3,25 @@
 #include <string>
 #include <vector>
 
-#include "results/record.hpp"
+#include "results/store.hpp"
 
 namespace clearway::results {
 
-/// A cell in which two records of a run differ, as in the CSV files.
+/// A value in which two records of a run differ, as their files spell it.
 struct CellDifference {
-    std::string table;   ///< `provenance`, `metrics` or `vehicles`.
-    std::string row;     ///< Of `vehicles`: `3 (h17)`, counted from 1; else empty.
-    std::string column;  ///< Name with unit; `(row)` where one record has no such row.
+    /// `metrics`, `leases`, `traffic.holds`, `vehicles`, `signal_events`, ...; `run` for values that are in
+    /// no table of `run.json`, such as hashes.
+    std::string table;
+    std::string row;     ///< Of tables with rows: `3 (h17)`, counted from 1, with its first text; else empty.
+    std::string column;  ///< Name with unit; `(row)`, `(columns)` where these differ.
     std::string one;
     std::string other;
 };
 
-/// All differences, in the order of tables, rows and columns. Empty: the records are the same.
-std::vector<CellDifference> differences(const RunRecord& one, const RunRecord& other);
+/// All differences between the records of a run in two stores, in the order of `run.json`. The files are
+/// compared, not what a reader takes from them, so that whatever is written into a record counts. Timing is
+/// no part of it. Empty: the records are the same. Assumes that the run is complete in both stores and that
+/// Store::check accepts both. Throws core::InputError for a table that is no CSV or a file that is missing.
+std::vector<CellDifference> differences(const Store& one, const Store& other, const experiment::RunKey& key);
 
 }  // namespace clearway::results

@@ -40,6 +40,12 @@ void write_unflushed(const fs::path& file, const std::string& content) {
     if (!stream.flush()) throw core::write_error(file, errno);
 }
 
+/// Whether a power failure took the content of a file that was not flushed: file systems leave it empty, or
+/// with zero bytes up to its length.
+bool is_lost(const std::string& content) {
+    return content.find_first_not_of('\0') == std::string::npos;
+}
+
 void require_same(const fs::path& file, const std::string& content, const experiment::RunKey& key) {
     if (core::read_file(file) == content) return;
     throw core::ConflictError(
@@ -431,7 +437,7 @@ std::optional<RunTiming> Store::read_timing(const experiment::RunKey& key) const
     const fs::path file = run_folder(key) / "timing.json";
     if (!fs::exists(file)) return std::nullopt;
     const std::string text = core::read_file(file);
-    if (text.empty()) return std::nullopt;
+    if (is_lost(text)) return std::nullopt;
     return detail::timing_from_json(text, file.string());
 }
 

@@ -153,7 +153,11 @@ BuiltNetwork build_network(const ScenarioConfig& config, const std::filesystem::
 void require_unchanged_network(const std::filesystem::path& folder) {
     const std::filesystem::path made = folder / network_hash_name;
     const std::filesystem::path file = folder / network_name;
-    if (!std::filesystem::exists(made)) return;
+    if (!std::filesystem::exists(folder)) return;
+    if (!std::filesystem::exists(made))
+        throw core::InputError(
+            {made.string(), "is missing, so that nobody can tell whether the network is whole", "",
+             fmt::format("Put it back, or remove {}: it is made again", folder.parent_path().string())});
     core::RunningHash hash;
     core::OpenFile(file).read([&](std::string_view piece) { hash.add(piece); });
     if (hash.digest() == core::read_file(made)) return;

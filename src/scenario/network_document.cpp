@@ -65,6 +65,10 @@ NetworkDocument::NetworkDocument(const std::filesystem::path& file)
     if (std::string_view(root) != "net")
         throw core::InputError(core::Problem{file.string(), fmt::format("has the root element <{}>", root),
                                              network_kind, "choose another file"});
+    // A run writes tables of its own, and none at a path of the file's.
+    for (pugi::xml_node program : document_.document_element().children("tlLogic"))
+        while (program.remove_child(program.find_child_by_attribute("param", "key", "file"))) {
+        }
 }
 
 NetworkDocument& NetworkDocument::without_newer_classes() {

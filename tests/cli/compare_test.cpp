@@ -1,5 +1,6 @@
 // `clearway compare`: conditions and folders pair by pair, and rows for pages.
 #include <algorithm>
+#include <future>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,24 @@ TEST_F(CompareTest, compares_with_a_condition_that_is_named) {
     const Ended rows = clearway({"compare", "one", "--against", "baseline", "--publish", "results/x.csv"});
     EXPECT_EQ(rows.code, 3);
     EXPECT_THAT(rows.err, HasSubstr("--publish: writes differences from baselines"));
+}
+
+TEST_F(CompareTest, two_that_publish_at_once_lose_no_row) {
+    ASSERT_EQ(clearway(two_conditions("one", 2)).code, 0);
+    const auto publish = [&](const char* metric) {
+        return clearway({"compare", "one", "--publish", "rows.csv", "--tree", "abc1234", "--behaviour",
+                         "0123456789ab", "--metric", metric})
+            .code;
+    };
+    ASSERT_EQ(publish("simulated_s") + publish("emergency_restricted_travel_time_s"), 0);
+    const auto both = std::ranges::count(read("rows.csv"), '\n');
+    for (int round = 0; round < 6; ++round) {
+        std::filesystem::remove(folder() / "rows.csv");
+        auto other = std::async(std::launch::async, publish, "simulated_s");
+        EXPECT_EQ(publish("emergency_restricted_travel_time_s"), 0);
+        EXPECT_EQ(other.get(), 0);
+        EXPECT_EQ(std::ranges::count(read("rows.csv"), '\n'), both);
+    }
 }
 
 TEST_F(CompareTest, publishes_rows_and_loses_none) {

@@ -151,6 +151,15 @@ TEST_F(DatasetTest, overwrites_no_other_recording) {
     EXPECT_EQ(read("data/line-B10-0000.samples"), samples);
 }
 
+TEST_F(DatasetTest, records_into_no_folder_of_others) {
+    write("theirs/origin/line/line.edg.xml", "mine");
+    const Ended ended =
+        clearway({"links", "dataset", "line", "--out", "theirs", "--samples", "--failure", "B10"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, HasSubstr("--out: theirs holds something else"));
+    EXPECT_EQ(read("theirs/origin/line/line.edg.xml"), "mine");
+}
+
 TEST_F(DatasetTest, train_takes_what_dataset_wrote) {
     if (!has_trainer()) GTEST_SKIP() << "clearway-train is not built, or libtorch is not installed";
     ASSERT_EQ(clearway({"links", "dataset", "line", "--out", "data"}).code, 0);

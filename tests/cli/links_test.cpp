@@ -79,14 +79,16 @@ TEST_F(LinksTest, judges_predictors_and_does_no_run_twice) {
 
 TEST_F(LinksTest, of_a_folder_of_somebody_else_are_not_judged) {
     std::filesystem::create_directory(folder() / "out");
-    write("out/evaluation.csv", "mine");
+    for (const char* const file : {"out/evaluation.csv", "out/evaluation.json"})
+        write(file, "mine");
     const Ended ended = clearway(evaluate({"--failure", "B10", "--predictor", "last_seen"}));
     EXPECT_EQ(ended.code, 3);
     EXPECT_THAT(ended.err,
                 HasSubstr("--out: out holds something else (allowed: a new or empty folder, or one of "
                           "clearway links evaluate)"));
     EXPECT_EQ(read("out/evaluation.csv"), "mine");
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder() / "out"), {}), 1);
+    EXPECT_EQ(read("out/evaluation.json"), "mine");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder() / "out"), {}), 2);
 }
 
 TEST_F(LinksTest, one_and_two_jobs_give_the_same_files) {

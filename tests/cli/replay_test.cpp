@@ -3,6 +3,7 @@
 #include <sstream>
 #include <tuple>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
@@ -394,13 +395,64 @@ TEST_F(ReplayTest, verify_finds_runs_the_same) {
 
 TEST_F(ReplayTest, verify_tells_where_a_run_differs) {
     ASSERT_EQ(run({"--record"}).code, 0);
-    // A network that someone changed: the same run is another one now.
-    damage("out/scenarios/line/network/network.net.xml", "speed=\"20.00\"", "speed=\"12.00\"");
+    // A network that someone changed with its hash: the same run is another one now.
+    const std::string network = "out/scenarios/line/network/network.net.xml";
+    damage(network, "speed=\"20.00\"", "speed=\"12.00\"");
+    write("out/scenarios/line/network/network.hash", core::content_hash(read(network)));
     const Ended ended = clearway({"verify", "out/line/baseline/0"});
     EXPECT_EQ(ended.code, 7) << ended.err << ended.out;
     EXPECT_THAT(ended.out, AllOf(testing::ContainsRegex("different +out/line/baseline/0"),
                                  HasSubstr("provenance: trace_hash: stored "), HasSubstr("vehicles row 1 ("),
                                  HasSubstr("recordings first differ at "), HasSubstr(" s, snapshot: ")));
+}
+
+TEST_F(ReplayTest, verify_compares_all_that_a_record_holds) {
+    ASSERT_EQ(run().code, 0);
+    // Numbers that somebody edited together with the hash of the record.
+    const std::string file = "out/runs/line/mine/00000/run.json";
+    auto record = nlohmann::ordered_json::parse(read(file));
+    const auto issued = record.at("leases").at(0).at("issued").get<int>();
+    record["leases"][0]["issued"] = issued + 1000;
+    std::string times = record.at("traffic").at("edge_times");
+    ASSERT_NE(times.find(",first,"), std::string::npos);
+    record["traffic"]["edge_times"] = times.replace(times.find(",first,"), 7, ",first,1000");
+    record.erase("hash");
+    record["hash"] = core::content_hash(record.dump(2) + "\n");
+    write(file, record.dump(2) + "\n");
+    const Ended ended = clearway({"verify", run_of_mine});
+    EXPECT_EQ(ended.code, 7) << ended.err << ended.out;
+    EXPECT_THAT(ended.out,
+                AllOf(testing::ContainsRegex("different +" + run_of_mine),
+                      HasSubstr(fmt::format("leases row 1 (dissertation): issued: stored {}, now {}",
+                                            issued + 1000, issued)),
+                      HasSubstr("traffic.edge_times row 1 (emergency.0): entered_s: stored 1000"),
+                      Not(HasSubstr("metrics"))));
+}
+
+TEST_F(ReplayTest, verify_names_what_was_changed_beside_the_records) {
+    ASSERT_EQ(run().code, 0);
+    const auto expect_refused = [&](const std::string& file, const std::string& what) {
+        const Ended ended = clearway({"verify", "out", "--all"});
+        EXPECT_EQ(ended.code, 3) << ended.err << ended.out;
+        EXPECT_THAT(ended.out, IsEmpty());
+        EXPECT_THAT(ended.err, AllOf(HasSubstr("clearway: out/scenarios/line/" + file + ": " + what),
+                                     HasSubstr("remove out/scenarios/line"), Not(HasSubstr("run.json"))));
+    };
+    const auto check_edit = [&](const std::string& file, const std::string& from, const std::string& what) {
+        const std::string whole = read("out/scenarios/line/" + file);
+        damage("out/scenarios/line/" + file, from, from + "1");
+        const std::string blamed = file.starts_with("network/") ? file : "scenario.toml";
+        expect_refused(blamed, what);
+        write("out/scenarios/line/" + file, whole);
+    };
+    check_edit("network/network.net.xml", "speed=\"", "was changed since it was built");
+    check_edit("scenario.toml", "human = ", "was changed, or a file beside it, since the study began");
+    check_edit("line.edg.xml", "speed=\"", "was changed, or a file beside it, since the study began");
+    EXPECT_EQ(clearway({"verify", "out", "--all"}).code, 0) << "all is put back";
+    for (const std::string file : {"network/network.net.xml", "scenario.toml"}) {
+        std::filesystem::remove(folder() / "out/scenarios/line" / file);
+        expect_refused(file, "is missing");
+    }
 }
 
 TEST_F(ReplayTest, verify_refuses_what_it_cannot_compare) {

@@ -26,6 +26,20 @@ class ShardsTest : public UserTest {
     Ended shard(const std::string& part, const std::string& out) const {
         return clearway({"study", "my.toml", "--shard", part, "--out", out});
     }
+    Ended submit(const std::string& file, const std::string& out) const {
+        return clearway({"study", "submit", file, "--shards", "2", "--out", out, "--go"});
+    }
+    /// The status of a folder once so many of its runs are complete, or after a minute.
+    nlohmann::json status_after(const std::string& out, int runs) const {
+        nlohmann::json status;
+        const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        do {
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+            const Ended ended = clearway({"study", "status", out, "--json"});
+            status = ended.code == 0 ? nlohmann::json::parse(ended.out) : nlohmann::json::object();
+        } while (status.value("complete_runs", 0) < runs && std::chrono::steady_clock::now() < patience);
+        return status;
+    }
     void expect_tables_of_one_machine(const std::string& merged) const {
         ASSERT_EQ(clearway({"study", "my.toml", "--out", "single"}).code, 0);
         for (const char* const table : {"runs.csv", "vehicles.csv", "results.sqlite"})
@@ -130,6 +144,80 @@ TEST_F(ShardsTest, are_not_submitted_into_a_folder_of_somebody_else) {
     EXPECT_FALSE(std::filesystem::exists(folder() / "theirs/shards.txt"));
 }
 
+TEST_F(ShardsTest, are_not_submitted_into_a_folder_with_a_file_of_our_name) {
+    std::filesystem::create_directory(folder() / "theirs");
+    write("theirs/shards.txt", "2\n");
+    write("theirs/submit.sh", "sbatch mine");
+    const Ended ended = clearway({"study", "submit", "my.toml", "--shards", "2", "--out", "theirs"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err, HasSubstr("theirs holds something else"));
+    EXPECT_EQ(read("theirs/submit.sh"), "sbatch mine");
+    EXPECT_FALSE(std::filesystem::exists(folder() / "theirs/shard.sh"));
+}
+
+TEST_F(ShardsTest, of_another_study_are_not_submitted_beside_those_of_the_first) {
+    ASSERT_EQ(submit("my.toml", "sub").code, 0);
+    const std::string before = read("sub/shard.sh");
+    const std::string table = read("sub/merged/runs.csv");
+    write("other.toml", "seed = 9\n" + read("my.toml"));
+    const Ended other = submit("other.toml", "sub");
+    EXPECT_EQ(other.code, 3);
+    EXPECT_THAT(other.err, AllOf(HasSubstr("sub/merged: holds another study: different study name, seed"),
+                                 HasSubstr("Choose another folder with --out")));
+    EXPECT_EQ(read("sub/shard.sh"), before);
+    EXPECT_EQ(read("sub/merged/runs.csv"), table);
+    // A shard alone tells, too.
+    std::filesystem::remove_all(folder() / "sub/merged");
+    EXPECT_THAT(submit("other.toml", "sub").err, HasSubstr("sub/shards/1-of-2: holds another study"));
+}
+
+TEST_F(ShardsTest, are_submitted_again_to_extend_their_study) {
+    write_study(2);
+    ASSERT_EQ(submit("my.toml", "sub").code, 0);
+    write_study(4);
+    const Ended more = submit("my.toml", "sub");
+    ASSERT_EQ(more.code, 0) << more.err;
+    EXPECT_THAT(more.out, HasSubstr("8 runs complete"));
+    expect_tables_of_one_machine("sub/merged");
+    write_study(3);
+    const Ended fewer = submit("my.toml", "sub");
+    EXPECT_EQ(fewer.code, 3);
+    EXPECT_THAT(fewer.err, HasSubstr("holds 4 replications of this study, and 3 are asked for"));
+}
+
+TEST_F(ShardsTest, are_not_submitted_into_a_folder_that_their_runs_would_refuse) {
+    const Ended ended = clearway({"study", "submit", "my.toml", "--shards", "2", "--out", "a,b"});
+    EXPECT_EQ(ended.code, 3);
+    EXPECT_THAT(ended.err,
+                HasSubstr("a,b: has a comma in its path, which SUMO takes as a separator (allowed: "
+                          "a path without commas)"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "a,b"));
+}
+
+TEST_F(ShardsTest, are_given_the_path_of_a_study_that_comes_with_clearway) {
+    const std::string study = "studies/arterial_failure.toml";
+    const Ended ended = clearway({"study", "submit", study, "--shards", "1", "--out", "sub"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(read("sub/shard.sh"),
+                AllOf(HasSubstr("/" + study), Not(HasSubstr((folder() / study).string()))));
+}
+
+TEST_F(ShardsTest, end_when_their_submission_gets_a_signal) {
+    write_study(300);
+    for (const std::string engine : {"local", "parallel"}) {
+        if (engine == "parallel" && std::system("command -v parallel >/dev/null") != 0) continue;
+        const core::Child submission = start(
+            {"study", "submit", "my.toml", "--engine", engine, "--shards", "2", "--out", engine, "--go"});
+        EXPECT_GE(status_after(engine, 2).value("complete_runs", 0), 2) << engine;
+        ::kill(submission.pid, SIGTERM);
+        EXPECT_EQ(finish(submission).code, 143) << engine;
+        const Ended status = clearway({"study", "status", engine});
+        EXPECT_THAT(status.out, AllOf(HasSubstr("stopped"), Not(HasSubstr("running")))) << engine;
+        EXPECT_EQ(read(engine + "/logs/shard-1.exit"), "143\n") << "it was killed before it closed its files";
+        EXPECT_FALSE(std::filesystem::exists(folder() / engine / "merged")) << engine;
+    }
+}
+
 TEST_F(ShardsTest, are_run_and_merged_by_gnu_parallel) {
     if (std::system("command -v parallel >/dev/null") != 0)
         GTEST_SKIP() << "package parallel is not installed";
@@ -142,13 +230,7 @@ TEST_F(ShardsTest, are_run_and_merged_by_gnu_parallel) {
 TEST_F(ShardsTest, status_sees_a_study_that_runs_and_one_that_was_killed) {
     write_study(300);
     const core::Child study = start({"study", "my.toml", "--out", "out"});
-    nlohmann::json running;
-    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    do {
-        std::this_thread::sleep_for(std::chrono::milliseconds(50));
-        const Ended status = clearway({"study", "status", "out", "--json"});
-        running = status.code == 0 ? nlohmann::json::parse(status.out) : nlohmann::json::object();
-    } while (running.value("complete_runs", 0) < 4 && std::chrono::steady_clock::now() < patience);
+    const nlohmann::json running = status_after("out", 4);
     EXPECT_EQ(running.at("state"), "running");
     EXPECT_EQ(running.at("runs"), 600);
     EXPECT_GT(running.at("time_left_s"), 0.0);

@@ -102,6 +102,12 @@ TEST_F(FilesTest, NamesTheFileThatCannotBeRead) {
     EXPECT_THROW(read_file(folder_.path()), InputError);
 }
 
+TEST_F(FilesTest, AFileThatWouldFillTheMemoryIsRefused) {
+    const std::filesystem::path file = folder_.write("holes", "");
+    std::filesystem::resize_file(file, (std::uintmax_t{1} << 30) + 1);
+    EXPECT_THAT(complaint<InputError>([&] { read_file(file); }), HasSubstr("holes: has more than 1 GiB"));
+}
+
 TEST_F(FilesTest, AReadErrorIsNotTheEndOfAFile) {
     // The memory of a process cannot be read at address 0: the device of every machine that fails at once.
     EXPECT_THAT(complaint<EnvironmentError>([&] { read_file("/proc/self/mem"); }),

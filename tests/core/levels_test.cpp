@@ -79,5 +79,11 @@ TEST(Levels, OfJsonHaveALimitThatNamesTheFile) {
                     AllOf(HasSubstr("manifest.json: has more than 100 levels"), HasSubstr("at most 100")));
 }
 
+TEST(Json, DoesNotEndAtACharacterZero) {
+    for (const std::string& text :
+         {std::string("{}\0 and more", 11), std::string("{}\0", 3), std::string(9, '\0')})
+        EXPECT_THAT(message_of([&] { parse_object(text, "run.json"); }), HasSubstr("is not a JSON object"));
+}
+
 }  // namespace
 }  // namespace clearway::core

@@ -103,7 +103,7 @@ class Bench:
     def try_pipes(self):
         run = "damaged/merge/corridor/0"
         for name, words, code in ((".lock", ["study", "status", "damaged"], 0),
-                                  ("scenarios/merge/network/network.net.xml", ["verify", run], 1),
+                                  ("scenarios/merge/network/network.net.xml", ["verify", run], 3),
                                   ("scenarios/merge/network/network.net.xml", ["export", "trajectories", run, "--out", "drawn"], 3),
                                   ("runs/merge/corridor/00000/timing.json", ["verify", "damaged", "--all"], 3)):
             self.copy("damaged")
@@ -117,12 +117,13 @@ class Bench:
         self.run("verify", "signals", "--all", code=3)
 
     def try_edited_scenario(self):
-        """Why the worker that `verify` starts cannot make a run again is in its message."""
+        """`verify` names the file in the run folder and what is wrong in it."""
         self.copy("damaged")
         scenario = self.folder / "damaged/scenarios/merge/scenario.toml"
         scenario.write_text(scenario.read_text(encoding="utf-8") + "\nno_key = 1\n", encoding="utf-8")
-        said = self.run("verify", "damaged", "--all", code=1)
-        self.expect("scenario.toml" in said and "no_key" in said, f"verify does not say what is wrong with a scenario: {said[-300:]}")
+        said = self.run("verify", "damaged", "--all", code=3)
+        named = "damaged/scenarios/merge/scenario.toml" in said and "no_key" in said
+        self.expect(named, f"verify does not say what is wrong with a scenario: {said[-300:]}")
 
     def try_names(self):
         for name in ("-x", "--"):

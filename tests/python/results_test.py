@@ -229,8 +229,8 @@ class ResultsTest(FolderCase):
             self.assertIn("bad.h5: is cut short or damaged", self.message_of(clearway.InputError, lambda: clearway.trace("bad.h5")))
         (self.folder / "bad.h5").write_bytes(whole[:-1])
         self.assertIn("cut short", self.message_of(clearway.InputError, lambda: clearway.trace("bad.h5")))
-        (self.folder / "bad.h5").write_bytes(whole.replace(b"format 5", b"format 4", 1))
-        self.assertIn("of format '4' (allowed: 5)", self.message_of(clearway.InputError, lambda: clearway.trace("bad.h5")))
+        (self.folder / "bad.h5").write_bytes(whole.replace(b"format 6", b"format 4", 1))
+        self.assertIn("of format '4' (allowed: 6)", self.message_of(clearway.InputError, lambda: clearway.trace("bad.h5")))
 
     def test_what_changes_after_the_seal_was_read_is_told_in_one_line(self) -> None:
         with self.results.recording("intersection", "corridor") as recording:

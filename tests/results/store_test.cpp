@@ -191,6 +191,23 @@ TEST_F(StoreOfAStudy, RefusesARecordThatLacksAMetricAndSaysHowToMakeItAgain) {
     }
 }
 
+TEST_F(StoreOfAStudy, KeepsARunWhoseTimingWasLostWithThePower) {
+    const Store other = Store::create(folder_.path() / "other", store_.manifest());
+    store_.write(record(treated), {});
+    const std::filesystem::path file = store_.run_folder(treated) / "timing.json";
+    for (const std::string& left : {std::string(), std::string(150, '\0')}) {
+        core::write_atomically(file, left);
+        EXPECT_FALSE(store_.read_timing(treated)) << left.size();
+        EXPECT_NO_THROW(store_.check(treated)) << left.size();
+        EXPECT_TRUE(store_.set_damaged_aside({treated}).empty()) << left.size();
+        EXPECT_NO_THROW(other.adopt(store_, treated)) << left.size();
+        EXPECT_TRUE(other.complete(treated)) << left.size();
+    }
+    core::write_atomically(file, std::string(150, '\0') + "}");
+    EXPECT_THROW(store_.read_timing(treated), core::InputError) << "it is not all lost";
+    EXPECT_THROW(store_.check(treated), core::InputError);
+}
+
 TEST_F(StoreOfAStudy, SetsDamagedRunsAsideWithoutLosingThem) {
     const std::vector<experiment::RunKey> keys = store_.manifest().runs();
     for (const experiment::RunKey& each : keys)

@@ -6,7 +6,9 @@
 namespace clearway::scenario {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Demand that a scenario of the test's own states, on the road of scratch.hpp.
 class CustomDemand : public PreparedDemand {
@@ -105,6 +107,29 @@ TEST_F(CustomDemand, only_options_that_are_kept_may_be_set_and_only_to_numbers) 
     EXPECT_THAT(found[1].what, HasSubstr("\"seed\" is not known"));
     EXPECT_THAT(found[2].what, HasSubstr("has no number"));
     EXPECT_THAT(found[3].what, HasSubstr("has no number"));
+}
+
+TEST_F(CustomDemand, measured_vehicles_and_persons_let_sumo_write_nothing) {
+    const std::string writes =
+        "<param key=\"has.ssm.device\" value=\"true\"/><param key=\"device.toc.file\" value=\"diary.txt\"/>"
+        "<param key=\"device.ssm.file\" value=\"diary.txt\"/><param key=\"mine\" value=\"1\"/>";
+    write("cars.rou.xml",
+          "<routes><vehicle id=\"a\" type=\"car\" depart=\"0\"><route edges=\"first second\"/>" + writes +
+              "</vehicle></routes>");
+    write("walkers.rou.xml", "<routes><vType id=\"w\" vClass=\"pedestrian\">" + writes +
+                                 "</vType><person id=\"b\" type=\"w\" depart=\"2\"><walk edges=\"first\"/>"
+                                 "</person></routes>");
+    const Prepared made =
+        prepared(write("scenario.toml", line_head + std::string("[measured]\nroutes = [\"cars.rou.xml\"]\n"
+                                                                "persons = [\"walkers.rou.xml\"]\n"
+                                                                "[[measured.type]]\nid = \"car\"\n"))
+                     .string());
+    ASSERT_EQ(made.route_files.size(), 2U);
+    for (const std::filesystem::path& file : made.route_files) {
+        const std::string text = core::read_file(file);
+        EXPECT_THAT(text, AllOf(Not(HasSubstr("diary.txt")), Not(HasSubstr("ssm"))));
+        EXPECT_THAT(text, HasSubstr("mine"));
+    }
 }
 
 TEST_F(CustomDemand, measured_types_must_be_listed) {

@@ -10,6 +10,7 @@
 #include "roads/crossings.hpp"
 #include "scenario/detail/library.hpp"
 #include "scenario/detail/netconvert.hpp"
+#include "scenario/network_document.hpp"
 #include "scratch.hpp"
 
 namespace clearway::scenario {
@@ -245,6 +246,26 @@ TEST_F(ImportedNetworks, lengths_are_those_of_the_file) {
     write("same.net.xml", text_);
     const BuiltNetwork built_network = build_network(imported("same.net.xml"), folder() / "out");
     EXPECT_EQ(core::read_file(built_network.file), text_);
+}
+
+TEST_F(ImportedNetworks, signal_programs_write_no_detector_files) {
+    const auto junction = text_.find("<junction");
+    const std::string program = R"(<tlLogic id="c" type="actuated" programID="0" offset="0">
+        <phase duration="30" state="G"/><param key="file" value="diary.txt"/><param key="freq" value="9"/></tlLogic>)";
+    write("own.net.xml", std::string(text_).insert(junction, program));
+    const NetworkDocument document(folder() / "own.net.xml");
+    EXPECT_THAT(document.text(), AllOf(Not(HasSubstr("diary.txt")), HasSubstr("freq")));
+}
+
+TEST_F(ImportedNetworks, without_its_hash_a_built_network_is_not_taken_for_whole) {
+    const auto folder = this->folder() / "line";
+    EXPECT_NO_THROW(require_unchanged_network(folder));
+    std::filesystem::remove(folder / "network.hash");
+    const auto problems = problems_of([&] { require_unchanged_network(folder); });
+    ASSERT_EQ(problems.size(), 1U);
+    EXPECT_THAT(problems[0].where, HasSubstr("network.hash"));
+    EXPECT_THAT(problems[0].cure, HasSubstr("remove " + this->folder().string() + ":"));
+    EXPECT_NO_THROW(require_unchanged_network(this->folder() / "none"));
 }
 
 TEST_F(ImportedNetworks, a_file_cut_short_is_refused) {

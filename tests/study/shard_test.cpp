@@ -93,21 +93,38 @@ TEST(Submission, QuotesWhatAShellWouldReadOtherwise) {
     submission.shards = 12;
     submission.program = "/opt/my programs/clearway";
     submission.study = "/data/a'b.toml";
-    submission.folder = "/data/out";
+    submission.folder = "/data/my out";
     submission.shard_limit_s = 601.0;
     submission.study_options = {"--memory-limit", "300"};
     std::map<std::string, std::string> texts;
     for (const Script& script : scripts_of(submission))
         texts[script.name] = script.text;
-    EXPECT_EQ(texts.size(), 4U);
+    EXPECT_EQ(texts.size(), 5U);
     EXPECT_THAT(texts["shard.sh"],
                 HasSubstr("'/opt/my programs/clearway' study '/data/a'\\''b.toml' --shard"));
     EXPECT_THAT(texts["shard.sh"], HasSubstr("--memory-limit 300"));
     EXPECT_THAT(texts["array.sbatch"],
                 testing::AllOf(HasSubstr("#SBATCH --array=1-12"), HasSubstr("#SBATCH --time=11"),
-                               HasSubstr("#SBATCH --requeue"), HasSubstr("--signal=B:TERM@60")));
-    EXPECT_THAT(texts["merge.sbatch"], HasSubstr("merge /data/out --out /data/out/merged"));
+                               HasSubstr("#SBATCH --requeue"), HasSubstr("--signal=B:TERM@60"),
+                               HasSubstr("#SBATCH --output=\"/data/my out/logs/slurm-%a.log\"\n"),
+                               HasSubstr("\nbash '/data/my out'/shard.sh ")));
+    EXPECT_THAT(texts["merge.sbatch"],
+                testing::AllOf(HasSubstr("#SBATCH --output=\"/data/my out/logs/merge.log\"\n"),
+                               HasSubstr("exec bash '/data/my out'/merge.sh\n")));
+    EXPECT_THAT(texts["merge.sh"], testing::AllOf(HasSubstr("count=12 folder='/data/my out'\n"),
+                                                  HasSubstr("merge \"$folder\" --out \"$folder/merged\"\n")));
     EXPECT_THAT(texts["submit.sh"], HasSubstr("afterany"));
+}
+
+TEST(Submission, RefusesAFolderThatSbatchCannotBeTold) {
+    Submission submission;
+    for (const char* const folder : {"/data/a\"b", "/data/a\\b", "/data/%a", "/data/a\nb", "/data/\x7f"}) {
+        submission.folder = folder;
+        submission.engine = SubmitEngine::slurm;
+        EXPECT_THROW(scripts_of(submission), core::InputError) << folder;
+        submission.engine = SubmitEngine::local;
+        EXPECT_NO_THROW(scripts_of(submission)) << folder;
+    }
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ with h5py.File(sys.argv[1]) as recording:
     begin = recording["steps/snapshot_begin"][:]
     time_s = recording["steps/time_s"][:]
     vehicle, x_m, y_m = (recording[f"snapshot/{name}"][:] for name in ("vehicle", "x_m", "y_m"))
-    assert recording["snapshot/x_m"].attrs["unit"] == "m"
+    assert recording["snapshot/x_m"].attrs["unit"] == b"m"
     assert h5py.check_enum_dtype(recording["snapshot/class"].dtype)["emergency"] == 2
     assert recording["observation/is_report"].dtype == bool
     lines = csv.writer(sys.stdout, lineterminator="\n")

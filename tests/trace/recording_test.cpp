@@ -180,9 +180,9 @@ TEST_F(Recording, SaysThatAFileIsMissingOrSomethingElse) {
 TEST_F(Recording, RefusesAnotherVersion) {
     const std::filesystem::path file = record("later", 3);
     std::string bytes = core::read_file(file);
-    bytes[bytes.find("format 5") + 7] = '9';
+    bytes[bytes.find("format 6") + 7] = '9';
     core::write_atomically(file, bytes);
-    EXPECT_THAT(problem_of(file), testing::AllOf(HasSubstr("of format 9"), HasSubstr("allowed: 5")));
+    EXPECT_THAT(problem_of(file), testing::AllOf(HasSubstr("of format 9"), HasSubstr("allowed: 6")));
 }
 
 TEST_F(Recording, RefusesHdf5ThatItDidNotSeal) {
@@ -229,6 +229,47 @@ TEST_F(Recording, NoticesWhatAnotherToolChangedAndSealed) {
     core::write_atomically(file, sealed);
     EXPECT_THAT(problem_of(file),
                 testing::AllOf(HasSubstr("is damaged"), HasSubstr("does not fit its hash")));
+}
+
+/// Puts another attribute in the place of one of a recording, and seals it anew.
+void replace_attribute(const std::filesystem::path& file, const char* name, hid_t type, hsize_t count,
+                       const void* values) {
+    const hid_t open = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    ASSERT_GE(H5Adelete(open, name), 0);
+    const hid_t space = H5Screate_simple(1, &count, nullptr);
+    const hid_t attribute = H5Acreate2(open, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    ASSERT_GE(H5Awrite(attribute, type, values), 0);
+    H5Aclose(attribute);
+    H5Sclose(space);
+    H5Fclose(open);
+    core::write_atomically(file, trace::detail::seal_of(file) + core::read_file(file).substr(512));
+}
+
+TEST_F(Recording, FollowsNoReferencesOfAttributesAndReadsOnlySingleValues) {
+    const std::filesystem::path referring = record("referring", 3);
+    const hid_t variable = H5Tcopy(H5T_C_S1);
+    ASSERT_GE(H5Tset_size(variable, H5T_VARIABLE), 0);
+    const char* const text = "city";
+    replace_attribute(referring, "scenario", variable, 1, &text);
+    H5Tclose(variable);
+    EXPECT_THAT(problem_of(referring), HasSubstr("no text of fixed length"));
+    const std::filesystem::path many = record("many", 3);
+    replace_attribute(many, "replication", H5T_NATIVE_UINT64, 1000,
+                      std::vector<std::uint64_t>(1000, 7).data());
+    EXPECT_THAT(problem_of(many), HasSubstr("no single value"));
+}
+
+TEST_F(Recording, KeepsTextsOfAnyLength) {
+    const std::filesystem::path file = folder_.path() / "long.h5";
+    trace::RecordingInfo info = RandomRun::info();
+    info.incidents = "[" + std::string(200'000, ' ') + "]";  // HDF5 keeps attributes above 64 KiB elsewhere
+    info.provenance.demand_hash = "";
+    {
+        trace::RecordingWriter writer(file, info);
+        writer.finish();
+    }
+    const trace::RecordingReader reader(file);
+    EXPECT_EQ(reader.info(), info);
 }
 
 /// The descriptor by which this process has the file open.

@@ -12,6 +12,7 @@
 #include "core/open_file.hpp"
 #include "core/read_failure.hpp"
 #include "core/xml_stream.hpp"
+#include "traffic/written_files.hpp"
 
 namespace clearway::scenario::detail {
 namespace {
@@ -74,6 +75,12 @@ pugi::xml_document load_xml(const std::filesystem::path& file, const std::string
 }
 
 std::string element_text(pugi::xml_node element) {
+    const auto writes = [](pugi::xml_node child) {
+        return std::string_view(child.name()) == "param" &&
+               traffic::lets_vehicles_write(child.attribute("key").value());
+    };
+    while (const pugi::xml_node parameter = element.find_child(writes))
+        element.remove_child(parameter);
     TextWriter writer;
     element.print(writer, "    ", pugi::format_indent, pugi::encoding_utf8, 1);
     return std::move(writer.text);

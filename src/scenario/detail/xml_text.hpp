@@ -13,7 +13,8 @@ namespace clearway::scenario::detail {
 pugi::xml_document load_xml(const std::filesystem::path& file, const std::string& kind,
                             unsigned options = pugi::parse_default);
 
-/// An element as text, indented by one level, with a line end.
+/// A vehicle, person or type as text, indented by one level, with a line end. Takes out the parameters that
+/// let SUMO write files, at any path: a run writes tables of its own.
 std::string element_text(pugi::xml_node element);
 std::string document_text(const pugi::xml_document& document);
 

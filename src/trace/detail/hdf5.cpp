@@ -77,13 +77,6 @@ Handle filtered(std::size_t chunk) {
     return creation;
 }
 
-Handle attribute_text_type() {
-    Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-    check(H5Tset_size(type.get(), H5T_VARIABLE));
-    check(H5Tset_cset(type.get(), H5T_CSET_UTF8));
-    return type;
-}
-
 void write_attribute(hid_t object, const std::string& name, hid_t type, const void* value) {
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
     const Handle attribute(H5Acreate2(object, name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT),
@@ -98,15 +91,20 @@ Number read_number(hid_t attribute, hid_t type) {
     return number;
 }
 
-std::string read_text(hid_t attribute) {
-    char* text = nullptr;
-    check(H5Aread(attribute, attribute_text_type().get(), &text));
-    std::string copy = text == nullptr ? "" : text;
-    H5free_memory(text);
-    return copy;
+/// Texts have a fixed length: HDF5 1.10 follows the references of others beyond what a damaged file holds.
+std::string read_text(hid_t attribute, hid_t type) {
+    const std::size_t length = H5Tget_size(type);
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || length > most_text_bytes)
+        throw std::runtime_error("an attribute is no text of fixed length");
+    std::string text(length, '\0');
+    check(H5Aread(attribute, text_type(length).get(), text.data()));
+    return text.substr(0, text.find('\0'));
 }
 
 core::Json read_attribute(hid_t attribute) {
+    const Handle space(H5Aget_space(attribute), H5Sclose);
+    if (H5Sget_simple_extent_npoints(space.get()) != 1)
+        throw std::runtime_error("an attribute is no single value");
     const Handle type(H5Aget_type(attribute), H5Tclose);
     switch (H5Tget_class(type.get())) {
         case H5T_INTEGER:
@@ -116,7 +114,7 @@ core::Json read_attribute(hid_t attribute) {
         case H5T_FLOAT:
             return read_number<double>(attribute, H5T_NATIVE_DOUBLE);
         default:
-            return read_text(attribute);
+            return read_text(attribute, type.get());
     }
 }
 
@@ -171,8 +169,8 @@ Handle create_group(hid_t parent, const std::string& name) {
 }
 
 void write_attribute(hid_t object, const std::string& name, const std::string& text) {
-    const char* const letters = text.c_str();
-    write_attribute(object, name, attribute_text_type().get(), &letters);
+    const std::string letters = text.empty() ? std::string(1, '\0') : text;  // HDF5 has no text of no bytes
+    write_attribute(object, name, text_type(letters.size()).get(), letters.data());
 }
 
 void write_attributes(hid_t object, const core::Json& members) {
@@ -253,6 +251,7 @@ DataSet::DataSet(hid_t group, const std::string& name, hid_t type)
     check(is_equal < 0 ? -1 : 0);
     if (is_equal == 0) throw std::runtime_error(name + " is of another type");
     const Handle space(H5Dget_space(set_.get()), H5Sclose);
+    if (H5Sget_simple_extent_ndims(space.get()) != 1) throw std::runtime_error(name + " is no column");
     const hssize_t size = H5Sget_simple_extent_npoints(space.get());
     check(size < 0 ? -1 : 0);
     size_ = static_cast<std::size_t>(size);

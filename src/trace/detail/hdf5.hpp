@@ -92,6 +92,8 @@ inline hid_t number_type<double>() {
 }
 /// An enumeration of one byte with these names, numbered from 0.
 Handle named_type(std::span<const std::string_view> names);
+/// Longest text that is read; a damaged file can name any length.
+inline constexpr std::size_t most_text_bytes = std::size_t{1} << 26;
 /// Text of `length` bytes, padded with zeros.
 Handle text_type(std::size_t length);
 

@@ -8,6 +8,8 @@ namespace {
 
 constexpr const char* vehicles_path = "vehicles";
 constexpr const char* texts_path = "texts";
+/// Of all rows together.
+constexpr std::size_t most_texts_bytes = std::size_t{1} << 32;
 
 /// Text as a data set of rows of equal length: unlike rows of variable length, these are compressed.
 void write_texts(hid_t group, const Column& column, const std::vector<std::string>& texts) {
@@ -37,8 +39,10 @@ std::vector<std::string> read_texts(hid_t group, const std::string& name) {
     const Handle type(H5Dget_type(found.get()), H5Tclose);
     if (H5Tget_class(type.get()) != H5T_STRING) throw std::runtime_error(name + " is not text");
     const std::size_t longest = H5Tget_size(type.get());
+    if (longest > most_text_bytes) throw std::runtime_error(name + " is too long");
     const Handle same_type = text_type(longest);
     DataSet set(group, name, same_type.get());
+    if (set.size() > most_texts_bytes / longest) throw std::runtime_error(name + " has too many rows");
     std::vector<std::string> texts;
     std::string rows;
     for (std::size_t first = 0; first < set.size(); first += set.chunk()) {

@@ -11,7 +11,7 @@ namespace clearway::trace::detail {
 inline constexpr std::size_t seal_length = 512;
 
 /// Version of the recording format: raised when a member, its data set or its meaning changes.
-inline constexpr int recording_format = 5;
+inline constexpr int recording_format = 6;
 
 /// The seal of a file whose HDF5 part is written and closed: format, length and hash of everything after the
 /// seal. It reveals damage before HDF5 parses a byte. Throws core::EnvironmentError.
