@@ -239,7 +239,10 @@ std::vector<std::string> lines_of(const Verification& each) {
                                         cell.row.empty() ? "" : " row " + cell.row, cell.column, cell.one,
                                         cell.other));
         }
-        if (count > shown_cells) lines.push_back(fmt::format("{}: {} cells differ in all", table, count));
+        if (count > results::most_differences)
+            lines.push_back(fmt::format("{}: more than {} cells differ", table, results::most_differences));
+        else if (count > shown_cells)
+            lines.push_back(fmt::format("{}: {} cells differ in all", table, count));
     }
     return lines;
 }

@@ -41,24 +41,17 @@ void flush_folder(const std::filesystem::path& folder) {
 }
 
 std::string read_file(const std::filesystem::path& file) {
-    // Nothing that is read whole comes near it; a file with holes can be of any size.
-    constexpr std::size_t most_bytes = std::size_t{1} << 30;
-    std::string text;
     OpenFile open(file);
     std::error_code unknown;
-    std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
-    if (unknown) bytes = 0;  // of a folder or a pipe
-    const auto check = [&] {
-        if (bytes > most_bytes)
-            throw InputError(
-                {file.string(), "has more than 1 GiB", "at most 1 GiB", "Check that it is the right file"});
-    };
-    check();
-    open.read([&](std::string_view piece) {
-        text += piece;
-        bytes = text.size();
-        check();
-    });
+    const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);  // a file with holes can have any
+    const std::uintmax_t most = static_cast<std::uintmax_t>(::sysconf(_SC_PHYS_PAGES)) *
+                                static_cast<std::uintmax_t>(::sysconf(_SC_PAGESIZE)) / 2;
+    if (!unknown && bytes > most)
+        throw InputError({file.string(), fmt::format("has {} MiB", bytes >> 20),
+                          fmt::format("at most {} MiB, half of this machine's memory", most >> 20),
+                          "Check that it is the right file"});
+    std::string text;
+    open.read([&](std::string_view piece) { text += piece; });
     return text;
 }
 

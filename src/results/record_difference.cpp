@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/json.hpp"
+#include "experiment/condition_json.hpp"
 
 namespace clearway::results {
 namespace {
@@ -21,6 +22,7 @@ using Cells = std::vector<std::string_view>;
 
 /// Values on the top level of `run.json` that are no tables.
 constexpr const char* top_level = "run";
+constexpr const char* condition_key = "condition_spec";
 /// The hash of everything else in `run.json`, so it differs if anything does.
 constexpr const char* hash_key = "hash";
 /// `vehicles_hash` is the hash of `vehicles.csv`.
@@ -76,6 +78,7 @@ class Finder {
     void start(std::string name) {
         table_ = std::move(name);
         row_.clear();
+        of_table_ = 0;
     }
 
     /// A value at `path`, such as `refused.outranked`, or all that an object or a list holds.
@@ -141,7 +144,8 @@ class Finder {
     }
 
     void cell(const std::string& column, const std::string& one, const std::string& other) {
-        found_.push_back({table_, row_, column, one, other});
+        // One row more moves all that follow, and a table may have a million.
+        if (++of_table_ <= most_differences + 1) found_.push_back({table_, row_, column, one, other});
     }
 
     void missing_row(bool is_in_one, bool is_in_other) {
@@ -161,6 +165,7 @@ class Finder {
     std::string where_;
     std::string table_;
     std::string row_;
+    std::size_t of_table_ = 0;
     std::vector<CellDifference> found_;
 };
 
@@ -202,6 +207,14 @@ void compare_key(Finder& finder, const std::string& key, const Json* one, const 
     }
 }
 
+/// Whether two `condition_spec` differ at most in the folders of the same parts and models.
+bool are_same_conditions(const Json& one, const Json& other) {
+    std::vector<core::Problem> problems;
+    const experiment::ConditionSpec left = experiment::condition_from(one, condition_key, problems);
+    const experiment::ConditionSpec right = experiment::condition_from(other, condition_key, problems);
+    return problems.empty() && left == right;
+}
+
 Json record_of(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / "run.json";
     return core::parse_object(core::read_file(file), file.string());
@@ -215,17 +228,24 @@ std::vector<CellDifference> differences(const Store& one, const Store& other, co
     const Json stored = record_of(left);
     const Json made = record_of(right);
     Finder finder((left / "run.json").string());
+    bool is_elsewhere = false;  // what the condition names
     for (const std::string& name : keys_of(stored, made)) {
         if (name == hash_key) continue;
         const Json* const before = find(stored, name);
         const Json* const now = find(made, name);
+        if (name == condition_key && before != nullptr && now != nullptr && exact(*before) != exact(*now) &&
+            are_same_conditions(*before, *now)) {
+            is_elsewhere = true;
+            continue;
+        }
         const bool is_other_file = name.ends_with(file_hash_end) && before != nullptr && now != nullptr &&
                                    exact(*before) != exact(*now);
         if (!is_other_file || !compare_file(finder, name, left, right))
             compare_key(finder, name, before, now);
     }
     // Other bytes of equal values, such as quotes in a table.
-    if (finder.count() == 0) compare_key(finder, hash_key, find(stored, hash_key), find(made, hash_key));
+    if (finder.count() == 0 && !is_elsewhere)
+        compare_key(finder, hash_key, find(stored, hash_key), find(made, hash_key));
     return finder.take();
 }
 

@@ -18,7 +18,11 @@ struct CellDifference {
     std::string other;
 };
 
-/// All differences between the records of a run in two stores, in the order of `run.json`. The files are
+/// Cells of a table above which their number no longer matters.
+inline constexpr std::size_t most_differences = 1000;
+
+/// The differences between the records of a run in two stores, in the order of `run.json`; of each table at
+/// most one more than `most_differences`. Folders of the same parts and models do not count. The files are
 /// compared, not what a reader takes from them, so that whatever is written into a record counts. Timing is
 /// no part of it. Empty: the records are the same. Assumes that the run is complete in both stores and that
 /// Store::check accepts both. Throws core::InputError for a table that is no CSV or a file that is missing.

@@ -15,6 +15,7 @@
 #include "scenario/network_document.hpp"
 #include "scenario/picture.hpp"
 #include "scenario/preemption.hpp"
+#include "scenario/written_files.hpp"
 #include "scenario_import/detail/context.hpp"
 #include "scenario_import/detail/own_words.hpp"
 #include "scenario_import/detail/source.hpp"
@@ -149,6 +150,7 @@ void check_version(const scenario::NetworkDocument& document, const std::filesys
 /// Reads the copy of `given` that the import made. Problems name the lines of the given file.
 roads::Network read_copy(const std::filesystem::path& copy, const std::filesystem::path& given) {
     try {
+        scenario::refuse_written_files(copy, {});
         return roads::Network::read(copy);
     } catch (const core::InputError& error) {
         roads::Network::read(given);

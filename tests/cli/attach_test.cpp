@@ -37,12 +37,24 @@ class AttachTest : public UserTest {
                         std::to_string(i) + "\"><route edges=\"" + way + "\"/></vehicle>";
         }
         write("routes.rou.xml", "<routes>" + vehicles + "</routes>");
+        // Its user's own, which Clearway lets alone.
+        write("own.add.xml", "<additional><edgeData id=\"flow\" file=\"flow.xml\"/></additional>");
     }
 
     std::string network() const { return folder() / "net.net.xml"; }
     std::vector<std::string> arguments() const {
-        return {"-n",   network(),          "-r",    folder() / "routes.rou.xml", "--step-length",
-                "0.25", "--xml-validation", "never", "--tripinfo-output",         folder() / "trips.xml"};
+        return {"-a",
+                folder() / "own.add.xml",
+                "-n",
+                network(),
+                "-r",
+                folder() / "routes.rou.xml",
+                "--step-length",
+                "0.25",
+                "--xml-validation",
+                "never",
+                "--tripinfo-output",
+                folder() / "trips.xml"};
     }
     static std::string place(int port) { return "localhost:" + std::to_string(port); }
 };

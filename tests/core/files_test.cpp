@@ -104,8 +104,12 @@ TEST_F(FilesTest, NamesTheFileThatCannotBeRead) {
 
 TEST_F(FilesTest, AFileThatWouldFillTheMemoryIsRefused) {
     const std::filesystem::path file = folder_.write("holes", "");
-    std::filesystem::resize_file(file, (std::uintmax_t{1} << 30) + 1);
-    EXPECT_THAT(complaint<InputError>([&] { read_file(file); }), HasSubstr("holes: has more than 1 GiB"));
+    std::error_code no_room;
+    std::filesystem::resize_file(file, std::uintmax_t{1} << 42, no_room);
+    if (no_room) GTEST_SKIP() << "no file of 4 TiB of holes here: " << no_room.message();
+    EXPECT_THAT(
+        complaint<InputError>([&] { read_file(file); }),
+        testing::AllOf(HasSubstr("holes: has 4194304 MiB"), HasSubstr("half of this machine's memory")));
 }
 
 TEST_F(FilesTest, AReadErrorIsNotTheEndOfAFile) {

@@ -175,6 +175,19 @@ TEST_F(RecordDifference, IsFoundWhereOnlyTheSpellingDiffers) {
     EXPECT_EQ(cells[0].column, "hash");
 }
 
+TEST_F(RecordDifference, IsNoneWhereTheSamePartsAreInAnotherFolder) {
+    const auto with_part = [](const char* part) {
+        RunRecord run = full_record();
+        run.condition.settings.clear();
+        run.condition.policies = {part};
+        return run;
+    };
+    std::filesystem::remove_all(one_.run_folder(key));
+    one_.write(with_part("/home/a/mine.py:Mine@1cb61cb61cb61cb6"), {});
+    EXPECT_THAT(found_with(with_part("/home/b/mine.py:Mine@1cb61cb61cb61cb6")), IsEmpty());
+    EXPECT_THAT(found_with(with_part("/home/b/mine.py:Mine@2222222222222222")), testing::SizeIs(1));
+}
+
 TEST_F(RecordDifference, RefusesATableThatIsNoCsv) {
     core::Json run = record_of_other();
     run["traffic"]["holds"] = "signal,holds,held_s\n\"J,3,41.5\n";

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <string>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <zlib.h>
 
@@ -451,33 +450,6 @@ TEST_F(NetworkTest, NamesFileAndLineOfWhatIsWrong) {
     EXPECT_THAT(complaint(altered(R"( :J_4_0")", R"(")")), HasSubstr("junction has 4 requests"));
     EXPECT_THROW(Network::read(folder_.path() / "missing.net.xml"), core::InputError);
     EXPECT_THROW(Network::read(folder_.path()), core::InputError);
-}
-
-TEST_F(NetworkTest, RefusesElementsThatLetSumoWriteOrReadOtherFiles) {
-    for (const char* const element :
-         {R"(<e1Detector id="d" lane="a_0" pos="1" period="9" file="diary.txt"/>)",
-          R"(<edgeData id="d" file="/home/me/diary.txt"/>)",
-          R"(<calibrator id="d" edge="a" pos="0" output="diary.txt"/>)",
-          R"(<timedEvent type="SaveTLSStates" source="J" dest="diary.txt"/>)",
-          R"(<vType id="t"><param key="device.ssm.file" value="diary.txt"/></vType>)",
-          R"(<vType id="t"><param key="has.ssm.device" value="true"/></vType>)",
-          R"(<tlLogic id="J"><param key="file" value="diary.txt"/></tlLogic>)"}) {
-        EXPECT_THAT(complaint(altered("</net>", std::string(element) + "</net>")),
-                    AllOf(HasSubstr("lets SUMO write"), HasSubstr("allowed: NUL")));
-        const auto additional =
-            folder_.write("a.add.xml", fmt::format("<additional>{}</additional>", element));
-        EXPECT_THROW(Network::read(folder_.write("a.net.xml", crossing_network()), {additional}),
-                     core::InputError)
-            << element;
-    }
-    EXPECT_THAT(complaint(altered("</net>", R"(<include href="more.xml"/></net>)")), HasSubstr("<include>"));
-    EXPECT_THAT(complaint("<!DOCTYPE net [<!ENTITY more SYSTEM \"more.xml\">]>\n" +
-                          altered("<?xml version=\"1.0\" encoding=\"UTF-8\"?>", "")),
-                HasSubstr("declares the document type \"net\""));
-    const auto silent = folder_.write(
-        "b.add.xml", R"(<additional><e1Detector id="d" lane="a_0" pos="1" period="9" file="NUL"/>)"
-                     R"(<rerouter id="r" edges="a" file="times.xml"/></additional>)");
-    EXPECT_NO_THROW(Network::read(folder_.write("b.net.xml", crossing_network()), {silent}));
 }
 
 TEST_F(NetworkTest, CollectsAllProblemsUpToALimit) {

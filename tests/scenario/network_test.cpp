@@ -11,6 +11,7 @@
 #include "scenario/detail/library.hpp"
 #include "scenario/detail/netconvert.hpp"
 #include "scenario/network_document.hpp"
+#include "scenario/written_files.hpp"
 #include "scratch.hpp"
 
 namespace clearway::scenario {
@@ -202,6 +203,40 @@ TEST_F(BuiltNetworks, a_network_without_roads_is_refused) {
     EXPECT_THAT(problems[0].what, HasSubstr("no edge that cars may use"));
 }
 
+TEST_F(BuiltNetworks, let_sumo_neither_write_nor_include_files) {
+    const auto refusal_of = [&](const std::string& content) {
+        const auto network = write("w.net.xml", "<net>\n" + content + "</net>");
+        const auto additional = write("w.add.xml", "<additional>\n" + content + "</additional>");
+        const auto empty = write("empty.xml", "<net/>");
+        const auto in_network = problems_of([&] { refuse_written_files(network, {}); });
+        const auto in_additional = problems_of([&] { refuse_written_files(empty, {additional}); });
+        EXPECT_EQ(in_network.size(), 1U) << content;
+        EXPECT_EQ(in_additional.size(), 1U) << content;
+        if (in_network.empty() || in_additional.empty()) return std::string("no problem");
+        EXPECT_EQ(in_network[0].where, network.string() + ":2");
+        EXPECT_EQ(in_additional[0].where, additional.string() + ":2");
+        return in_network[0].what;
+    };
+    for (const char* const element :
+         {R"(<e1Detector id="d" lane="a_0" pos="1" period="9" file="diary.txt"/>)",
+          R"(<edgeData id="d" file="/home/me/diary.txt"/>)", R"(<edgeData id="d" file="false"/>)",
+          R"(<calibrator id="d" edge="a" pos="0" output="diary.txt"/>)",
+          R"(<timedEvent type="SaveTLSStates" source="J" dest="diary.txt"/>)",
+          R"(<vType id="t"><param key="device.ssm.file" value="diary.txt"/></vType>)",
+          R"(<vType id="t"><param key="has.ssm.device" value="true"/></vType>)",
+          R"(<tlLogic id="J"><param key="file" value="diary.txt"/></tlLogic>)"})
+        EXPECT_THAT(refusal_of(element), HasSubstr("lets SUMO write files"));
+    EXPECT_THAT(refusal_of(R"(<include href="more.xml"/>)"), HasSubstr("<include> of \"more.xml\""));
+}
+
+TEST_F(BuiltNetworks, may_name_files_that_sumo_does_not_write) {
+    const auto file =
+        write("w.net.xml", R"(<net><e1Detector id="d" file="NUL"/><rerouter id="r" file="times.xml"/>)"
+                           R"(<poi id="p"><param key="file" value="picture.png"/></poi>)"
+                           R"(<vType id="t"><param key="has.ssm.device" value="false"/></vType></net>)");
+    EXPECT_NO_THROW(refuse_written_files(file, {file}));
+}
+
 /// A network file of two edges as a newer netconvert would write it, compressed.
 class ImportedNetworks : public BuiltNetworks {
   protected:
@@ -360,6 +395,8 @@ TEST_F(PlainNetworks, nested_so_deep_that_netconvert_never_ends_are_refused) {
          {std::pair{"intersection.nod.xml", "</nodes>"}, std::pair{"intersection.edg.xml", "</edges>"},
           std::pair{"intersection.con.xml", "</connections>"}})
         EXPECT_THAT(refusal_of(name, end, deep + end), AllOf(HasSubstr(name), HasSubstr("levels")));
+    EXPECT_THAT(refusal_of("intersection.nod.xml", "<nodes", "<!DOCTYPE nodes [<!ENTITY a \"b\">]>\n<nodes"),
+                AllOf(HasSubstr("intersection.nod.xml"), HasSubstr("document type \"nodes\"")));
 }
 
 TEST_F(PlainNetworks, that_netconvert_refuses_are_told_with_its_words_and_the_key_at_fault) {

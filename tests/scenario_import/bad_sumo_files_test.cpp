@@ -38,6 +38,18 @@ TEST_F(BadSumoFiles, with_many_levels_are_named) {
                 AllOf(HasSubstr("line.sumocfg"), HasSubstr("at most 200 levels")));
 }
 
+TEST_F(BadSumoFiles, whose_network_would_write_files_are_refused) {
+    const std::string network = core::read_file(line_network());
+    const auto diary = write("diary.txt", "dear diary");
+    const auto writing =
+        write("writing.net.xml", network.substr(0, network.rfind("</net>")) + "<edgeData id='d' file='" +
+                                     diary.string() + "'/></net>");
+    EXPECT_THAT(
+        refusal(request({writing})),
+        AllOf(HasSubstr("writing.net.xml: <edgeData> lets SUMO write files"), HasSubstr(diary.string())));
+    EXPECT_EQ(core::read_file(diary), "dear diary");
+}
+
 TEST_F(BadSumoFiles, with_impossible_times_are_named) {
     for (const char* const begin : {"-9223372036854775808", "1e18", "-1", "noon"})
         EXPECT_THAT(refusal(configured(fmt::format("<begin value='{}'/>", begin))),

@@ -9,7 +9,6 @@
 #include "roads/controllers.hpp"
 #include "roads/detail/numbers.hpp"
 #include "roads/detail/permissions.hpp"
-#include "traffic/written_files.hpp"
 
 namespace clearway::roads {
 namespace {
@@ -42,28 +41,6 @@ void NetworkBuilder::begin_additional(const std::filesystem::path& file) {
     in_additional_ = true;
 }
 
-/// A run's files are its own: an element that lets SUMO write a file, or read one that nobody has checked.
-void NetworkBuilder::check_files(std::string_view element, const core::XmlAttributes& attributes) {
-    constexpr const char* cure = "Take it out: a run writes tables of its own";
-    if (element == "include")
-        return add_problem(fmt::format("<include> of \"{}\"", attributes.find("href").value_or("")),
-                           "files without others inside", "Put in what it includes");
-    const auto writes = [&](std::string_view name, std::string_view file) {
-        if (file.empty() || file == "NUL" || file == "/dev/null" || file == "false") return;
-        add_problem(fmt::format("<{}> lets SUMO write \"{}\" ({})", element, file, name), "NUL", cure);
-    };
-    if (element == "param") {
-        const std::string_view key = attributes.find("key").value_or("");
-        if (key == "file" || traffic::lets_vehicles_write(key))
-            writes(key, attributes.find("value").value_or(""));
-        return;
-    }
-    // These read theirs.
-    if (element == "rerouter" || element == "variableSpeedSign") return;
-    for (const char* const name : {"file", "output", "dest"})
-        if (const auto file = attributes.find(name)) writes(name, *file);
-}
-
 /// Railway signals do not count as known.
 bool NetworkBuilder::is_known_program(std::string_view element, const core::XmlAttributes& attributes) const {
     return element == "tlLogic" && network_.find_signal(attributes.find("id").value_or(""));
@@ -73,7 +50,6 @@ void NetworkBuilder::start(std::string_view element, const core::XmlAttributes& 
                            unsigned long line) {
     line_ = line;
     ++depth_;
-    check_files(element, attributes);
     if (depth_ == 1) {
         if (!in_additional_ && element != "net") {
             throw core::InputError(

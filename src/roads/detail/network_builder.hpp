@@ -42,7 +42,6 @@ class NetworkBuilder : public core::XmlHandler {
     using Row = std::uint32_t;
     static constexpr Row no_row = 0xffffffffU;
 
-    void check_files(std::string_view element, const core::XmlAttributes& attributes);
     bool is_known_program(std::string_view element, const core::XmlAttributes& attributes) const;
     void add_problem(std::string what, std::string allowed = {}, std::string cure = {});
     void add_problem(core::Problem problem);

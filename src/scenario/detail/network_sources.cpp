@@ -12,6 +12,7 @@
 #include "core/process.hpp"
 #include "core/xml_stream.hpp"
 #include "roads/controllers.hpp"
+#include "scenario/written_files.hpp"
 
 namespace clearway::scenario::detail {
 namespace {
@@ -115,13 +116,18 @@ std::vector<core::Problem> problems_of_source(const ScenarioConfig& config, cons
 /// How deep elements are nested.
 class Levels : public core::XmlHandler {
   public:
-    void start(std::string_view, const core::XmlAttributes&, unsigned long) override { ++level_; }
+    void start(std::string_view, const core::XmlAttributes&, unsigned long) override {
+        ++level_;
+        any_ = true;
+    }
     void end(std::string_view) override { --level_; }
     /// Where reading ended.
     int level() const { return level_; }
+    bool any() const { return any_; }
 
   private:
     int level_ = 0;
+    bool any_ = false;
 };
 
 /// Netconvert does not end on elements that are nested deeply. What else is wrong it says itself.
@@ -130,7 +136,8 @@ void check_levels(const std::filesystem::path& file) {
     try {
         core::stream_xml(file, levels);
     } catch (const core::InputError&) {
-        if (levels.level() >= core::most_xml_levels) throw;
+        // With a document type there is none either.
+        if (levels.level() >= core::most_xml_levels || !levels.any()) throw;
     }
 }
 
@@ -182,6 +189,7 @@ core::Problem refusal(const ScenarioConfig& config, const std::string& ended, co
 roads::Network read_made(const ScenarioConfig& config, const std::filesystem::path& made,
                          const std::vector<std::filesystem::path>& additional) {
     try {
+        refuse_written_files(made, additional);
         return roads::Network::read(made, additional);
     } catch (const core::InputError& error) {
         // Lines of the made network say nothing to the user, and it does not stay: look in the user's own.
