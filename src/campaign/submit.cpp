@@ -33,8 +33,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* verb = "clearway study submit";
-/// Holds the number of shards and, in its second line, the verb; the first file of a submission.
+/// A file of the user may have the name of one of a submission, so it has a mark of its own.
+const core::OwnFolder own_folder = {"clearway study submit", {".clearway-submission"}};
+/// Holds the number of shards.
 constexpr const char* shards_file = "shards.txt";
 
 /// Work per shard, s, when the user gives no number of shards: long enough to outweigh its start, short
@@ -70,22 +71,16 @@ void refuse_commas(const fs::path& folder) {
                             "a path without commas", "Choose another folder with --out"});
 }
 
-/// Throws core::InputError unless `folder` is new, empty or of a submission in as many shards: those of two
-/// divisions would repeat much work. A user's file may have our file's name, so its content counts too.
-void require_own(const fs::path& folder, const std::string& content) {
-    core::require_own(folder, {verb, {shards_file}});
+/// Throws core::InputError when a submission is divided into another number of shards: those of two divisions
+/// would repeat much work.
+void require_same_division(const fs::path& folder, const std::string& wanted) {
     const fs::path file = folder / shards_file;
     if (!fs::exists(file)) return;
     const std::string held = core::read_file(file);
-    if (held == content) return;
-    const std::size_t line = held.find('\n');
-    if (line == std::string::npos || held.substr(line + 1) != content.substr(content.find('\n') + 1))
-        throw core::InputError({"--out", fmt::format("{} holds something else", folder.string()),
-                                fmt::format("a new or empty folder, or one of {}", verb),
-                                "Choose another folder"});
+    if (held == wanted) return;
     throw core::InputError({folder.string(),
-                            fmt::format("is already divided into {} shards, not {}", held.substr(0, line),
-                                        content.substr(0, content.find('\n'))),
+                            fmt::format("is already divided into {} shards, not {}",
+                                        held.substr(0, held.find('\n')), wanted.substr(0, wanted.find('\n'))),
                             "the same --shards, or another folder", "Choose another folder with --out"});
 }
 
@@ -173,12 +168,12 @@ void write_scripts(const fs::path& folder, const std::vector<study::Script>& scr
 void write_submission(const study::Submission& submission, const results::Manifest& manifest) {
     refuse_commas(submission.folder);
     const std::vector<study::Script> scripts = study::scripts_of(submission);
-    const std::string content = fmt::format("{}\n{}\n", submission.shards, verb);
-    require_own(submission.folder, content);
+    const std::string division = fmt::format("{}\n", submission.shards);
+    core::require_own(submission.folder, own_folder);
+    require_same_division(submission.folder, division);
     require_continues(submission.folder, manifest);
-    core::make_folder(submission.folder);
-    if (!fs::exists(submission.folder / shards_file))
-        core::write_output(submission.folder / shards_file, content);
+    core::claim(submission.folder, own_folder);
+    core::write_output(submission.folder / shards_file, division);
     write_scripts(submission.folder, scripts);
 }
 

@@ -25,12 +25,7 @@ RunRecord full_record() {
     run.leases = {{"clear_lane", traffic::LeaseKind::change_lane, 4, 140, 2, 1, {}},
                   {"clear_lane", traffic::LeaseKind::drive_at, 8, 99, 4, 1, {}}};
     run.leases[1].refused[traffic::Refusal::outranked] = 3;
-    run.traffic.approaches = {{"a,\"b", traffic::VehicleClass::automated, 3, 1.25, 7.5, 240.0}};
-    run.traffic.recovery = {{-5.0, 2, 0.5}, {0.0, 2, 1.5}};
-    run.traffic.journeys = {{"ev 1", "", "", 60.25, 0.0}, {"ev 1", "J\n2", "red", 61.0, 120.5}};
-    run.traffic.edge_times = {{"ev 1", "a,\"b", 60.25, 12.5}};
-    run.traffic.holds = {{"J\n2", 3, 41.5}};
-    run.traffic.locks = {{"a,\"b", "J\n2", 60.0, 81.25, 4, 1}};
+    run.traffic = synthetic::traffic_tables();
     run.signal_events = {{{60.25, "J", 1, 2, "0 1", ""}, {61.0, "J", 102, 1, "0", "ev 1"}}};
     return run;
 }

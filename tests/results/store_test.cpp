@@ -52,12 +52,7 @@ TEST_F(StoreOfAStudy, GivesBackWhatWasWritten) {
 
 TEST_F(StoreOfAStudy, KeepsWhereTimeWasLostAndReadsJourneysEdgeTimesAndHoldsOnlyWhenAskedFor) {
     RunRecord run = record(treated);
-    run.traffic.approaches = {{"a,\"b", traffic::VehicleClass::automated, 3, 1.25, 7.5, 240.0}};
-    run.traffic.recovery = {{-5.0, 2, 0.5}, {0.0, 2, 1.5}};
-    run.traffic.journeys = {{"ev 1", "", "", 60.25, 0.0}, {"ev 1", "J\n2", "red", 61.0, 120.5}};
-    run.traffic.edge_times = {{"ev 1", "a,\"b", 60.25, 12.5}};
-    run.traffic.holds = {{"J\n2", 3, 41.5}};
-    run.traffic.locks = {{"a,\"b", "J\n2", 60.0, 81.25, 4, 1}};
+    run.traffic = synthetic::traffic_tables();
     store_.write(run, {});
     EXPECT_EQ(store_.read_traffic(treated), run.traffic);
     EXPECT_EQ(store_.read_traffic({"alpha", "baseline", 0}), metrics::TrafficTables{});

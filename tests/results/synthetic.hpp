@@ -47,6 +47,18 @@ inline metrics::VehicleRow vehicle(const std::string& id, traffic::VehicleClass 
     return row;
 }
 
+/// Where time was lost; names that need quotes.
+inline metrics::TrafficTables traffic_tables() {
+    metrics::TrafficTables tables;
+    tables.approaches = {{"a,\"b", traffic::VehicleClass::automated, 3, 1.25, 7.5, 240.0}};
+    tables.recovery = {{-5.0, 2, 0.5}, {0.0, 2, 1.5}};
+    tables.journeys = {{"ev 1", "", "", 60.25, 0.0}, {"ev 1", "J\n2", "red", 61.0, 120.5}};
+    tables.edge_times = {{"ev 1", "a,\"b", 60.25, 12.5}};
+    tables.holds = {{"J\n2", 3, 41.5}};
+    tables.locks = {{"a,\"b", "J\n2", 60.0, 81.25, 4, 1}};
+    return tables;
+}
+
 /// One EV and one other; the EV's travel time in s.
 inline RunRecord record(const experiment::RunKey& key, double travel_time_s = 50.1) {
     RunRecord result;
