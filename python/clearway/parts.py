@@ -195,6 +195,16 @@ class Belief:
         """Edges with incidents that last and are known, and whether the road is closed to emergency vehicles."""
         return dict(zip(self._sheet["incident_edge"].tolist(), self._sheet["incident_closed"].astype(bool).tolist()))
 
+    @property
+    def edge_times_s(self) -> np.ndarray:
+        """For each edge, the time that is believed for an emergency vehicle that enters it now and drives at the limit where the road
+        is free, s; inf where none may drive, inside junctions, and where a known incident closes it to them.
+
+        What ``navigate`` believes with its default settings: the vehicles seen on the edge since the run began, fading; where none
+        were, the limit and the mean wait of the signal's program.
+        """
+        return self._sheet["edge_times_s"]
+
     def signal_state(self, signal: int) -> str:
         """What a signal shows now, SUMO's letter for each link; empty where that is not known."""
         first = self._sheet["signal_first"]

@@ -9,9 +9,8 @@
 #include "core/fields.hpp"
 #include "core/spellings.hpp"
 #include "policy/configured_policy.hpp"
+#include "policy/detail/believed_ways.hpp"
 #include "policy/detail/view.hpp"
-#include "policy/edge_times.hpp"
-#include "roads/route_search.hpp"
 
 namespace clearway::policy {
 
@@ -86,18 +85,10 @@ class Navigate : public ConfiguredPolicy<NavigateConfig> {
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override;
 
   private:
-    /// Where a way may still be changed, and what is driven before it.
-    struct Fork {
-        std::vector<core::EdgeIndex> before;  ///< Edges that stay, the last one is left at `leaving_s`.
-        double leaving_s = 0.0;               ///< From now.
-    };
-    Fork fork_of(const detail::View& view, const traffic::BelievedVehicle& emergency, double pace) const;
     void plan(const detail::View& view, const traffic::BelievedVehicle& emergency,
               detail::LeaseWriter& write);
 
-    roads::RouteSearch search_;
-    EdgeTimes times_;
-    std::vector<traffic::KnownIncident> known_;      ///< At the last decision.
+    detail::BelievedWays ways_;
     std::map<core::VehicleKey, double> planned_at_;  ///< s, by emergency vehicle.
     std::vector<core::EdgeIndex> way_;               ///< Reused.
 };

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "policy/detail/belief_sheet.hpp"
+#include "policy/detail/believed_ways.hpp"
 #include "policy/detail/lease_reader.hpp"
+#include "policy/navigate.hpp"
 #include "python/part_process.hpp"
 
 namespace clearway::policy {
@@ -11,6 +13,7 @@ namespace clearway::policy {
 struct PythonPolicy::State {
     State(const PolicyContext& context, const std::string& word, const core::Settings& settings)
         : network(context.network),
+          ways(context, NavigateConfig{}),
           process(*python::part_name_from(python::resolved(word, {}, "policy")),
                   {.kind = python::PartKind::policy,
                    .settings = settings,
@@ -19,6 +22,7 @@ struct PythonPolicy::State {
                    .period_s = context.period.value}) {}
 
     const roads::Network& network;
+    detail::BelievedWays ways;
     python::PartProcess process;
 };
 
@@ -31,7 +35,8 @@ PythonPolicy::~PythonPolicy() = default;
 
 void PythonPolicy::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(state_->network, belief);
-    detail::write_belief(view, view.emergency_vehicles(), state_->process.question());
+    state_->ways.see(belief);
+    detail::write_belief(view, view.emergency_vehicles(), state_->ways, state_->process.question());
     state_->process.ask();
     try {
         detail::read_leases(state_->process.answer_text(), *name_, belief.time, leases);

@@ -33,6 +33,7 @@ class Preempt:
 # Once, an edge in the middle of the way is left out; the rest is the shortest.
 DETOUR = """
 import heapq
+import numpy as np
 from clearway import Lease
 class Detour:
     def __init__(self):
@@ -54,6 +55,9 @@ class Detour:
     def act(self, belief):
         self.network, leases = belief.network, []
         assert belief.incidents == {}
+        times_s, net = belief.edge_times_s, belief.network
+        assert len(times_s) == len(net.edge_ids) and np.isinf(times_s[net.edge_is_internal]).all()
+        assert all(net.edge_free_s[edge] - 1e-3 <= times_s[edge] < np.inf for ev in belief.emergency_vehicles for edge in ev.route)
         for ev in belief.emergency_vehicles:
             route = ev.route.tolist()
             assert all(there in belief.network.onward[here] for here, there in zip(route, route[1:]))

@@ -54,6 +54,9 @@ constexpr python::Column belief_sheet_columns[] = {
     {"incident_closed", "u1", "1", "No lane that an emergency vehicle may use is open"},
     {"signal_first", "u4", "1", "Where the letters of each signal begin"},
     {"signal_letters", "u1", "", "SUMO's letter of each link; none where it is not known"},
+    {"edge_times_s", "f8", "s",
+     "Of each edge, believed for an emergency vehicle that enters it now and drives at the limit; inf: "
+     "closed to it, or inside a junction"},
 };
 
 /// Fills the columns of a sheet one after the other; each call names the column that is next.
@@ -64,6 +67,10 @@ class Filler {
     template <class Value>
     void put(std::string_view name, const std::vector<Value>& values) {
         sheet_.put(next(name), values);
+    }
+    template <class Value>
+    std::span<Value> room(std::string_view name, std::size_t count) {
+        return sheet_.room<Value>(next(name), count);
     }
     template <class Value, class Row, class Member>
     void put(std::string_view name, const std::vector<Row>& rows, const Member& member) {
@@ -196,13 +203,20 @@ void write_signals(const traffic::SignalStates& signals, Filler& fill) {
     fill.put("signal_letters", letters);
 }
 
+void write_edge_times(const BelievedWays& ways, const roads::Network& network, Filler& fill) {
+    const std::span<double> times_s = fill.room<double>("edge_times_s", network.edges().size());
+    for (std::uint32_t row = 0; row < times_s.size(); ++row)
+        times_s[row] = ways.now_s(core::EdgeIndex{row});
+}
+
 }  // namespace
 
 std::span<const python::Column> belief_columns() {
     return belief_sheet_columns;
 }
 
-void write_belief(const View& view, const std::vector<traffic::BelievedVehicle>& emergency, Sheet& sheet) {
+void write_belief(const View& view, const std::vector<traffic::BelievedVehicle>& emergency,
+                  const BelievedWays& ways, Sheet& sheet) {
     const traffic::BelievedGraph& belief = view.belief();
     sheet.clear();
     Filler fill(sheet);
@@ -215,6 +229,7 @@ void write_belief(const View& view, const std::vector<traffic::BelievedVehicle>&
     write_ways(view, emergency, fill);
     write_incidents(belief.incidents, fill);
     write_signals(belief.signals, fill);
+    write_edge_times(ways, view.network(), fill);
 }
 
 }  // namespace clearway::policy::detail

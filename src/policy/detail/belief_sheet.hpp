@@ -5,6 +5,7 @@
 
 #include "core/units.hpp"
 #include "policy/detail/approach.hpp"
+#include "policy/detail/believed_ways.hpp"
 #include "policy/detail/view.hpp"
 #include "python/sheet.hpp"
 
@@ -20,8 +21,8 @@ inline constexpr core::Metres sheet_horizon{300.0};
 /// The same for signals: as far as PreemptSignals looks.
 inline constexpr core::Metres approach_horizon{600.0};
 
-/// Writes the sheet of a belief. Allocates what View allocates.
+/// Writes the sheet of a belief that `ways` has seen. Allocates what View allocates.
 void write_belief(const View& view, const std::vector<traffic::BelievedVehicle>& emergency,
-                  python::Sheet& sheet);
+                  const BelievedWays& ways, python::Sheet& sheet);
 
 }  // namespace clearway::policy::detail
