@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -18,8 +19,9 @@ constexpr const char* usage =
     "clearway-run, the worker of clearway; it is started by clearway, not by hand.\n"
     "  clearway-run JOB.json    do the job in a file: runs, a data set, links to evaluate, or a simulation\n"
     "                           that runs elsewhere\n"
-    "  clearway-run --episodes JOB.json MEMORY READ WRITE\n"
-    "                           serve episodes to an environment in Python, over these descriptors\n"
+    "  clearway-run --episodes JOB.json WAYS MEMORY READ WRITE\n"
+    "                           serve episodes to an environment in Python, which is offered so many ways,\n"
+    "                           over these descriptors\n"
     "  clearway-run --version\n";
 
 clearway::core::ExitCode fail_usage() {
@@ -39,9 +41,10 @@ int main(int argument_count, char** arguments) {
                        clearway::sumo::version(), core::build_stamp());
             return core::ExitCode::ok;
         }
-        if (argument_count == 6 && std::string_view(arguments[1]) == "--episodes")
+        if (argument_count == 7 && std::string_view(arguments[1]) == "--episodes")
             return clearway::loop::serve_episodes(
-                arguments[2], {std::atoi(arguments[3]), std::atoi(arguments[4]), std::atoi(arguments[5])});
+                arguments[2], {std::atoi(arguments[4]), std::atoi(arguments[5]), std::atoi(arguments[6])},
+                static_cast<std::uint32_t>(std::atoi(arguments[3])));
         if (word.empty() || word.starts_with('-')) return fail_usage();
         return clearway::loop::work_on(word);
     };

@@ -29,6 +29,8 @@ else:
 
 #: Warm replications that an environment keeps; each is a process of about 80 MB.
 KEPT_WARM = 4
+#: Most ways that may be offered; as policy::most_agent_ways.
+MOST_WAYS = 8
 
 
 class Env(_Base):
@@ -40,6 +42,11 @@ class Env(_Base):
     2 outward, 3 inward; speed 0 none, 1 to 3 half, 0.8 and all of the allowed speed. ``action_mask`` of the observation says which
     are legal; others do nothing and are counted in ``info["illegal_actions"]``. Whether a legal one is carried out is judged as for
     every policy.
+
+    With ``ways`` from 1 to 8, the last number of an action chooses the EV's way: 0 keeps it, 1 to ``ways`` take that row of
+    ``ways`` in the observation: the best ways by the times that ``navigate`` believes with its default settings, the fastest first,
+    from the last turn that the EV can still make; one of them may be its present way. They are those of this step alone: the next
+    observation may have them in another order. A way that was taken stays.
 
     Observation: what is *believed* around the EV under the chosen faults and predictor, as arrays of fixed size with masks
     (``docs/guides/python.md`` lists their columns). Rows of ``vehicles`` are the 32 nearest; ``edges`` are their believed links.
@@ -54,20 +61,25 @@ class Env(_Base):
 
     def __init__(self, scenario: str | Path, *, seeds: Sequence[int] = range(4), study_seed: int = 1, policy: Part | Sequence[Part] = (),
                  failure: str = "perfect", predictor: Part = "none", set: Mapping[str, Any] | None = None, others_weight: float = 0.01,
-                 until: str = "emergency", render_mode: str | None = None, **options: Any) -> None:
+                 until: str = "emergency", render_mode: str | None = None, ways: int = 0, **options: Any) -> None:
         if until not in ("emergency", "end"):
             raise _program.InputError(f"until is {until!r} (allowed: emergency, end)")
         if render_mode not in (None, "ansi"):
             raise _program.InputError(f"render_mode is {render_mode!r} (allowed: None, ansi); `clearway run --gui` shows a run")
         if not (isinstance(others_weight, numbers.Real) and math.isfinite(others_weight) and others_weight >= 0.0):
             raise _program.InputError(f"others_weight is {others_weight!r} (allowed: a number of at least 0)")
+        if isinstance(ways, bool) or not isinstance(ways, (int, np.integer)) or not 0 <= ways <= MOST_WAYS:
+            raise _program.InputError(f"ways is {ways!r} (allowed: a whole number from 0 to {MOST_WAYS})")
         self.render_mode, self.others_weight, self.until = render_mode, float(others_weight), until
+        #: How many ways are offered.
+        self.ways = int(ways)
         self._seeds = checked_seeds(seeds)
         self._arguments = _arguments(scenario, study_seed, policy, failure, predictor, set or {}, options)
+        self._arguments += ["--ways", str(self.ways)] if ways else []
         #: Makes another environment like this one: ``env.spec.make()``.
         self.spec: Any = _spec.spec_of({"scenario": scenario, "seeds": self._seeds, "study_seed": study_seed, "policy": policy,
                                         "failure": failure, "predictor": predictor, "set": set, "others_weight": self.others_weight,
-                                        "until": until, "render_mode": render_mode, **options})
+                                        "until": until, "render_mode": render_mode, "ways": self.ways, **options})
         self._owner = os.getpid()
         self._folder = Path(tempfile.mkdtemp(prefix="clearway-env-"))
         self._finalizer = weakref.finalize(self, _remove, str(self._folder), self._owner)
@@ -84,18 +96,19 @@ class Env(_Base):
             raise
 
     def _describe(self, sizes: dict[str, Any]) -> None:
-        signals, links, automated = len(sizes["signals"]), sizes["links"], sizes["automated"]
+        signals, links, automated, ways = len(sizes["signals"]), sizes["links"], sizes["automated"], sizes["ways"]
         #: SUMO's names of the signals, in the order of actions.
         self.signal_ids: list[str] = [signal[0] for signal in sizes["signals"]]
-        self._choices = [1 + sizes["phases"]] * signals + [sizes["automated_choices"]] * automated
+        self._choices = [1 + sizes["phases"]] * signals + [sizes["automated_choices"]] * automated + ([1 + ways] if ways else [])
+        self._meaning = "one for each signal, then one for each automated vehicle" + (", then one for the way" if ways else "")
         self._nvec = np.array(self._choices, dtype=np.int64)
         self.action_space = _spaces.MultiDiscrete(self._choices)
         box = _spaces.Box
-        far = 1e5
+        far, farther = 1e5, 1e7  # a way behind queues takes long
         shapes = {"emergency": ((6,), far), "vehicles": ((sizes["vehicles"], 12), far), "vehicle_mask": ((sizes["vehicles"],), 1),
                   "edges": ((2, links), sizes["vehicles"]), "edge_features": ((links, 2), far), "edge_mask": ((links,), 1),
                   "signals": ((signals, 3), far), "signal_states": ((signals, sizes["signal_links"]), 3),
-                  "signal_phases": ((signals, sizes["phases"]), 1),
+                  "signal_phases": ((signals, sizes["phases"]), 1), "ways": ((ways, 3), farther), "way_mask": ((ways,), 1),
                   "action_mask": ((int(self._nvec.sum()),), 1)}
         kinds = {name: np.dtype(kind) for name, kind, _, _ in sizes["question"]}
         self._shapes = {name: shape for name, (shape, _) in shapes.items() if 0 not in shape}
@@ -185,7 +198,7 @@ class Env(_Base):
             actions = np.asarray(None)
         if actions.shape != self._nvec.shape or actions.dtype.kind not in "iu":
             raise _program.InputError(f"an action of shape {actions.shape} and type {actions.dtype} (allowed: {len(self._nvec)} whole "
-                                      "numbers, one for each signal, then one for each automated vehicle)")
+                                      f"numbers, {self._meaning})")
         values = actions.tolist()  # some numbers are compared sooner in Python than in numpy
         if any(map(operator.ge, values, self._choices)) or min(values) < 0:
             wrong = int(np.argmax((actions < 0) | (actions >= self._nvec)))

@@ -23,8 +23,9 @@ class ParallelEnv(_Base):
     """The environment of ``clearway.env`` with an agent for each part of its action.
 
     Agents are ``signal:ID`` and ``automated:0`` ... ``automated:7``, the places ahead of the emergency vehicle, nearest first: a place
-    without a vehicle has one legal action, 0. All live until the episode ends. Every agent sees what the single agent sees
-    (``observation``) with its own ``action_mask``, and gets the same reward.
+    without a vehicle has one legal action, 0. With ``ways`` there is one more agent, ``way``, that chooses the emergency vehicle's way.
+    All live until the episode ends. Every agent sees what the single agent sees (``observation``) with its own ``action_mask``, and
+    gets the same reward.
     """
 
     metadata = {"render_modes": ["ansi"], "name": "clearway_v0", "is_parallelizable": True, "render_fps": 2}
@@ -33,9 +34,10 @@ class ParallelEnv(_Base):
         self._env = Env(scenario, **arguments)
         self.render_mode = self._env.render_mode
         choices = self._env._choices
-        automated = len(choices) - len(self._env.signal_ids)
+        way = ["way"] if self._env.ways else []
+        automated = len(choices) - len(self._env.signal_ids) - len(way)
         self.possible_agents: list[str] = [f"signal:{name}" for name in self._env.signal_ids] + [
-            f"automated:{place}" for place in range(automated)]
+            f"automated:{place}" for place in range(automated)] + way
         self.agents: list[str] = []
         ends = np.cumsum(choices)
         self._choices = dict(zip(self.possible_agents, choices))

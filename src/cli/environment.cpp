@@ -27,6 +27,7 @@ struct Arguments {
     scenario::Options options;
     std::uint64_t seed = 1;
     std::uint32_t replication = 0;
+    std::uint32_t ways = 0;
     std::string folder;
     std::vector<int> channel;
 };
@@ -63,7 +64,7 @@ core::ExitCode serve(const Arguments& arguments, const Invocation& invocation) {
     core::make_folder(work);
     const std::filesystem::path file = work / "job.json";
     core::write_atomically(file, experiment::to_json(job));
-    std::vector<std::string> words = {"--episodes", file.string()};
+    std::vector<std::string> words = {"--episodes", file.string(), std::to_string(arguments.ways)};
     for (const int descriptor : arguments.channel)
         words.push_back(std::to_string(descriptor));
     campaign::become(campaign::sister_program("clearway-run"), words);
@@ -80,6 +81,8 @@ Action configure_environment(App& app) {
     }
     add_seed_option(app, arguments->seed);
     app.add_option("--replication", arguments->replication, "Which replication of that seed")
+        .option_text("N [0]");
+    app.add_option("--ways", arguments->ways, "How many ways of the emergency vehicle the agent is offered")
         .option_text("N [0]");
     app.add_option("--out", arguments->folder, "Folder for its network and files")
         .required()

@@ -87,7 +87,8 @@ std::string end_text(const results::RunRecord& record, const policy::AgentScore&
 
 /// Everything that the child of an episode does.
 [[noreturn]] void be_episode(UnitRun& run, const experiment::ConditionSpec& condition,
-                             const python::Channel& channel, const std::filesystem::path& folder) {
+                             const python::Channel& channel, const std::filesystem::path& folder,
+                             std::uint32_t ways) {
     const auto leave = [&](Bell bell) {
         std::error_code ignored;
         std::filesystem::remove_all(folder, ignored);
@@ -98,7 +99,7 @@ std::string end_text(const results::RunRecord& record, const policy::AgentScore&
         run.session().continue_in(folder);
         policy::AgentScore score;
         run.invite([&](const policy::PolicyContext& context) {
-            return std::make_unique<policy::Agent>(context, channel, score, leave);
+            return std::make_unique<policy::Agent>(context, channel, score, leave, ways);
         });
         ScoreListener listener(run.network(), run.emergency_count(), score);
         results::RunTiming timing;
@@ -115,7 +116,7 @@ std::string end_text(const results::RunRecord& record, const policy::AgentScore&
 
 /// Runs an episode in its own child. Returns whether the environment already wants the next one.
 bool fork_episode(UnitRun& run, const experiment::RunJob& job, const python::Channel& channel,
-                  const std::filesystem::path& folder) {
+                  const std::filesystem::path& folder, std::uint32_t ways) {
     std::fflush(nullptr);
     const pid_t child = fork();
     if (child < 0)
@@ -123,7 +124,7 @@ bool fork_episode(UnitRun& run, const experiment::RunJob& job, const python::Cha
             fmt::format("cannot fork for an episode: {}. {}", std::strerror(errno), core::cure_of(errno)));
     if (child == 0) {
         prctl(PR_SET_PDEATHSIG, SIGKILL);
-        be_episode(run, job.conditions.front(), channel, folder);
+        be_episode(run, job.conditions.front(), channel, folder, ways);
     }
     const WatchedEnd end = watch(child, job.limits);
     if (WIFEXITED(end.status) && WEXITSTATUS(end.status) == reset_wanted) return true;
@@ -138,19 +139,20 @@ bool fork_episode(UnitRun& run, const experiment::RunJob& job, const python::Cha
 
 }  // namespace
 
-core::ExitCode serve_episodes(const std::filesystem::path& job_file, const python::Descriptors& descriptors) {
+core::ExitCode serve_episodes(const std::filesystem::path& job_file, const python::Descriptors& descriptors,
+                              std::uint32_t ways) {
     const python::Channel channel(descriptors);
     try {
         const auto job = std::get<experiment::RunJob>(experiment::read_job(job_file));
         const std::filesystem::path work = job_file.parent_path();
         UnitRun run(job, work / "demand", work / "sumo");
         const ChildSignals signals;
-        channel.write_text(policy::agent_greeting(run.network()));
+        channel.write_text(policy::agent_greeting(run.network(), ways));
         channel.ring(Bell::hello);
         Bell bell{};
         bool wanted = false;
         for (std::uint64_t episode = 0; wanted || (channel.wait(bell) && bell == Bell::reset); ++episode)
-            wanted = fork_episode(run, job, channel, work / fmt::format("episode-{}", episode));
+            wanted = fork_episode(run, job, channel, work / fmt::format("episode-{}", episode), ways);
     } catch (const core::Error& error) {
         channel.write_text(error.what());
         channel.ring(Bell::failed);

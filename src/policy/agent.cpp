@@ -1,13 +1,16 @@
 #include "policy/agent.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "policy/detail/agent_sheet.hpp"
 #include "policy/detail/belief_sheet.hpp"
+#include "policy/navigate.hpp"
 
 namespace clearway::policy {
 namespace {
@@ -37,8 +40,12 @@ std::vector<std::uint16_t> common(const std::vector<std::uint16_t>& left,
 
 }  // namespace
 
-AgentSizes agent_sizes(const roads::Network& network) {
+AgentSizes agent_sizes(const roads::Network& network, std::uint32_t ways) {
+    if (ways > most_agent_ways)
+        throw core::InputError(
+            {"ways", fmt::format("is {}", ways), fmt::format("0 to {}", most_agent_ways), ""});
     AgentSizes sizes;
+    sizes.ways = ways;
     sizes.signals = static_cast<std::uint32_t>(network.signals().size());
     for (const roads::Signal& signal : network.signals()) {
         sizes.phases =
@@ -48,9 +55,9 @@ AgentSizes agent_sizes(const roads::Network& network) {
     return sizes;
 }
 
-std::string agent_greeting(const roads::Network& network) {
+std::string agent_greeting(const roads::Network& network, std::uint32_t ways) {
     using Json = nlohmann::ordered_json;
-    const AgentSizes sizes = agent_sizes(network);
+    const AgentSizes sizes = agent_sizes(network, ways);
     Json signals = Json::array();
     for (const roads::Signal& signal : network.signals())
         signals.push_back({signal.id, detail::green_phases(signal).size()});
@@ -62,20 +69,23 @@ std::string agent_greeting(const roads::Network& network) {
                 {"automated_choices", detail::automated_choices},
                 {"signals", signals},
                 {"phases", sizes.phases},
-                {"signal_links", sizes.signal_links}}
+                {"signal_links", sizes.signal_links},
+                {"ways", sizes.ways}}
         .dump();
 }
 
 struct Agent::State {
     State(const PolicyContext& run, const python::Channel& shared, AgentScore& kept,
-          std::function<void(python::Bell)> leave)
+          std::function<void(python::Bell)> leave, std::uint32_t ways_offered)
         : context(run),
           channel(shared),
           score(kept),
           left(std::move(leave)),
-          sizes(agent_sizes(run.network)),
+          sizes(agent_sizes(run.network, ways_offered)),
           question{shared.outgoing(), detail::agent_columns()},
-          answer{shared.incoming(), detail::agent_answer_columns()} {}
+          answer{shared.incoming(), detail::agent_answer_columns()} {
+        if (ways_offered > 0) ways.emplace(run, NavigateConfig{});
+    }
 
     PolicyContext context;
     const python::Channel& channel;
@@ -83,6 +93,7 @@ struct Agent::State {
     std::function<void(python::Bell)> left;
     AgentSizes sizes;
     python::Sheet question, answer;
+    std::optional<detail::BelievedWays> ways;  ///< Nothing where none are offered.
     std::vector<std::uint8_t> mask;
     std::uint32_t illegal = 0;
     detail::AgentScene scene;
@@ -98,6 +109,7 @@ struct Agent::State {
                 scene.automated.size() < sizes.automated)
                 scene.automated.push_back(one.vehicle);
         }
+        if (ways) scene.ways = ways->offers(view, *scene.emergency, sizes.ways);
     }
     void ask(const detail::View& view) {
         question.clear();
@@ -158,16 +170,23 @@ struct Agent::State {
                           agent_reason, scene.emergency->key);
         }
     }
+    void answer_way(std::int32_t answered, detail::LeaseWriter& write) {
+        const std::uint32_t action = chosen(answered, mask.size() - (1 + sizes.ways), 1 + sizes.ways);
+        if (action == 0) return;
+        write.add(scene.emergency->key, traffic::TakeRoute{scene.ways[action - 1].edges}, agent_reason,
+                  scene.emergency->key);
+    }
 };
 
 Agent::Agent(const PolicyContext& context, const python::Channel& channel, AgentScore& score,
-             std::function<void(python::Bell)> left)
-    : state_(std::make_unique<State>(context, channel, score, std::move(left))) {}
+             std::function<void(python::Bell)> left, std::uint32_t ways)
+    : state_(std::make_unique<State>(context, channel, score, std::move(left), ways)) {}
 
 Agent::~Agent() = default;
 
 void Agent::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     State& state = *state_;
+    if (state.ways) state.ways->see(belief);
     if (!state.score.any_departed) {
         state.score = {};
         return;
@@ -177,12 +196,14 @@ void Agent::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease
     state.look(view, emergency);
     state.ask(view);
     const std::span<const std::int32_t> actions = state.answer.read<std::int32_t>(0);
-    if (actions.size() != state.sizes.signals + state.sizes.automated)
-        throw python::PartError(fmt::format("an environment answered {} actions instead of {}",
-                                            actions.size(), state.sizes.signals + state.sizes.automated));
+    const std::size_t wanted = state.sizes.signals + state.sizes.automated + (state.ways ? 1 : 0);
+    if (actions.size() != wanted)
+        throw python::PartError(
+            fmt::format("an environment answered {} actions instead of {}", actions.size(), wanted));
     detail::LeaseWriter write("agent", state.context.period, belief.time, leases);
     state.answer_signals(actions, write);
     state.answer_automated(view, actions, write);
+    if (state.ways) state.answer_way(actions.back(), write);
 }
 
 }  // namespace clearway::policy

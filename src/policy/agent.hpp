@@ -30,19 +30,24 @@ struct AgentSizes {
     std::uint32_t signals = 0;       ///< All of the network.
     std::uint32_t phases = 0;        ///< Most green phases of a signal.
     std::uint32_t signal_links = 0;  ///< Most links of a signal.
+    std::uint32_t ways = 0;          ///< From which the emergency vehicle's way may be chosen.
 };
-AgentSizes agent_sizes(const roads::Network& network);
+/// Most ways that an agent may be offered.
+inline constexpr std::uint32_t most_agent_ways = 8;
+/// Throws core::InputError for more ways than that.
+AgentSizes agent_sizes(const roads::Network& network, std::uint32_t ways = 0);
 
 /// Sheets, sizes and names, as an environment gets them once: JSON.
-std::string agent_greeting(const roads::Network& network);
+std::string agent_greeting(const roads::Network& network, std::uint32_t ways = 0);
 
 /// The policy whose mind is an environment in another process: it hands over what is believed around the
 /// first emergency vehicle as arrays of fixed size, waits, and makes leases of the answer. Actions:
 ///
 /// - for each signal 0 (leave it to its plan) or 1 + p: hold the p-th green phase of its program;
 /// - for each automated vehicle `lane + 4 * speed`: lane 0 none, 1 hold, 2 outward, 3 inward; speed 0 none,
-/// or
-///   1 to 3: half, 0.8 and all of what it is allowed.
+///   or 1 to 3: half, 0.8 and all of what it is allowed;
+/// - where `ways` are offered, for the emergency vehicle 0 (keep its way) or the number of one of the ways
+///   that are fastest by the times that `navigate` believes by default, from the last turn that it can make.
 ///
 /// Illegal actions (`action_mask` 0) make no lease and are counted in the next sheet.
 class Agent : public Policy {
@@ -50,7 +55,7 @@ class Agent : public Policy {
     /// Both outlive the policy. Before the first emergency vehicle enters, nobody is asked. `left` is called
     /// when the environment does not want to go on: it must not return.
     Agent(const PolicyContext& context, const python::Channel& channel, AgentScore& score,
-          std::function<void(python::Bell)> left);
+          std::function<void(python::Bell)> left, std::uint32_t ways = 0);
     ~Agent() override;
 
     std::string_view name() const override { return "agent"; }

@@ -158,6 +158,8 @@ class InterfaceTest(FolderCase):
                                 ({"variant": "thick"}, "allowed: standard, dense"), ({"variant": True}, "variant: \"True\""),
                                 ({"step_length_s": None}, "step_length_s: \"None\""), ({"density": True}, "density: \"True\""),
                                 ({"horizon_s": float("nan")}, "horizon"), ({"step_length_s": 7}, "7"),
+                                ({"ways": 9}, "ways is 9 (allowed: a whole number from 0 to 8)"), ({"ways": -1}, "ways is -1"),
+                                ({"ways": True}, "ways is True"), ({"ways": 2.5}, "ways is 2.5"), ({"ways": "2"}, "ways is '2'"),
                                 ({"seeds": 4}, "seeds are 4"), ({"seeds": None}, "seeds are None"), ({"policy": 3}, "is 3"),
                                 ({"set": ["a"]}, "set is ['a']"), ({"replication": 3}, "replication: is unknown")):
             self.assertIn(says, self.message_of(clearway.InputError, lambda: clearway.env("intersection", **arguments)))
@@ -173,7 +175,8 @@ class EqualRunTest(FolderCase):
     def test_an_episode_under_a_policy_is_the_run_of_that_condition(self) -> None:
         results = clearway.run("intersection", [clearway.Condition("faulty", policy="corridor", failure="B10",
                                                                    predictor="dead_reckoning"), "corridor"], seeds=2, out="runs")
-        for name, part in (("corridor", {}), ("faulty", {"failure": "B10", "predictor": "dead_reckoning"})):
+        # Ways that nobody takes change nothing.
+        for name, part in (("corridor", {}), ("faulty", {"failure": "B10", "predictor": "dead_reckoning", "ways": 8})):
             run = results.runs.where(condition=name, replication=1)
             with clearway.env("intersection", policy="corridor", seeds=[1], until="end", **part) as env:
                 env.reset()
@@ -203,6 +206,101 @@ class EqualRunTest(FolderCase):
         with clearway.env("intersection", policy="corridor", seeds=[0], until="end", variant="standard") as env:
             env.reset()
             self.assertNotEqual(finish(env)["trace_hash"], run["trace_hash"][0])
+
+
+class WaysTest(FolderCase):
+    """The way of the emergency vehicle as the last part of an action."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.env = clearway.env("grid_signals", seeds=[0], ways=3, until="end")
+        cls.addClassCleanup(cls.env.close)
+
+    def choice(self, row: int, env: clearway.Env | None = None) -> np.ndarray:
+        """An action that takes a row of the ways."""
+        action = no_action(env or self.env)
+        action[-1] = 1 + row
+        return action
+
+    def test_spaces_have_them_only_where_they_are_wanted(self) -> None:
+        with clearway.env("grid_signals", seeds=[0]) as without:
+            self.assertEqual(self.env.action_space.nvec.tolist(), [*without.action_space.nvec.tolist(), 4])
+            usual, _ = without.reset(seed=0)
+            observation, _ = self.env.reset(seed=0)
+            self.assertIn(observation, self.env.observation_space)
+            self.assertEqual(observation.keys() - usual.keys(), {"ways", "way_mask"})
+            for name, array in usual.items():
+                np.testing.assert_array_equal(observation[name][:len(array)], array)
+        self.assertEqual((observation["ways"].shape, observation["ways"].dtype), ((3, 3), np.float32))
+        self.assertEqual((observation["way_mask"].shape, observation["way_mask"].dtype), ((3,), np.uint8))
+        self.assertEqual(self.env.action_masks()[-1].tolist(), [1, *observation["way_mask"]])
+        self.assertIn("then one for the way", self.message_of(clearway.InputError, lambda: self.env.step(np.zeros(3, int))))
+
+    def test_they_are_fastest_first_and_one_that_is_chosen_is_taken(self) -> None:
+        observation, _ = self.env.reset(seed=0)
+        there = observation["way_mask"].astype(bool)
+        times_s, lengths_m, shares = observation["ways"][there].T
+        self.assertGreater(len(times_s), 1)
+        self.assertTrue((np.diff(times_s) >= 0.0).all() and (times_s > 0.0).all() and (lengths_m > 0.0).all())
+        self.assertTrue(((shares > 0.0) & (shares <= 1.0)).all())
+        row = int(np.argmin(shares))
+        self.assertLess(shares[row], 1.0)
+        observation, _, _, _, info = self.env.step(self.choice(row))
+        self.assertEqual(info["illegal_actions"], 0)
+        (present,) = np.flatnonzero(observation["ways"][:, 2] == 1.0)
+        self.assertAlmostEqual(observation["ways"][present, 1], lengths_m[row], delta=20.0)  # it was driven on meanwhile
+        self.assertGreater(abs(lengths_m[shares == 1.0] - lengths_m[row]), 100.0, "not the way that it had")
+        metrics = finish(self.env)["metrics"]
+        self.assertEqual((metrics["leases_issued"], metrics["leases_refused"]), (1, 0))
+
+    def test_the_same_choices_are_the_same_episode_to_the_bit(self) -> None:
+        episodes = []
+        for _ in range(2):
+            rng, seen = np.random.default_rng(5), [self.env.reset(seed=0)[0]]
+            for _ in range(60):
+                mask = self.env.action_masks()[-1]
+                seen.append(self.env.step(self.choice(int(rng.choice(np.flatnonzero(mask))) - 1))[0])
+            episodes.append((seen, finish(self.env)["trace_hash"]))
+        for left, right in zip(*(seen for seen, _ in episodes)):
+            for name in left:
+                np.testing.assert_array_equal(left[name], right[name])
+        self.assertEqual(episodes[0][1], episodes[1][1])
+        self.env.reset(seed=0)
+        self.assertNotEqual(finish(self.env)["trace_hash"], episodes[0][1], "other ways were driven")
+
+    def test_one_that_is_not_there_does_nothing_and_is_counted(self) -> None:
+        with clearway.env("merge", seeds=[0], ways=8) as env:
+            observation, _ = env.reset()
+            self.assertFalse(observation["way_mask"][-1], "a motorway has few ways")
+            self.assertEqual(env.step(self.choice(7, env))[4]["illegal_actions"], 1)
+            self.assertEqual(env.step(no_action(env))[4]["illegal_actions"], 0)
+
+    def test_many_at_a_time_and_an_agent_of_its_own_have_them(self) -> None:
+        with clearway.vector_env("grid_signals", 2, seeds=[0, 1], ways=3) as both:
+            actions = np.zeros(both.action_space.shape, dtype=np.int64)
+            actions[:, -1] = 1
+            observations, _ = both.reset()
+            self.assertIn(observations, both.observation_space)
+            expected, _ = self.env.reset(seed=0)
+            for _ in range(5):
+                for name, array in expected.items():
+                    np.testing.assert_array_equal(observations[name][0], array)
+                observations, _, _, _, infos = both.step(actions)
+                expected, _, _, _, info = self.env.step(actions[0])
+                self.assertEqual(infos["illegal_actions"][0], info["illegal_actions"])
+        with clearway.parallel_env("grid_signals", seeds=[0], ways=3) as agents:
+            observations, _ = agents.reset()
+            expected, _ = self.env.reset(seed=0)
+            self.assertEqual(agents.possible_agents[-2:], ["automated:7", "way"])
+            self.assertEqual(agents.action_space("way").n, 4)
+            for _ in range(5):
+                self.assertIn(observations["way"], agents.observation_space("way"))
+                self.assertEqual(observations["way"]["action_mask"].tolist(), [1, *expected["way_mask"]])
+                np.testing.assert_array_equal(observations["way"]["observation"]["ways"], expected["ways"])
+                observations, _, _, _, infos = agents.step({"way": 1})
+                expected, _, _, _, info = self.env.step(actions[0])
+                self.assertEqual(infos["way"]["illegal_actions"], info["illegal_actions"])
+            self.assertIn("the action of way is 4", self.message_of(clearway.InputError, lambda: agents.step({"way": 4})))
 
 
 class EndTest(FolderCase):

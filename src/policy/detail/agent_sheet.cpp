@@ -25,6 +25,8 @@ enum Number : std::size_t {
     signals,
     signal_states,
     signal_phases,
+    ways,
+    way_mask,
     action_mask,
     agents,
     count,
@@ -49,15 +51,20 @@ constexpr std::array<python::Column, agent_column::count> agent_sheet_columns = 
      "Ahead on the EV's route, m to the stop line or 300, share of its own links that are green"},
     {"signal_states", "u1", "", "Of each link: 0 none or not known, 1 red, 2 yellow, 3 green"},
     {"signal_phases", "f4", "1", "Of each green phase: share of the EV's own links that it serves"},
-    {"action_mask", "u1", "1", "1: legal; signals, then automated vehicles"},
+    {"ways", "f4", "",
+     "Ways that the EV could take, the fastest first: believed time to the destination s, length m, share of "
+     "the length in common with the present way"},
+    {"way_mask", "u1", "1", "1: the row is a way"},
+    {"action_mask", "u1", "1", "1: legal; signals, automated vehicles, the way"},
     {"agents", "u8", "", "Keys of the automated vehicles that take actions; 0: none"},
 }};
 
 constexpr std::array<python::Column, 1> answers = {{
-    {"actions", "i4", "", "One for each signal, then one for each automated vehicle"},
+    {"actions", "i4", "", "One for each signal, then one for each automated vehicle, then one for the way"},
 }};
 
 constexpr std::size_t vehicle_width = 12;
+constexpr std::size_t way_width = 3;
 
 std::uint8_t colour(char letter) {
     if (traffic::is_green(letter)) return 3;
@@ -190,10 +197,25 @@ void write_signals(const View& view, const AgentScene& scene, const AgentSizes& 
     }
 }
 
+void write_ways(const AgentScene& scene, const AgentSizes& sizes, Sheet& sheet) {
+    const auto target = zeros<float>(sheet, agent_column::ways, way_width * sizes.ways);
+    const auto mask = zeros<std::uint8_t>(sheet, agent_column::way_mask, sizes.ways);
+    for (std::size_t at = 0; at < scene.ways.size(); ++at) {
+        const OfferedWay& way = scene.ways[at];
+        target[way_width * at] = static_cast<float>(way.time_s);
+        target[way_width * at + 1] = static_cast<float>(way.length_m);
+        target[way_width * at + 2] = static_cast<float>(way.common_share);
+        mask[at] = 1;
+    }
+}
+
 void write_masks(const View& view, const AgentScene& scene, const AgentSizes& sizes, Sheet& sheet,
                  std::vector<std::uint8_t>& mask) {
     const std::size_t signal_choices = 1 + sizes.phases;
-    mask.assign(sizes.signals * signal_choices + std::size_t{sizes.automated} * automated_choices, 0);
+    const std::size_t way_first =
+        sizes.signals * signal_choices + std::size_t{sizes.automated} * automated_choices;
+    mask.assign(way_first + (sizes.ways > 0 ? 1 + sizes.ways : 0), 0);
+    if (sizes.ways > 0) std::fill_n(&mask[way_first], 1 + scene.ways.size(), std::uint8_t{1});
     for (std::size_t signal = 0; signal < sizes.signals; ++signal)
         mask[signal * signal_choices] = 1;
     for (const Approach& approach : scene.approaches) {
@@ -242,6 +264,7 @@ void write_agent_sheet(const View& view, const AgentScene& scene, const AgentSiz
     write_emergency(view, scene, sheet);
     write_vehicles(view, scene, sizes, sheet);
     write_signals(view, scene, sizes, sheet);
+    write_ways(scene, sizes, sheet);
     write_masks(view, scene, sizes, sheet, mask);
 }
 

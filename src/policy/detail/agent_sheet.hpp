@@ -5,6 +5,7 @@
 
 #include "policy/agent.hpp"
 #include "policy/detail/approach.hpp"
+#include "policy/detail/believed_ways.hpp"
 #include "policy/detail/view.hpp"
 #include "python/sheet.hpp"
 
@@ -27,9 +28,11 @@ struct AgentScene {
     std::vector<Approach> approaches;                        ///< Of that vehicle, nearest first.
     std::vector<const traffic::BelievedVehicle*> automated;  ///< Ahead of it, nearest first.
     std::vector<VehicleAhead> ahead;
+    std::vector<OfferedWay> ways;  ///< That it could take, the fastest first.
 };
 
-/// Writes all arrays but the score, and `mask`: 1 for each legal action, signals first.
+/// Writes all arrays but the score, and `mask`: 1 for each legal action: signals, automated vehicles, the
+/// way.
 void write_agent_sheet(const View& view, const AgentScene& scene, const AgentSizes& sizes,
                        python::Sheet& sheet, std::vector<std::uint8_t>& mask);
 
