@@ -2,58 +2,59 @@
 
 // A policy of your own: automated vehicles close behind an emergency vehicle drop back. See README.md.
 
+#include <algorithm>
 #include <tuple>
 
-#include "core/fields.hpp"
-#include "policy/policy.hpp"
+#include "policy/ask.hpp"
+#include "policy/configured_policy.hpp"
+#include "policy/detail/cooperation.hpp"
+#include "policy/detail/view.hpp"
 
 namespace clearway::policy {
 
 /// Settings of KeepDistance.
-struct KeepDistanceConfig {
+struct KeepDistanceConfig : AskSettings {
     double reach_m = 20.0;
+    double speed_share = 0.8;
+    double lease_s = 2.0;
 
     static constexpr auto fields() {
         using C = KeepDistanceConfig;
-        return std::make_tuple(core::Field{"reach_m", "m", &C::reach_m, 1.0, 200.0,
-                                           "Followers within this distance drop back",
-                                           "assumed: two seconds at 10 m/s"});
+        using core::Field;
+        const auto own = std::make_tuple(
+            Field{"reach_m", "m", &C::reach_m, 1.0, 200.0, "Followers within this distance drop back",
+                  "assumed: two seconds at 10 m/s"},
+            Field{"speed_share", "1", &C::speed_share, 0.1, 1.0,
+                  "They drive at this share of the emergency vehicle's speed", "as gap_factor of clear_lane"},
+            detail::lifetime_field<C>());
+        return std::tuple_cat(own, AskSettings::fields());
     }
 };
 
-class KeepDistance : public Policy {
+/// Vehicles that follow an emergency vehicle closely on its lane drop back.
+class KeepDistance : public ConfiguredPolicy<KeepDistanceConfig> {
   public:
-    explicit KeepDistance(const PolicyContext&, const KeepDistanceConfig& config = {}) : config_(config) {}
+    using ConfiguredPolicy::ConfiguredPolicy;
 
     std::string_view name() const override { return "keep_distance"; }
 
     void act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) override {
-        for (core::VehicleIndex row = 0; row < belief.vehicles.size(); ++row) {
-            const traffic::BelievedVehicle& emergency = belief.vehicles[row];
-            if (emergency.vehicle_class != traffic::VehicleClass::emergency) continue;
-            for (const traffic::BelievedLink& link : belief.links_of(row)) {
-                ask(emergency, belief.vehicles[link.neighbour], belief.time, leases);
+        const detail::View view(context_.network, belief);
+        detail::LeaseWriter write("keep_distance", context_.period, belief.time, leases, config_.lease_s);
+        for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
+            const Audience audience(belief, emergency.key, config_);
+            const core::Metres reach(config_.reach_m);
+            for (const detail::VehicleAhead& behind : view.vehicles_behind(emergency, reach)) {
+                const traffic::BelievedVehicle& follower = *behind.vehicle;
+                if (follower.state.lane != emergency.state.lane || !audience.has(follower)) continue;
+                // An emergency vehicle may drive faster than its followers are allowed to.
+                const double speed_mps = std::min(config_.speed_share * emergency.state.speed_mps,
+                                                  view.allowed_speed(follower).value);
+                write.add(follower.key, traffic::DriveAt{core::MetresPerSecond(speed_mps)},
+                          "close behind an emergency vehicle", emergency.key);
             }
         }
     }
-
-  private:
-    void ask(const traffic::BelievedVehicle& emergency, const traffic::BelievedVehicle& follower,
-             core::Seconds now, std::vector<traffic::Lease>& leases) const {
-        const float behind_m = emergency.state.lane_position_m - follower.state.lane_position_m;
-        if (follower.vehicle_class != traffic::VehicleClass::automated) return;
-        if (follower.state.lane != emergency.state.lane || behind_m <= 0.0F || behind_m > config_.reach_m) return;
-        traffic::Lease lease;
-        lease.target = follower.key;
-        lease.action = traffic::DriveAt{core::MetresPerSecond(0.8 * emergency.state.speed_mps)};
-        lease.expiry = now + core::Seconds(2.0);  // It ends by itself: nothing to release.
-        lease.policy = "keep_distance";
-        lease.reason = "close behind an emergency vehicle";
-        lease.beneficiary = emergency.key;
-        leases.push_back(lease);
-    }
-
-    KeepDistanceConfig config_;
 };
 
 }  // namespace clearway::policy

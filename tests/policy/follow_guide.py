@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Follows the steps of examples/02_own_policy/README.md on copies: `follow_guide.py SOURCE OUT` writes OUT/policy/keep_distance.hpp,
-OUT/registry.cpp and OUT/conformance.cpp with the lines that the page tells to add."""
+OUT/registry.cpp and OUT/conformance.cpp with the lines that the page tells to add. Where SOURCE has followed a step already,
+its own files stay as they are."""
 import re
 import sys
 from pathlib import Path
@@ -14,8 +15,10 @@ def told(page: str, begin: str) -> str:
     return found.group()
 
 
-def added(text: str, lines: str, before: str) -> str:
-    """The text with lines before the first one that begins so."""
+def added(text: str, lines: str, before: str, followed: str) -> str:
+    """The text with lines before the first one that begins so; as it is, where it has `followed`."""
+    if followed in text:
+        return text
     place = re.search(rf"^ *{re.escape(before)}", text, re.MULTILINE)
     if place is None:
         sys.exit(f"follow_guide: no line begins with: {before}")
@@ -27,12 +30,15 @@ def main() -> None:
     example = source / "examples" / "02_own_policy"
     page = (example / "README.md").read_text()
     registry = (source / "src" / "policy" / "registry.cpp").read_text()
-    registry = added(registry, told(page, "#include").strip() + "\n", '#include "policy/listing_5_5.hpp"')
-    registry = added(registry, told(page, "entry<"), "entry<Listing55")
+    include = told(page, "#include").strip() + "\n"
+    registry = added(registry, include, '#include "policy/listing_5_5.hpp"', include)
+    registry = added(registry, told(page, "entry<"), "entry<Listing55", "entry<KeepDistance")
     conformance = (source / "tests" / "policy" / "conformance.cpp").read_text()
-    conformance = added(conformance, told(page, "add("), 'add("h1"')
+    conformance = added(conformance, told(page, "add("), 'add("h1"', 'add("a5"')
+    own = source / "src" / "policy" / "keep_distance.hpp"
+    header = own if own.exists() else example / "keep_distance.hpp"
     (out / "policy").mkdir(parents=True, exist_ok=True)
-    (out / "policy" / "keep_distance.hpp").write_text((example / "keep_distance.hpp").read_text())
+    (out / "policy" / "keep_distance.hpp").write_text(header.read_text())
     (out / "registry.cpp").write_text(registry)
     (out / "conformance.cpp").write_text(conformance)
 

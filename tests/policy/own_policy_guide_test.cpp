@@ -9,8 +9,8 @@
 namespace clearway::testing {
 namespace {
 
-TEST(OwnPolicyGuide, the_policy_is_there_with_its_setting_and_reads_links) {
-    ASSERT_TRUE(policy::policies().is("keep_distance", traffic::Trait::reads_links));
+TEST(OwnPolicyGuide, the_policy_is_there_with_its_setting_and_renews_requests) {
+    ASSERT_TRUE(policy::policies().is("keep_distance", traffic::Trait::renews_requests));
     const policy::PolicyContext context{two_crossings()};
     EXPECT_EQ(policy::make_policy("keep_distance", context, {{"keep_distance.reach_m", "30"}})->name(),
               "keep_distance");

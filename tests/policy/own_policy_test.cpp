@@ -27,9 +27,35 @@ TEST(OwnPolicyExample, asks_within_its_setting) {
         10 m per cell, limit 20 m/s, speed 10 m/s
         a...a.e.a..........
     )");
-    policy::KeepDistance policy({road.scene.network()}, {.reach_m = 19.0});
+    policy::KeepDistanceConfig config;
+    config.reach_m = 19.0;
+    policy::KeepDistance policy({road.scene.network()}, config);
     road.act(policy);
     EXPECT_FALSE(road.asked_speed("a2"));
+}
+
+TEST(OwnPolicyExample, asks_for_no_more_than_the_follower_may_drive) {
+    StraightRoad road(R"(
+        10 m per cell, limit 20 m/s, speed 10 m/s
+        a...a.e.a..........
+    )");
+    road.scene.set_speed("e1", core::MetresPerSecond(30.0));
+    policy::KeepDistance policy({road.scene.network()});
+    road.act(policy);
+    EXPECT_NEAR(road.asked_speed("a2").value(), 20.0, 1e-5);
+}
+
+TEST(OwnPolicyExample, asks_drivers_only_when_it_is_told_to) {
+    StraightRoad road(R"(
+        10 m per cell, limit 20 m/s, speed 10 m/s
+        ....h.e............
+    )");
+    policy::KeepDistanceConfig config;
+    policy::KeepDistance usual({road.scene.network()}, config);
+    EXPECT_TRUE(road.act(usual).empty());
+    config.ask_humans = 1;
+    policy::KeepDistance drivers_too({road.scene.network()}, config);
+    EXPECT_EQ(road.act(drivers_too).size(), 1U);
 }
 
 }  // namespace

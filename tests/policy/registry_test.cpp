@@ -23,12 +23,15 @@ TEST(PolicyRegistry, names_the_nearest_policy_for_one_it_does_not_know) {
 TEST(PolicyRegistry, has_unique_names_and_a_summary_of_one_line_each) {
     std::vector<std::string> names;
     for (const policy::PolicyEntry& entry : policy::policies()) {
-        EXPECT_EQ(entry.summary.find('\n'), std::string::npos);
-        EXPECT_FALSE(entry.summary.empty());
+        EXPECT_EQ(entry.summary.find('\n'), std::string::npos)
+            << entry.name << ": clearway list shows one line: shorten its summary (src/policy/registry.cpp)";
+        EXPECT_FALSE(entry.summary.empty())
+            << entry.name << ": say what it does in its entry of src/policy/registry.cpp";
         names.push_back(entry.name);
     }
     std::ranges::sort(names);
-    EXPECT_EQ(std::ranges::adjacent_find(names), names.end());
+    const auto twice = std::ranges::adjacent_find(names);
+    EXPECT_EQ(twice, names.end()) << *twice << " has two entries in src/policy/registry.cpp: rename one";
 }
 
 TEST(PolicyRegistry, says_of_every_policy_that_may_ask_drivers_that_it_renews_its_requests) {
@@ -37,8 +40,14 @@ TEST(PolicyRegistry, says_of_every_policy_that_may_ask_drivers_that_it_renews_it
             return std::ranges::find(entry.table.rows, field, &core::SettingInfo::name) !=
                    entry.table.rows.end();
         };
-        EXPECT_TRUE(!has("ask_humans") || entry.is(traffic::Trait::renews_requests)) << entry.name;
-        EXPECT_TRUE(!entry.is(traffic::Trait::renews_requests) || has("lease_s")) << entry.name;
+        const bool renews = entry.is(traffic::Trait::renews_requests);
+        if (has("ask_humans") && !renews)
+            ADD_FAILURE() << entry.name << " may ask drivers (AskSettings), whose answer takes longer than a "
+                          << "decision: add Trait::renews_requests to its entry in src/policy/registry.cpp";
+        if (renews && !has("lease_s"))
+            ADD_FAILURE()
+                << entry.name << " has Trait::renews_requests: add a setting lease_s to its config by "
+                << "detail::lifetime_field (policy/detail/cooperation.hpp), and pass it to LeaseWriter";
     }
 }
 
