@@ -371,6 +371,37 @@ class Counts(Tree):
         done = run(COUNT, "--root", self.root, "--check")
         self.assertEqual(done.returncode, 1)
         self.assertIn("101 words are more than 100", done.stderr)
+        self.assertRegex(done.stderr, r"(?m)^ +101 docs/findings/a.md$")
+
+    def test_a_row_more_is_allowed_by_the_line_that_is_printed(self):
+        table = "| name | what |\n|---|---|\n" + "| one | word |\n" * 49
+        self.counted(f"# A\n\n{table}\nText.\n\n| b |\n|---|\n")
+        done = run(COUNT, "--root", self.root, "--check")
+        self.assertIn("101 table_words are more than 100", done.stderr)
+        self.assertRegex(done.stderr, r"(?m)^ +100 docs/findings/a.md:3$")
+        limits = self.root / "tests/docs/limits_of_docs.txt"
+        line = re.search(r"(?m)^    (table_words \+1 .*)$", done.stderr)[1]
+        limits.write_text(limits.read_text() + line.replace("REASON", "a row for b") + "\n")
+        done = run(COUNT, "--root", self.root, "--check")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("101 table_words, of at most 101", done.stdout)
+
+    def test_limits_that_a_reason_does_not_raise(self):
+        self.counted("text\n")
+        limits = self.root / "tests/docs/limits_of_docs.txt"
+        limits.write_text(limits.read_text() + "numbers +1 2026-11-27: it looks better\n")
+        self.assertIn("numbers cannot be raised", run(COUNT, "--root", self.root, "--check").stderr)
+
+    def test_a_reader_that_stops_ends_the_list(self):
+        self.counted("text\n")
+        for number in range(3000):  # more than a pipe holds
+            (self.root / f"docs/{number}.md").write_text("text\n", encoding="utf-8")
+        counting = subprocess.Popen([sys.executable, COUNT, "--root", self.root], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        counting.stdout.readline()
+        counting.stdout.close()
+        self.assertEqual(counting.stderr.read(), "")
+        counting.stderr.close()
+        counting.wait()
 
 
 if __name__ == "__main__":

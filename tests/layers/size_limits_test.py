@@ -1,0 +1,103 @@
+"""Tests of scripts/count-house --check and of what scripts/count-docs shares with it, in small trees."""
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+LIMIT = "tests/layers/lines_of_src.txt"
+
+
+class House(unittest.TestCase):
+    """A tree of one module with three lines of code, which are allowed, and one test."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        for script in ("count-house", "size_limits.py"):
+            self.write(f"scripts/{script}", (ROOT / "scripts" / script).read_text())
+        self.write("src/core/a.cpp", "int a() {\n    return 1;  // no blank lines\n\n    // comments alone\n}\n")
+        self.write("src/core/CMakeLists.txt", "clearway_module(core)\n")
+        self.write("tests/core/a_test.cpp", "")
+        self.write("tests/core/CMakeLists.txt", "clearway_test(core_test SOURCES a_test.cpp USES core)\n")
+        self.write(LIMIT, "# why\n3\n")
+
+    def write(self, file, text):
+        (self.root / file).parent.mkdir(parents=True, exist_ok=True)
+        (self.root / file).write_text(text)
+
+    def check(self):
+        done = subprocess.run([sys.executable, self.root / "scripts/count-house", "--check"], capture_output=True, text=True, check=False)
+        return done.returncode, done.stdout + done.stderr
+
+    def refused(self, *words):
+        code, said = self.check()
+        self.assertEqual(code, 1, said)
+        for word in words:
+            self.assertIn(word, said)
+        return said
+
+    def test_a_tree_within_its_limit_passes(self):
+        self.assertEqual(self.check(), (0, ""))
+
+    def test_the_line_that_is_printed_allows_more_once_it_has_a_reason(self):
+        self.write("src/core/b.cpp", "int b() {\n    return 2;\n}\n")
+        line = re.search(r"(?m)^    (\+3 .*)$", self.refused("src has 6 lines of code, more than the 3 of " + LIMIT))[1]
+        self.write(LIMIT, f"3\n{line}\n")
+        self.refused(f"{LIMIT}:2: ", "write why in place of REASON")
+        self.write(LIMIT, f"3\n{line.replace('REASON', 'b is two')}\n")
+        self.assertEqual(self.check(), (0, ""))
+
+    def test_lines_of_two_branches_add_up(self):
+        self.write("src/core/b.cpp", "int b() {\n    return 2;\n}\n")
+        self.write(LIMIT, "3\n+1 2026-11-27: one branch\n+2 2026-11-28: another\n")
+        self.assertEqual(self.check(), (0, ""))
+
+    def test_what_is_no_limit_is_refused(self):
+        for text, what in (("3\n4\n", "a second limit, beside 3"), ("3\nfour\n", "neither a comment, nor a limit"),
+                           ("3\n+1\n", "neither a comment, nor a limit"), ("3\nwords +1 2026-11-27: why\n", "no line above has"),
+                           ("# none\n", "no number")):
+            self.write(LIMIT, text)
+            self.refused(what)
+
+    def test_a_test_that_no_list_names_is_found(self):
+        self.write("tests/core/core_test.cpp", "")  # is the name of the program
+        self.write("tests/core/deep/b_test.cpp", "")
+        self.write("tests/core/CMakeLists.txt", "# deep/b_test.cpp\nclearway_test(core_test SOURCES a_test.cpp USES core)\n")
+        said = self.refused("tests/core/core_test.cpp is in no CMakeLists.txt", "tests/core/deep/b_test.cpp is in no")
+        self.assertNotIn("a_test.cpp", said)
+
+    def test_a_name_that_a_function_puts_together_counts(self):
+        self.write("tests/core/page_test.py", "")
+        self.refused("tests/core/page_test.py")
+        self.write("tests/core/CMakeLists.txt", "clearway_test(core_test SOURCES a_test.cpp USES core)\nadd(${name}_test)\nadd(page)\n")
+        self.assertEqual(self.check(), (0, ""))
+
+    def test_merges_keep_the_lines_of_both(self):
+        git = shutil.which("git")
+        if git is None:
+            self.skipTest("git is not installed")
+        self.write(".gitattributes", (ROOT / ".gitattributes").read_text())
+
+        def run(*words):
+            subprocess.run([git, "-c", "user.name=test", "-c", "user.email=test@invalid", *words], cwd=self.root, check=True,
+                           capture_output=True)
+
+        run("init", "-q", "-b", "main")
+        for branch, line in (("main", ""), ("one", "+1 2026-11-27: one branch\n"), ("two", "+2 2026-11-28: another\n")):
+            run("checkout", "-q", *(["-b", branch, "main"] if line else ["--orphan", "start"]))
+            self.write(LIMIT, f"3\n{line}")
+            run("add", "-A")
+            run("commit", "-qm", branch)
+            if not line:
+                run("branch", "-M", "main")
+        run("merge", "-q", "one")
+        self.assertEqual((self.root / LIMIT).read_text().count("+"), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
