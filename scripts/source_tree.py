@@ -8,6 +8,7 @@ import os
 import pathlib
 import re
 import shlex
+import signal
 import subprocess
 import sys
 import time
@@ -135,8 +136,15 @@ class Tree:
 
     def key(self, path, *more):
         """Names the state of a source: its text, that of what it includes, its command, wherever the tree is."""
+        return self._key(path, self.commands[path], more)
+
+    def header_key(self, header, *more):
+        """The same of a header, compiled as its stand-in is."""
+        return self._key(header, self.commands[self.stand_in(header)[0]], more)
+
+    def _key(self, path, entry, more):
         parts = sorted(part for part in self.reached(path) if (ROOT / part).is_file())
-        command = self.commands[path]["command"].replace(str(ROOT), "")
+        command = entry["command"].replace(str(ROOT), "")
         return digest(command, *more, *(part for file in parts for part in (file, self.content(file))))
 
     def stand_in(self, header):
@@ -164,7 +172,17 @@ def arguments(description, of_prefixes):
     parser.add_argument("--changed", action="store_true", help="only what differs from the base: CLEARWAY_BASE, else where this "
                         "branch left origin/main, else the last commit below this one that was clean here, else the commit before")
     parser.add_argument("prefixes", nargs="*", metavar="PATH_PREFIX", help=of_prefixes)
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # who reads may stop, as head does
     return parser.parse_args()
+
+
+def refuse_unknown(name, prefixes, paths):
+    """Ends with 2 where a prefix that was given is that of no path."""
+    for prefix in prefixes:
+        if not any(path.startswith(prefix) for path in paths):
+            print(f"{name}: {prefix}: no path that it looks at begins so (allowed: paths from the top folder, such as src/graph)",
+                  file=sys.stderr)
+            sys.exit(2)
 
 
 def flags(entry):

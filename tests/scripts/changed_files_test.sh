@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Tests of scripts/check-alone, and with it of what scripts/check-tidy shares: changed_files_test.sh SOURCE_DIR CASE. Each case
+# Tests of scripts/check-alone, of scripts/check-tidy and of what they share: changed_files_test.sh SOURCE_DIR CASE. Each case
 # has a repository of its own with two sources that are compiled as one unit, and remembers nothing of another.
 set -euo pipefail
 
@@ -38,7 +38,7 @@ commit() {
 
 # `first` and `second` compile, by themselves and as one unit.
 mkdir -p "$tree"/{scripts,src/part}
-cp -- "$source_dir"/scripts/{check-alone,source_tree.py} "$tree/scripts/"
+cp -- "$source_dir"/scripts/{check-alone,check-tidy,source_tree.py} "$tree/scripts/"
 cat >"$tree/CMakePresets.json" <<'JSON'
 {"version": 6, "configurePresets": [{"name": "dev", "generator": "Ninja", "binaryDir": "${sourceDir}/build/dev",
                                      "cacheVariables": {"CMAKE_EXPORT_COMPILE_COMMANDS": "ON"}}]}
@@ -121,6 +121,48 @@ all_changes_since_the_last_clean_commit_count() {
     expect 0 'check-alone: 1 files, 0 known to be clean'
     commit_nothing=$(git -C "$tree" rev-parse HEAD)
     [[ $(<"$XDG_CACHE_HOME/clearway/clean-check-alone") == "$commit_nothing" ]] || fail 'the clean commit is not remembered'
+}
+
+# The same with check-tidy, which finds a null pointer that is written as 0.
+tidy() {
+    command -v clang-tidy-14 >/dev/null || {
+        echo "skipped: clang-tidy-14 is not installed"
+        exit 77
+    }
+    printf 'Checks: "-*,modernize-use-nullptr"\nWarningsAsErrors: "*"\nHeaderFilterRegex: "/src/"\n' >"$tree/.clang-tidy"
+    code=0
+    "$tree/scripts/check-tidy" "$@" >"$work/said" 2>&1 || code=$?
+}
+readonly finding='#pragma once\n#include <string>\ninline int* nothing() { return 0; }\n'
+
+a_header_is_read_with_a_source_that_includes_it() {
+    tidy src/part/alone.hpp
+    expect 0 'check-tidy: 1 files'
+    printf '%b' "$finding" 'inline int alone(const std::string& text) { return int(text.size()); }\n' >"$tree/src/part/alone.hpp"
+    tidy src/part/alone.hpp
+    expect 1 'alone.hpp:3:.*nullptr'
+    tidy --changed src/part/alone.hpp
+    expect 1 'alone.hpp:3:.*nullptr'
+}
+
+a_header_that_no_source_includes_is_read() {
+    printf '%b' "$finding" >"$tree/src/part/third.hpp"
+    tidy src/part/third.hpp
+    expect 1 'third.hpp:3:.*nullptr'
+    tidy --changed
+    expect 1 'third.hpp:3:.*nullptr'
+    sed -i 's/return 0/return nullptr/' "$tree/src/part/third.hpp"
+    tidy src/part
+    expect 0 'check-tidy: 3 files'
+    tidy src/part/third.hpp
+    expect 0 '1 files, 1 known to be clean'
+}
+
+a_path_that_is_not_there_is_refused() {
+    check src/prat
+    expect 2 'src/prat: no path that it looks at begins so'
+    tidy src/part src/part/forth.hpp
+    expect 2 'src/part/forth.hpp: no path that it looks at begins so'
 }
 
 [[ $(type -t "$case") == function ]] || fail "no such case: $case"
