@@ -5,14 +5,14 @@ import subprocess
 import sys
 import tempfile
 
+import script_help
+
 PROGRAM = os.environ.get("CLEARWAY", str(pathlib.Path(__file__).resolve().parent.parent / "clearway"))
 
 
 def trajectories(usage, every_s, reach_m):
     """(replication, folder that `clearway export trajectories` wrote) of every run of the condition that the only argument names."""
-    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
-        sys.exit(usage)
-    condition = pathlib.Path(sys.argv[1])
+    condition = pathlib.Path(script_help.words(usage, 1, 1)[0])
     study, scenario = condition.parent.parent, condition.parent.name
     recordings = sorted((study / "recordings" / scenario / condition.name).glob("*.h5"))
     if not recordings:

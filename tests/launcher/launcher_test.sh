@@ -36,7 +36,7 @@ make_tree() {
     tree=$1
     mkdir -p "$tree"/{scripts,packaging,programs,src,.ci}
     cp -- "$source_dir"/{clearway,test,.clang-format} "$tree/"
-    cp -- "$source_dir"/scripts/{setup.sh,check-format} "$tree/scripts/"
+    cp -- "$source_dir"/scripts/{setup.sh,check-format,script_help.sh} "$tree/scripts/"
     cp -- "$source_dir/.ci/run" "$tree/.ci/"
     printf '%s\n' '# a comment' '' 'alpha run who' 'beta  run who' 'gamma test who' 'delta train who' 'omega extra who' \
         >"$tree/packaging/packages.txt"

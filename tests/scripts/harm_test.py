@@ -1,0 +1,71 @@
+"""Tests of scripts/check-harm with a program that stands in for clearway: what it tells, and what it leaves when it is ended."""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+STANDS_IN = """#!/bin/bash
+case $1 in
+    list) echo "$LISTED" ;;
+    study)
+        mkdir -p "$5"
+        trap 'sleep 0.3; echo late >"$5/late"; echo ended >>"$ENDED"; exit 143' TERM
+        echo "runs 1 of 9" >&2
+        if [[ $SLOW == yes ]]; then sleep 60 >/dev/null 2>&1 & wait; fi ;;
+    compare) echo '{"comparisons": []}' ;;
+esac
+"""
+
+
+class Harm(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+        (self.root / "tmp").mkdir()
+        for name, text in (("clearway", STANDS_IN), ("netgenerate", "#!/bin/sh\n")):
+            (self.root / name).write_text(text)
+            (self.root / name).chmod(0o755)
+
+    def start(self, listed='{"policies": [], "scenarios": []}', slow="no"):
+        return subprocess.Popen([sys.executable, ROOT / "scripts/check-harm"], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                env=os.environ | {"CLEARWAY": str(self.root / "clearway"), "PATH": f"{self.root}:{os.environ['PATH']}",
+                                                  "TMPDIR": str(self.root / "tmp"), "LISTED": listed, "SLOW": slow,
+                                                  "ENDED": str(self.root / "ended")})
+
+    def test_each_study_is_told_as_it_begins_and_ends(self):
+        harm = self.start()
+        printed, said = harm.communicate(timeout=60)
+        self.assertEqual(harm.returncode, 0, said)
+        self.assertIn("study 1 of 3: rescue_lane, 2 conditions on grid_right, grid_left, intersection", said)
+        self.assertIn("runs 1 of 9", said)
+        self.assertIn("roads: no harm", said)
+        self.assertIn("no policy harms anybody", printed)
+        self.assertEqual(list((self.root / "tmp").iterdir()), [])
+
+    def test_a_signal_ends_the_study_and_leaves_nothing(self):
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+            harm = self.start(slow="yes")
+            for line in harm.stderr:
+                if "runs 1 of 9" in line:
+                    break
+            harm.send_signal(number)
+            _, said = harm.communicate(timeout=60)
+            self.assertEqual(harm.returncode, 128 + number)
+            self.assertNotIn("Traceback", said)
+            self.assertEqual(list((self.root / "tmp").iterdir()), [])
+        self.assertEqual((self.root / "ended").read_text(), "ended\n" * 3)
+
+    def test_a_policy_without_a_condition_is_told_the_file(self):
+        harm = self.start('{"policies": [{"name": "keep_distance"}], "scenarios": []}')
+        _, said = harm.communicate(timeout=60)
+        self.assertEqual(harm.returncode, 1)
+        self.assertIn('add a condition such as {name = "keep_distance", policy = ["keep_distance"]} to studies/harm/roads.toml', said)
+
+
+if __name__ == "__main__":
+    unittest.main()
