@@ -25,8 +25,8 @@
 #include "core/own_output.hpp"
 #include "core/process.hpp"
 #include "core/read_failure.hpp"
-#include "core/shipped_files.hpp"
 #include "results/store.hpp"
+#include "scenario/prepare.hpp"
 
 namespace clearway::campaign {
 namespace {
@@ -64,13 +64,6 @@ std::uint32_t shard_count(const SubmitRequest& request, const study::Plan& plan,
     return std::min(static_cast<std::uint32_t>(wanted), units);
 }
 
-/// As the runs themselves do, but before any is tried.
-void refuse_commas(const fs::path& folder) {
-    if (folder.string().find(',') == std::string::npos) return;
-    throw core::InputError({folder.string(), "has a comma in its path, which SUMO takes as a separator",
-                            "a path without commas", "Choose another folder with --out"});
-}
-
 /// Throws core::InputError when a submission is divided into another number of shards: those of two divisions
 /// would repeat much work.
 void require_same_division(const fs::path& folder, const std::string& wanted) {
@@ -101,10 +94,8 @@ std::set<fs::path> run_folders_of(const fs::path& folder) {
 /// Throws core::InputError, as its shards would one by one, when a submission holds another study, or this
 /// one with more replications.
 void require_continues(const fs::path& folder, const results::Manifest& wanted) {
-    for (const fs::path& held : run_folders_of(folder)) {
-        if (results::continues(wanted, results::Store::open(held).manifest())) continue;
-        results::Store::create(held, wanted);  // refuses it in the same words, and writes nothing
-    }
+    for (const fs::path& held : run_folders_of(folder))
+        results::Store::require_fits(held, wanted);
 }
 
 std::vector<std::string> limit_options(const experiment::RunLimits& limits) {
@@ -135,20 +126,13 @@ std::vector<std::string> model_options(const std::vector<experiment::ConditionSp
     return options;
 }
 
-/// The absolute path of a study file, of Clearway's own where there is none of that name, as read_study has
-/// it.
-fs::path study_file(const fs::path& file) {
-    const auto own = fs::exists(file) ? std::nullopt : core::shipped(file);
-    return fs::absolute(own.value_or(file));
-}
-
 study::Submission submission_of(const SubmitRequest& request, const study::Plan& plan) {
     const auto time_s = estimated_time_left_s(plan, request.out, 1);
     study::Submission submission;
     submission.engine = request.engine;
     submission.shards = shard_count(request, plan, time_s);
     submission.program = core::program_folder() / "clearway";
-    submission.study = study_file(request.file);
+    submission.study = fs::absolute(study::study_file(request.file));
     submission.folder = fs::absolute(request.out);
     submission.shard_limit_s =
         std::max(least_limit_s, limit_factor * time_s.value_or(0.0) / submission.shards);
@@ -166,7 +150,7 @@ void write_scripts(const fs::path& folder, const std::vector<study::Script>& scr
 
 /// Checks that the folder may be submitted into before it writes anything.
 void write_submission(const study::Submission& submission, const results::Manifest& manifest) {
-    refuse_commas(submission.folder);
+    scenario::refuse_commas(submission.folder);
     const std::vector<study::Script> scripts = study::scripts_of(submission);
     const std::string division = fmt::format("{}\n", submission.shards);
     core::require_own(submission.folder, own_folder);

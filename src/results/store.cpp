@@ -147,17 +147,23 @@ void move_to(const fs::path& target, const fs::path& source) {
 Store::Store(const fs::path& folder, Manifest manifest)
     : folder_(folder.has_filename() ? folder : folder.parent_path()), manifest_(std::move(manifest)) {}
 
+void Store::require_fits(const fs::path& folder, const Manifest& manifest) {
+    if (fs::exists(folder / manifest_name))
+        require_continues(manifest, open(folder).manifest(), folder);
+    else
+        refuse_others(folder);
+}
+
 Store Store::create(const fs::path& folder, const Manifest& manifest) {
     core::make_folder(folder);
+    require_fits(folder, manifest);
     const fs::path file = folder / manifest_name;
     if (fs::exists(file)) {
         const Store store = open(folder);
-        require_continues(manifest, store.manifest(), folder);
         if (to_json(manifest) == to_json(store.manifest())) return store;
         core::write_atomically(file, to_json(manifest));
         return {folder, manifest};
     }
-    refuse_others(folder);
     core::write_output(file, to_json(manifest));
     Store store(folder, manifest);
     core::flush_folder(fs::absolute(store.folder()).lexically_normal().parent_path());

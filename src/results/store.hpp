@@ -45,6 +45,8 @@ class Store {
     /// its study. Throws core::InputError when it holds another study, the same study with more replications,
     /// or something other than a run folder; core::EnvironmentError when it cannot be written.
     static Store create(const std::filesystem::path& folder, const Manifest& manifest);
+    /// Throws core::InputError where `create` does, and writes nothing.
+    static void require_fits(const std::filesystem::path& folder, const Manifest& manifest);
     /// Throws core::InputError when `folder` is neither a run folder nor new or empty.
     static void refuse_others(const std::filesystem::path& folder);
     /// Opens an existing run folder. Throws core::InputError when it is not one.

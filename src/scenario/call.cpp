@@ -161,15 +161,12 @@ class CallPlacing {
     std::string where(const char* key) const { return detail::place_of_key(config_, row_of(row_), key); }
 
     void put_stations() {
-        for (std::size_t row = 0; row < config_.emergency_sites.size(); ++row) {
+        const std::vector<core::EdgeIndex> edges = site_edges(config_, network_, problems_);
+        for (std::size_t row = 0; row < edges.size(); ++row) {
             const EmergencySite& site = config_.emergency_sites[row];
-            if (site.ready() == 0) continue;
-            const std::string key =
-                detail::place_of_key(config_, fmt::format("emergency_site[{}]", row), "edge");
-            const auto place = detail::on_edge(network_, site.edge, key, problems_);
-            if (!place) continue;
+            if (site.ready() == 0 || !edges[row].exists()) continue;
             calls_.stations.push_back(
-                {place->edge, kind_at(site.kind), static_cast<std::uint32_t>(site.ready())});
+                {edges[row], kind_at(site.kind), static_cast<std::uint32_t>(site.ready())});
             sites_.push_back(row);
         }
     }
@@ -180,7 +177,7 @@ class CallPlacing {
             return detail::RoadPlace{incident.edge,
                                      std::max(1.0F, incident.position_m - gap_before_incident_m)};
         }
-        auto place = call.edge.empty() ? detail::at_coordinates(network_, *call.longitude, *call.latitude,
+        auto place = call.edge.empty() ? detail::at_coordinates(network_, {*call.longitude, *call.latitude},
                                                                 where("longitude"), problems_)
                                        : detail::on_edge(network_, call.edge, where("edge"), problems_);
         if (!place) return place;

@@ -14,6 +14,7 @@
 #include "scenario/incident.hpp"
 #include "scenario/pedestrians.hpp"
 #include "scenario/road_condition.hpp"
+#include "scenario/site.hpp"
 #include "traffic/privilege.hpp"
 #include "traffic/siren.hpp"
 
@@ -31,8 +32,6 @@ enum class CarFollowing { own, idm };
 /// The car-following model of a scenario's vehicles: the Intelligent Driver Model, or SUMO's own model after
 /// Krauss 1998 with its defaults.
 enum class FollowingModel { idm, krauss };
-/// A place that emergency vehicles start from or drive to.
-enum class SiteKind { hospital, ambulance_station, fire_station };
 enum class Variant { standard, dense };
 /// Edges between which the trips of `[trips]` are drawn: `connected` means the largest set whose edges all
 /// reach each other by car; `reachable` means any edge and one that can be reached from it, for networks with
@@ -65,11 +64,6 @@ constexpr core::Spellings<FollowingModel, 2> spellings(FollowingModel) {
 }
 constexpr core::Spellings<Crossings, 2> spellings(Crossings) {
     return {{{Crossings::signals, "signals"}, {Crossings::all, "all"}}};
-}
-constexpr core::Spellings<SiteKind, 3> spellings(SiteKind) {
-    return {{{SiteKind::hospital, "hospital"},
-             {SiteKind::ambulance_station, "ambulance_station"},
-             {SiteKind::fire_station, "fire_station"}}};
 }
 
 /// Table `[network]`: plain XML files for netconvert, or a network file to import. Paths are relative to the
@@ -363,28 +357,6 @@ struct Trips {
                         "connected: in the largest set of edges that all reach each other; reachable: any "
                         "edge and one that it leads to.",
                         "connected"});
-    }
-};
-
-/// One of `[[emergency_site]]`: where emergency vehicles of trips and of measured demand start or arrive.
-struct EmergencySite {
-    SiteKind kind = SiteKind::hospital;
-    std::string edge;
-    std::string name;
-    std::optional<int> units;
-
-    /// Vehicles that calls can send from here.
-    int ready() const { return units.value_or(kind == SiteKind::hospital ? 0 : 1); }
-
-    static constexpr auto fields() {
-        using S = EmergencySite;
-        return std::make_tuple(
-            core::Field{"kind", "", &S::kind, 0, 0, "hospital, ambulance_station or fire_station.",
-                        "scenario"},
-            core::Field{"edge", "", &S::edge, 0, 0, "Edge at which it lies.", "scenario"},
-            core::Field{"name", "", &S::name, 0, 0, "Its name on the map; text from a file.", "none"},
-            core::Field{"units", "1", &S::units, 0, 1000,
-                        "Vehicles that wait here for calls; each goes once.", "stations 1, hospitals 0"});
     }
 };
 

@@ -78,7 +78,7 @@ class Placing {
     void put(const Incident& incident) {
         const std::optional<detail::RoadPlace> where =
             incident.edge.empty()
-                ? detail::at_coordinates(network_, *incident.longitude, *incident.latitude,
+                ? detail::at_coordinates(network_, {*incident.longitude, *incident.latitude},
                                          place(config_, row_, "longitude"), problems_)
                 : detail::on_edge(network_, incident.edge, place(config_, row_, "edge"), problems_);
         if (!where) return;
@@ -164,26 +164,31 @@ class Placing {
             return site.kind != SiteKind::hospital;
         });
         if (config_.demand.emergency > 0) {
-            for (std::size_t row = 0; row < config_.emergency_sites.size(); ++row) {
-                const EmergencySite& site = config_.emergency_sites[row];
-                if (has_station && site.kind == SiteKind::hospital) continue;
-                check_start(fmt::format("emergency_site[{}]", row), site.edge, first_s, time.window_s);
+            Problems of_sites;  // reported with the demand
+            const std::vector<core::EdgeIndex> sites = site_edges(config_, network_, of_sites);
+            for (std::size_t row = 0; row < sites.size(); ++row) {
+                if (has_station && config_.emergency_sites[row].kind == SiteKind::hospital) continue;
+                check_start(fmt::format("emergency_site[{}]", row), sites[row], first_s, time.window_s);
             }
             for (std::size_t row = 0; row < config_.flows.size(); ++row)
-                check_start(fmt::format("flow[{}]", row), config_.flows[row].from, first_s, time.window_s);
+                check_start(fmt::format("flow[{}]", row), edge_of(config_.flows[row].from), first_s,
+                            time.window_s);
         }
         for (std::size_t row = 0; row < config_.emergency_trips.size(); ++row) {
             const EmergencyTrip& trip = config_.emergency_trips[row];
             const std::string from =
                 trip.edges.empty() ? trip.from : trip.edges.substr(0, trip.edges.find(' '));
-            check_start(fmt::format("emergency_trip[{}]", row), from, trip.depart_s, trip.depart_s);
+            check_start(fmt::format("emergency_trip[{}]", row), edge_of(from), trip.depart_s, trip.depart_s);
         }
     }
 
-    void check_start(const std::string& key, const std::string& id, double first_s, double last_s) {
-        const auto start = network_.find_edge(id);
-        if (!start) return;  // reported with the demand
-        detail::check_way_out(config_, network_, placed_, {key, *start, first_s, last_s}, problems_);
+    core::EdgeIndex edge_of(const std::string& id) const {
+        return network_.find_edge(id).value_or(core::EdgeIndex::none());
+    }
+
+    void check_start(const std::string& key, core::EdgeIndex start, double first_s, double last_s) {
+        if (!start.exists()) return;  // reported with the demand
+        detail::check_way_out(config_, network_, placed_, {key, start, first_s, last_s}, problems_);
     }
 
     const ScenarioConfig& config_;
@@ -196,14 +201,7 @@ class Placing {
 /// What needs no network.
 void check_one(const ScenarioConfig& config, std::size_t row, Problems& problems) {
     const Incident& incident = config.incidents[row];
-    const bool both = incident.longitude && incident.latitude;
-    const bool any = incident.longitude || incident.latitude;
-    if (any != both || any == !incident.edge.empty())
-        problems.push_back({config.where(fmt::format("incident[{}]", row)),
-                            any && !incident.edge.empty() ? "has an edge, and coordinates besides"
-                            : any                         ? "has but one of longitude and latitude"
-                                                          : "has no place",
-                            "edge, or longitude and latitude", "give one of the two"});
+    detail::check_edge_or_coordinates(incident, config.where(fmt::format("incident[{}]", row)), problems);
     const double to_s = end_s(config, incident);
     const Times& time = config.time;
     if (time.latest_s(incident.from_s) >= time.horizon_s)

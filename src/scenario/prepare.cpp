@@ -50,15 +50,14 @@ void delay(std::vector<PlacedIncident>& incidents, core::Seconds time) {
     }
 }
 
-/// SUMO separates additional files by commas, so it would take a path with a comma for two files.
+}  // namespace
+
 void refuse_commas(const std::filesystem::path& folder) {
     if (folder.string().find(',') == std::string::npos) return;
     throw core::InputError(core::Problem{folder.string(),
                                          "has a comma in its path, which SUMO takes as a separator",
                                          "a path without commas", "choose another folder"});
 }
-
-}  // namespace
 
 Prepared prepare(const ScenarioConfig& config, const BuiltNetwork& network, core::StudySeed seed,
                  core::Replication replication, const std::filesystem::path& folder) {

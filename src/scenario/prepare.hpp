@@ -33,6 +33,10 @@ struct Prepared {
     std::string demand_hash;  ///< Hash of all files that `prepare` writes.
 };
 
+/// Throws core::InputError for a folder with a comma in its path: SUMO separates additional files by commas,
+/// and would take such a path for two.
+void refuse_commas(const std::filesystem::path& folder);
+
 /// Writes vehicle types, routes, emergency departures and pedestrians of one replication into `folder` and
 /// returns where they are. A pure function of configuration, network, seed and replication: equal arguments
 /// give equal bytes, and a vehicle keeps its departure, route and driver when others are added. Throws

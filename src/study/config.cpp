@@ -416,10 +416,14 @@ void read_quick(StrictTable& root, Extent extent, StudyConfig& config) {
 
 }  // namespace
 
-StudyConfig read_study(const std::filesystem::path& file, Extent extent, std::uint64_t most_runs) {
-    if (!std::filesystem::exists(file))
-        if (const auto own = core::shipped(file); own && std::filesystem::is_regular_file(*own))
-            return read_study(*own, extent, most_runs);
+std::filesystem::path study_file(const std::filesystem::path& name) {
+    if (std::filesystem::exists(name)) return name;
+    const auto own = core::shipped(name);
+    return own && std::filesystem::is_regular_file(*own) ? *own : name;
+}
+
+StudyConfig read_study(const std::filesystem::path& name, Extent extent, std::uint64_t most_runs) {
+    const std::filesystem::path file = study_file(name);
     if (std::filesystem::is_directory(file))
         throw core::InputError(
             {file.string(), "is a folder", "a study file (.toml)",

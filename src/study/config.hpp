@@ -40,6 +40,10 @@ enum class Extent : std::uint8_t {
     quick,  ///< What [quick] selects; the name ends in `-quick`.
 };
 
+/// The file of that name, of Clearway's own (core::shipped) where there is no other; the name itself if there
+/// is neither.
+std::filesystem::path study_file(const std::filesystem::path& name);
+
 /// Reads a study file. Strict: throws core::InputError with every problem found, each with file, line and
 /// column.
 ///
@@ -102,8 +106,8 @@ enum class Extent : std::uint8_t {
 ///     scenarios = ["merge"]                       # of the scenarios above, by name
 ///     conditions = ["baseline", "b20"]            # of the conditions above
 ///
-/// Extent::quick without [quick] in the file is a problem, too. Where there is no `file`: core::shipped's.
-StudyConfig read_study(const std::filesystem::path& file, Extent extent = Extent::whole,
+/// Extent::quick without [quick] in the file is a problem, too.
+StudyConfig read_study(const std::filesystem::path& name, Extent extent = Extent::whole,
                        std::uint64_t most_runs = results::usual_most_runs);
 
 }  // namespace clearway::study

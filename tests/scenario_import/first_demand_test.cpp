@@ -32,8 +32,7 @@ TEST_F(FirstDemand, HalvesTheLengthOfTripsUntilTheNetworkHasThem) {
 }
 
 TEST_F(FirstDemand, RefusesWhatShorterTripsDoNotCureAtOnce) {
-    config_.emergency_sites.push_back(
-        {.kind = scenario::SiteKind::hospital, .edge = "nowhere", .name = {}, .units = {}});
+    config_.emergency_sites.emplace_back().edge = "nowhere";
     const double least_m = config_.trips.emergency_minimum_length_m;
     EXPECT_THROW(make_demand(import_, config_), core::InputError);
     EXPECT_DOUBLE_EQ(config_.trips.emergency_minimum_length_m, least_m);

@@ -55,15 +55,15 @@ TEST_F(RoadMap, PlacesSignalsAmongTheirStopLines) {
 
 TEST_F(RoadMap, NamesStationsButNoHospitals) {
     scenario::ScenarioConfig config;
-    config.emergency_sites = {{scenario::SiteKind::hospital, "east", "Hospital", {}},
-                              {scenario::SiteKind::fire_station, "south", "Station \"3\"", {}}};
+    config.emergency_sites = {{scenario::SiteKind::hospital, "east", {}, {}, "Hospital", {}},
+                              {scenario::SiteKind::fire_station, "south", {}, {}, "Station \"3\"", {}}};
     EXPECT_EQ(map(config).at("stations"),
               json::parse(R"([{"edge": "south", "kind": "fire_station", "name": "Station \"3\""}])"));
 }
 
 TEST_F(RoadMap, HospitalsAreTheStationsWhereThereAreNoOthers) {
     scenario::ScenarioConfig config;
-    config.emergency_sites = {{scenario::SiteKind::hospital, "east", "Hospital", {}}};
+    config.emergency_sites = {{scenario::SiteKind::hospital, "east", {}, {}, "Hospital", {}}};
     EXPECT_EQ(map(config).at("stations"),
               json::parse(R"([{"edge": "east", "kind": "hospital", "name": "Hospital"}])"));
 }

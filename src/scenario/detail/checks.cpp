@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/folder_name.hpp"
+#include "scenario/detail/road_place.hpp"
 #include "scenario/mean_times.hpp"
 #include "scenario/preemption.hpp"
 #include "traffic/vehicle.hpp"
@@ -221,9 +222,8 @@ void check_sites(const ScenarioConfig& config, Problems& problems) {
                             "trips or measured, or a scenario with [[call]]",
                             "remove one; [[emergency_trip]] adds single emergency vehicles"});
     for (std::size_t row = 0; row < config.emergency_sites.size(); ++row)
-        if (config.emergency_sites[row].edge.empty())
-            problems.push_back({config.where(fmt::format("emergency_site[{}]", row)), "has no edge",
-                                "id of an edge", "set it"});
+        check_edge_or_coordinates(config.emergency_sites[row],
+                                  config.where(fmt::format("emergency_site[{}]", row)), problems);
 }
 
 void check_road(const ScenarioConfig& config, Problems& problems) {

@@ -1,11 +1,11 @@
 #include "scenario/detail/road_place.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include <fmt/format.h>
 
 #include "core/number.hpp"
-#include "roads/geography.hpp"
 #include "roads/lane_grid.hpp"
 #include "scenario/config.hpp"
 
@@ -30,32 +30,43 @@ std::optional<RoadPlace> on_edge(const roads::Network& network, const std::strin
     return std::nullopt;
 }
 
-std::optional<RoadPlace> at_coordinates(const roads::Network& network, double longitude, double latitude,
-                                        const std::string& where, std::vector<core::Problem>& problems) {
-    const auto geography = roads::Geography::of(network.location());
-    if (!geography) {
+std::optional<roads::Geography> geography_of(const roads::Network& network, const std::string& where,
+                                             std::vector<core::Problem>& problems) {
+    auto geography = roads::Geography::of(network.location());
+    if (!geography)
         problems.push_back({where, "the network has no projection that Clearway knows", "networks from a map",
                             "give edge instead"});
-        return std::nullopt;
-    }
+    return geography;
+}
+
+core::Problem no_road_near(const roads::Network& network, roads::Coordinates place, const std::string& where,
+                           const std::string& missing) {
+    const auto geography = roads::Geography::of(network.location());
+    assert(geography);
+    const roads::Location& box = network.location();
+    const auto low = geography->coordinates(box.x_minimum_m, box.y_minimum_m);
+    const auto high = geography->coordinates(box.x_maximum_m, box.y_maximum_m);
+    return {where, fmt::format("{} of {}, {}", missing, place.longitude_deg, place.latitude_deg),
+            fmt::format("longitude {:.4f} to {:.4f}, latitude {:.4f} to {:.4f}", low.longitude_deg,
+                        high.longitude_deg, low.latitude_deg, high.latitude_deg),
+            "mind the order: longitude is east, latitude is north"};
+}
+
+std::optional<RoadPlace> at_coordinates(const roads::Network& network, roads::Coordinates place,
+                                        const std::string& where, std::vector<core::Problem>& problems) {
+    const auto geography = geography_of(network, where, problems);
+    if (!geography) return std::nullopt;
     constexpr core::Metres reach{100.0};
     std::vector<roads::LanePlace> places;
-    roads::LaneGrid(network).near(geography->point({longitude, latitude}), reach, places);
+    roads::LaneGrid(network).near(geography->point(place), reach, places);
     std::erase_if(places, [&](const roads::LanePlace& each) {
         const roads::Lane& lane = network.lane(each.lane);
         return !lane.allows_cars || network.edge(lane.edge).internal;
     });
     const auto nearest = std::ranges::min_element(places, {}, &roads::LanePlace::distance_m);
     if (nearest != places.end()) return RoadPlace{network.lane(nearest->lane).edge, nearest->position_m};
-    const roads::Location& box = network.location();
-    const auto low = geography->coordinates(box.x_minimum_m, box.y_minimum_m);
-    const auto high = geography->coordinates(box.x_maximum_m, box.y_maximum_m);
-    problems.push_back(
-        {where,
-         fmt::format("no road open to cars within {:.0f} m of {}, {}", reach.value, longitude, latitude),
-         fmt::format("longitude {:.4f} to {:.4f}, latitude {:.4f} to {:.4f}", low.longitude_deg,
-                     high.longitude_deg, low.latitude_deg, high.latitude_deg),
-         "mind the order: longitude is east, latitude is north"});
+    problems.push_back(no_road_near(network, place, where,
+                                    fmt::format("no road open to cars within {:.0f} m", reach.value)));
     return std::nullopt;
 }
 

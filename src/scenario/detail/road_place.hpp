@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/ids.hpp"
+#include "roads/geography.hpp"
 #include "roads/network.hpp"
 
 namespace clearway::scenario {
@@ -28,8 +29,31 @@ std::optional<RoadPlace> on_edge(const roads::Network& network, const std::strin
                                  const std::string& where, std::vector<core::Problem>& problems);
 
 /// The nearest place on a road open to cars, within 100 m; nothing after adding a problem at `where`.
-std::optional<RoadPlace> at_coordinates(const roads::Network& network, double longitude, double latitude,
+std::optional<RoadPlace> at_coordinates(const roads::Network& network, roads::Coordinates place,
                                         const std::string& where, std::vector<core::Problem>& problems);
+
+/// How the network lies on the globe; nothing after adding a problem at `where`.
+std::optional<roads::Geography> geography_of(const roads::Network& network, const std::string& where,
+                                             std::vector<core::Problem>& problems);
+
+/// The problem of coordinates that meet no road, in words such as `no road open to cars within 100 m`, with
+/// the range of the network's. The network has a projection.
+core::Problem no_road_near(const roads::Network& network, roads::Coordinates place, const std::string& where,
+                           const std::string& missing);
+
+/// Adds a problem at `where` for a row with neither or both of edge and coordinates, or one coordinate alone.
+template <class Row>
+void check_edge_or_coordinates(const Row& row, const std::string& where,
+                               std::vector<core::Problem>& problems) {
+    const bool both = row.longitude && row.latitude;
+    const bool any = row.longitude || row.latitude;
+    if (any == both && any == row.edge.empty()) return;
+    problems.push_back({where,
+                        any && !row.edge.empty() ? "has an edge, and coordinates besides"
+                        : any                    ? "has but one of longitude and latitude"
+                                                 : "has no place",
+                        "edge, or longitude and latitude", "give one of the two"});
+}
 
 /// Moves a place along its edge to `position_m`, or adds a problem at `where`.
 void move_to(const roads::Network& network, double position_m, const std::string& where, RoadPlace& place,

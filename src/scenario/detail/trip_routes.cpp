@@ -109,37 +109,27 @@ bool open_to_emergency(const roads::Network& network, const RouteEdges& route) {
 }
 
 TripRoutes::TripRoutes(const DemandContext& context) : context_(context) {
-    const bool anywhere = context.config.trips.ends == TripEnds::reachable;
-    for (const core::EdgeIndex edge :
-         anywhere ? roads::car_edges(context.network) : roads::largest_car_component(context.network)) {
-        const float length_m = context.network.edge(edge).length_m;
-        if (length_m < context.config.trips.minimum_edge_m) continue;
-        edges_.push_back(edge);
-        reached_m_.push_back((reached_m_.empty() ? 0.0 : reached_m_.back()) + length_m);
-    }
+    edges_ = trip_edges(context.network, context.config.trips);
+    for (const core::EdgeIndex edge : edges_)
+        reached_m_.push_back((reached_m_.empty() ? 0.0 : reached_m_.back()) +
+                             context.network.edge(edge).length_m);
     if (edges_.empty())
         throw core::InputError(core::Problem{context.config.where("trips.minimum_edge_m"),
                                              "leaves no edge for trips to start and end on",
                                              "shorter than the longest edge", "lower it"});
-    if (anywhere) reachable_.emplace(context.network, edges_);
+    if (context.config.trips.ends == TripEnds::reachable) reachable_.emplace(context.network, edges_);
     read_sites();
 }
 
 void TripRoutes::read_sites() {
     std::vector<core::Problem> problems;
-    for (std::size_t row = 0; row < context_.config.emergency_sites.size(); ++row) {
-        const EmergencySite& site = context_.config.emergency_sites[row];
-        const auto edge = context_.network.find_edge(site.edge);
-        if (!edge || context_.network.edge(*edge).internal) {
-            problems.push_back({context_.config.where(fmt::format("emergency_site[{}]", row)),
-                                fmt::format("the network has no edge \"{}\"", site.edge),
-                                "id of an edge outside junctions", ""});
-            continue;
-        }
-        (site.kind == SiteKind::hospital ? hospitals_ : stations_).push_back(*edge);
-        if (site.kind == SiteKind::fire_station) fire_stations_.push_back(*edge);
+    const std::vector<core::EdgeIndex> edges = site_edges(context_.config, context_.network, problems);
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    for (std::size_t row = 0; row < edges.size(); ++row) {
+        const SiteKind kind = context_.config.emergency_sites[row].kind;
+        (kind == SiteKind::hospital ? hospitals_ : stations_).push_back(edges[row]);
+        if (kind == SiteKind::fire_station) fire_stations_.push_back(edges[row]);
     }
-    if (!problems.empty()) throw core::InputError(problems);
     if (stations_.empty()) stations_ = hospitals_;
     if (hospitals_.empty()) hospitals_ = stations_;
     if (fire_stations_.empty()) fire_stations_ = stations_;

@@ -36,13 +36,4 @@ double diagonal_m(const roads::Network& network) {
     return std::hypot(high.x_m - low.x_m, high.y_m - low.y_m);
 }
 
-std::vector<core::EdgeIndex> trip_edges(const roads::Network& network, const scenario::Trips& trips) {
-    std::vector<core::EdgeIndex> edges = trips.ends == scenario::TripEnds::reachable
-                                             ? roads::car_edges(network)
-                                             : roads::largest_car_component(network);
-    std::erase_if(edges,
-                  [&](core::EdgeIndex edge) { return network.edge(edge).length_m < trips.minimum_edge_m; });
-    return edges;
-}
-
 }  // namespace clearway::scenario_import::detail

@@ -67,7 +67,7 @@ void choose_trips(Import& import, scenario::ScenarioConfig& config, const roads:
                         "that it leads to (trips.ends = \"reachable\")",
                         100.0 * share));
     }
-    if (!trip_edges(network, config.trips).empty()) return;
+    if (!scenario::trip_edges(network, config.trips).empty()) return;
     throw core::InputError(core::Problem{
         import.request.files.front().string(),
         fmt::format("has no road of {:g} m between two junctions, on which a trip could start or end",

@@ -66,15 +66,20 @@ core::Json signals_json(const roads::Network& network) {
 }
 
 /// Where no station is known, emergency vehicles start from hospitals, in the demand as well.
-core::Json stations_json(const scenario::ScenarioConfig& config) {
+core::Json stations_json(const roads::Network& network, const scenario::ScenarioConfig& config) {
     const auto is_station = [](const scenario::EmergencySite& site) {
         return site.kind != scenario::SiteKind::hospital;
     };
     const bool has_station = std::ranges::any_of(config.emergency_sites, is_station);
+    std::vector<core::Problem> problems;
+    const std::vector<core::EdgeIndex> edges = scenario::site_edges(config, network, problems);
+    if (!problems.empty()) throw core::InputError(std::move(problems));
     core::Json stations = core::Json::array();
-    for (const scenario::EmergencySite& site : config.emergency_sites) {
+    for (std::size_t row = 0; row < edges.size(); ++row) {
+        const scenario::EmergencySite& site = config.emergency_sites[row];
         if (has_station && !is_station(site)) continue;
-        stations.push_back({{"edge", site.edge}, {"kind", core::name(site.kind)}, {"name", site.name}});
+        stations.push_back(
+            {{"edge", network.edge(edges[row]).id}, {"kind", core::name(site.kind)}, {"name", site.name}});
     }
     return stations;
 }
@@ -133,7 +138,7 @@ std::string road_map_json(const roads::Network& network, const scenario::Scenari
     }
     const core::Json map = {{"edges", std::move(edges)},
                             {"signals", signals_json(network)},
-                            {"stations", stations_json(config)},
+                            {"stations", stations_json(network, config)},
                             {"incidents", incidents_json(network, config)},
                             {"calls", calls_json(network, config)}};
     return map.dump(-1, ' ', false, core::Json::error_handler_t::replace) + "\n";
