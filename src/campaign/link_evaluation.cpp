@@ -363,6 +363,7 @@ core::ExitCode evaluate_links(const LinkRequest& request) {
     const std::string json = report::links_json(facts);
     core::write_output(plan.folder / "evaluation.json", json);
     core::write_output(plan.folder / "evaluation.csv", report::links_csv(facts));
+    core::write_output(plan.folder / "evaluation.tex", report::links_latex(facts));
     std::ostringstream page;
     report::write_links_page(facts, page);
     core::write_output(plan.folder / "links.html", page.str());

@@ -9,6 +9,7 @@
 #include "core/strict_table.hpp"
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
+#include "python/part_name.hpp"
 #include "scenario/overrides.hpp"
 
 namespace clearway::links {
@@ -92,17 +93,31 @@ void read_quick(core::StrictTable& root, QuickBenchmark& quick) {
     reader->finish();
 }
 
-void read_comparisons(core::StrictTable& root, LinkBenchmark& benchmark) {
+/// A predictor that a benchmark names: one of Clearway, or code of the user, whose file is below `folder` and
+/// is made absolute.
+void read_predictor(core::StrictTable& root, const std::string& key, const std::filesystem::path& folder,
+                    std::string& name) {
+    if (!python::part_name_from(name)) return check_name(root, key, "predictor", name, judged_predictors());
+    try {
+        name = python::resolved(name, folder, root.where(key));
+    } catch (const core::InputError& error) {
+        for (const core::Problem& problem : error.problems())
+            root.problem(key, problem.what, problem.allowed, problem.cure);
+    }
+}
+
+void read_comparisons(core::StrictTable& root, const std::filesystem::path& folder,
+                      LinkBenchmark& benchmark) {
     const std::string key = "comparisons";
     std::vector<std::vector<std::string>> pairs;
     root.text_lists(key, pairs);
-    for (const std::vector<std::string>& pair : pairs) {
+    for (std::vector<std::string>& pair : pairs) {
         if (pair.size() != 2) {
             root.problem(key, fmt::format("a comparison names {} predictors", pair.size()), "two", "");
             continue;
         }
-        for (const std::string& name : pair)
-            check_name(root, key, "predictor", name, judged_predictors());
+        for (std::string& name : pair)
+            read_predictor(root, key, folder, name);
         if (pair[0] == pair[1])
             root.problem(key, fmt::format("`{}` is compared with itself", pair[0]), "two predictors", "");
         const auto same = [&](const ComparedPair& other) {
@@ -130,18 +145,26 @@ void check_failures(core::StrictTable& root, const LinkBenchmark& benchmark) {
     }
 }
 
-void read_predictors(core::StrictTable& root, LinkBenchmark& benchmark) {
-    root.texts("predictors", benchmark.predictors);
-    if (root.has("predictors") && benchmark.predictors.empty())
-        root.problem("predictors", "is empty", "one predictor or more", "Or leave `predictors` out");
-    for (const std::string& name : benchmark.predictors)
-        check_name(root, "predictors", "predictor", name, judged_predictors());
-    if (benchmark.predictors.empty()) return;
-    for (const ComparedPair& pair : benchmark.comparisons) {
-        for (const std::string& name : {pair.predictor, pair.against}) {
-            if (std::ranges::find(benchmark.predictors, name) == benchmark.predictors.end())
-                root.problem("comparisons", fmt::format("`{}` is not among the benchmark's predictors", name),
+void read_predictors(core::StrictTable& root, const std::filesystem::path& folder, LinkBenchmark& benchmark) {
+    const std::string key = "predictors";
+    root.texts(key, benchmark.predictors);
+    if (root.has(key) && benchmark.predictors.empty())
+        root.problem(key, "is empty", "one predictor or more", "Or leave `predictors` out");
+    for (std::string& name : benchmark.predictors)
+        read_predictor(root, key, folder, name);
+}
+
+/// Code of the user is judged only where `predictors` names it; comparisons know it by its class.
+void check_compared(core::StrictTable& root, LinkBenchmark& benchmark) {
+    for (ComparedPair& pair : benchmark.comparisons) {
+        for (std::string* const name : {&pair.predictor, &pair.against}) {
+            const bool is_own = python::part_name_from(*name).has_value();
+            const std::string said = is_own ? python::short_name(*name) : *name;
+            if ((is_own || !benchmark.predictors.empty()) &&
+                std::ranges::find(benchmark.predictors, *name) == benchmark.predictors.end())
+                root.problem("comparisons", fmt::format("`{}` is not among the benchmark's predictors", said),
                              core::listed(benchmark.predictors), "Name it in `predictors`");
+            *name = said;
         }
     }
 }
@@ -191,8 +214,10 @@ LinkBenchmark read_link_benchmark(const std::filesystem::path& file) {
         }
     }
     check_failures(root, benchmark);
-    read_comparisons(root, benchmark);
-    read_predictors(root, benchmark);
+    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+    read_comparisons(root, folder, benchmark);
+    read_predictors(root, folder, benchmark);
+    check_compared(root, benchmark);
     if (auto reader = root.below("seeds")) {
         reader->integer<std::uint64_t>("study_seed", 0, std::numeric_limits<std::int64_t>::max(),
                                        benchmark.study_seed);

@@ -64,7 +64,8 @@ struct LinkBenchmark {
 /// CandidateReach::reported, which were the only ones when `eval_v1` was frozen. Each scenario states the
 /// hash of its effective configuration. Throws core::InputError with all problems, including a scenario that
 /// has changed since the benchmark was frozen. Names of failures are not checked here; those of predictors
-/// and policies are.
+/// and policies are. Predictors that are code of the user come back absolute, and comparisons know them by
+/// their class.
 LinkBenchmark read_link_benchmark(const std::filesystem::path& file);
 
 /// Predictors that a benchmark judges where neither it nor the user names any: those that there were when

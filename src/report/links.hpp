@@ -42,6 +42,9 @@ std::string links_json(const LinkFacts& facts);
 /// The same fields as CSV, one row per result.
 std::string links_csv(const LinkFacts& facts);
 
+/// AP and F1 of pooled results, failures by predictors, as LaTeX: a table for each and for each exits.
+std::string links_latex(const LinkFacts& facts);
+
 /// One self-contained page, as write_html of html.hpp: tables, precision-recall, reliability and age curves.
 void write_links_page(const LinkFacts& facts, std::ostream& page);
 

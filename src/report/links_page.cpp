@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <iterator>
 #include <map>
@@ -10,6 +11,7 @@
 #include "report/detail/link_figures.hpp"
 #include "report/detail/markup.hpp"
 #include "report/detail/plain_page.hpp"
+#include "report/detail/table_files.hpp"
 #include "report/links.hpp"
 #include "report/text.hpp"
 
@@ -72,9 +74,10 @@ std::map<std::string, std::size_t> series_of(const LinkFacts& facts) {
     return series;
 }
 
-/// A table of failures by predictors.
-std::string matrix(const LinkFacts& facts, links::Exits exits, const std::string& left_out,
-                   const std::function<std::string(const std::string&, const std::string&)>& cell) {
+using Cell = std::function<std::string(const std::string& failure, const std::string& predictor)>;
+
+/// Failures by predictors.
+DataTable matrix_of(const LinkFacts& facts, const std::string& left_out, const Cell& cell) {
     DataTable table{{"Failure"}, {}};
     for (const std::string& predictor : facts.predictors) {
         if (predictor != left_out) table.head.push_back(predictor);
@@ -86,20 +89,31 @@ std::string matrix(const LinkFacts& facts, links::Exits exits, const std::string
             if (predictor != left_out) row.push_back(cell(failure, predictor));
         }
     }
-    return fmt::format("<h3>Exits {}</h3>\n{}", core::name(exits), detail::to_html(table));
+    return table;
+}
+
+std::string matrix(const LinkFacts& facts, links::Exits exits, const std::string& left_out,
+                   const Cell& cell) {
+    return fmt::format("<h3>Exits {}</h3>\n{}", core::name(exits),
+                       detail::to_html(matrix_of(facts, left_out, cell)));
+}
+
+/// A cell of a matrix: a measure of pooled results with its interval.
+Cell pooled_cell(const LinkFacts& facts, links::Exits exits, int decimals,
+                 const std::function<Measured(const LinkResult&)>& measure) {
+    return [&facts, exits, decimals, measure](const std::string& failure, const std::string& predictor) {
+        for (const LinkResult* const result : pooled(facts, exits, failure)) {
+            if (result->predictor == predictor) return with_interval(measure(*result), decimals);
+        }
+        return missing(Script::typeset);
+    };
 }
 
 std::string measure_section(const LinkFacts& facts, int decimals,
                             const std::function<Measured(const LinkResult&)>& measure) {
     std::string html;
-    for (const links::Exits exits : facts.exits) {
-        html += matrix(facts, exits, "", [&](const std::string& failure, const std::string& predictor) {
-            for (const LinkResult* const result : pooled(facts, exits, failure)) {
-                if (result->predictor == predictor) return with_interval(measure(*result), decimals);
-            }
-            return missing(Script::typeset);
-        });
-    }
+    for (const links::Exits exits : facts.exits)
+        html += matrix(facts, exits, "", pooled_cell(facts, exits, decimals, measure));
     return html;
 }
 
@@ -343,6 +357,29 @@ std::vector<PageSection> sections_of(const LinkFacts& facts) {
 }
 
 }  // namespace
+
+std::string links_latex(const LinkFacts& facts) {
+    struct Shown {
+        const char* name;
+        const char* title;
+        Measured links::LinkMeasures::*measure;
+    };
+    constexpr std::array<Shown, 2> all = {
+        {{"ap", "average precision", &links::LinkMeasures::ap}, {"f1", "F1", &links::LinkMeasures::f1}}};
+    std::string text;
+    for (const Shown& shown : all) {
+        for (const links::Exits exits : facts.exits) {
+            const auto measure = [&](const LinkResult& result) {
+                return result.of(LinkSubset::all).*shown.measure;
+            };
+            text += detail::to_latex(
+                {fmt::format("links-{}-{}", shown.name, core::name(exits)),
+                 fmt::format("{}: {} of links, exits {}", facts.title, shown.title, core::name(exits)),
+                 matrix_of(facts, "", pooled_cell(facts, exits, 3, measure))});
+        }
+    }
+    return text;
+}
 
 void write_links_page(const LinkFacts& facts, std::ostream& page) {
     detail::write(

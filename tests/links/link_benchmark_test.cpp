@@ -14,6 +14,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 const std::filesystem::path eval_v1 = CLEARWAY_SOURCE_DIR "/studies/links/eval_v1.toml";
 
@@ -41,7 +42,6 @@ class LinkBenchmarkFile : public testing::Test {
         return "accepted";
     }
 
-  private:
     support::TemporaryFolder folder_;
 };
 
@@ -84,6 +84,26 @@ TEST_F(LinkBenchmarkFile, lists_that_are_empty_or_repeat_or_name_what_is_not_the
     EXPECT_THAT(refusal("\"B10\"", "\"B10\", \"B10\""), HasSubstr("`B10` is listed twice"));
     EXPECT_THAT(refusal("[seeds]", "[quick]\nfailures = [\"S0\"]\n[seeds]"),
                 HasSubstr("`S0` is not among the benchmark's failures"));
+}
+
+TEST_F(LinkBenchmarkFile, names_code_of_the_user_beside_it) {
+    const std::filesystem::path file = folder_.write("mine.py", "class Mine: pass\nclass Other: pass\n");
+    const LinkBenchmark benchmark = read("exits = ",
+                                         "predictors = [\"mine.py:Mine\", \"route_rule\"]\n"
+                                         "comparisons = [[\"mine.py:Mine\", \"route_rule\"]]\nexits = ");
+    ASSERT_EQ(benchmark.predictors.size(), 2U);
+    EXPECT_THAT(benchmark.predictors[0], StartsWith(file.string() + ":Mine@"));
+    EXPECT_EQ(benchmark.predictors[1], "route_rule");
+    ASSERT_EQ(benchmark.comparisons.size(), 1U);
+    EXPECT_EQ(benchmark.comparisons[0].predictor, "Mine") << "as tables know it";
+    EXPECT_EQ(benchmark.comparisons[0].against, "route_rule");
+
+    EXPECT_THAT(refusal("exits = ", "predictors = [\"their.py:Mine\"]\nexits = "),
+                AllOf(HasSubstr("mine.toml:"), HasSubstr("their.py")));
+    const std::string compared = "comparisons = [[\"mine.py:Other\", \"route_rule\"]]\nexits = ";
+    for (const char* const judged : {"", "predictors = [\"mine.py:Mine\", \"route_rule\"]\n"})
+        EXPECT_THAT(refusal("exits = ", judged + compared),
+                    HasSubstr("`Other` is not among the benchmark's predictors"));
 }
 
 /// A change makes figures that were measured on it void: then it is another benchmark.
