@@ -42,9 +42,11 @@ bool has_own_code(const experiment::ConditionSpec& base) {
 
 void check_condition(const experiment::ConditionSpec& base) {
     check_names({base});
-    if (base.settings.contains(experiment::equipped_setting))
-        throw core::InputError({experiment::equipped_setting, "is chosen by equip itself", "",
-                                "Leave it out, or compare your own sets with clearway run"});
+    const auto today = base.settings.find(experiment::equipped_setting);
+    if (today != base.settings.end() && today->second == experiment::all_equipped)
+        throw core::InputError({experiment::equipped_setting, "says that every signal is equipped today",
+                                "ids of those that are, separated by commas, or none",
+                                "Leave it out for none"});
     const bool has_signals = !experiment::policies_with(base, traffic::Trait::asks_signals).empty();
     if (!has_signals && !has_own_code(base))
         throw core::InputError(
@@ -58,6 +60,7 @@ struct Signals {
     scenario::BuiltNetwork built;
     EquipCandidates candidates;
     std::vector<std::string> all_streets;  ///< By core::SignalIndex.
+    std::vector<bool> today;               ///< Which are equipped; empty: none.
 
     /// As `clearway scenario signals` counts, from 1.
     std::size_t number(std::size_t candidate) const { return candidates.signals.at(candidate).value + 1U; }
@@ -66,6 +69,12 @@ struct Signals {
     }
     const std::string& id(std::size_t candidate) const {
         return built.network.signal(candidates.signals.at(candidate)).id;
+    }
+    std::vector<std::string> ids_of_today() const {
+        std::vector<std::string> ids;
+        for (std::size_t signal = 0; signal < today.size(); ++signal)
+            if (today[signal]) ids.push_back(built.network.signals()[signal].id);
+        return ids;
     }
 };
 
@@ -79,13 +88,15 @@ std::string streets_of(const scenario::SignalSheet& sheet) {
     return fmt::format("{}", fmt::join(names, " / "));
 }
 
-Signals signals_of(const study::StudyConfig& config, std::size_t most, const std::filesystem::path& folder) {
+Signals signals_of(const study::StudyConfig& config, const EquipRequest& request,
+                   const std::filesystem::path& folder) {
     const scenario::ScenarioConfig& scenario = config.scenarios.front();
-    Signals signals{scenario::build_network(scenario, folder), {}, {}};
+    Signals signals{scenario::build_network(scenario, folder), {}, {}, {}};
     if (signals.built.network.signals().empty())
         throw core::InputError({"scenario " + scenario.name, "has no signals", "a network with signals",
                                 "`clearway scenario signals SCENARIO` lists those of a scenario"});
-    signals.candidates = equip_candidates(config, signals.built, most);
+    signals.today = experiment::equipped_signals(request.condition, signals.built.network);
+    signals.candidates = equip_candidates(config, signals.built, signals.today, request.most_candidates);
     for (const scenario::SignalSheet& sheet : scenario::signal_sheets(signals.built.network, {}))
         signals.all_streets.push_back(streets_of(sheet));
     return signals;
@@ -93,9 +104,15 @@ Signals signals_of(const study::StudyConfig& config, std::size_t most, const std
 
 EquipQuestion question_of(const study::StudyConfig& config, const EquipRequest& request,
                           const Signals& signals) {
-    EquipQuestion question{
-        config,         request.condition, {}, signals.candidates.passed, signals.candidates.neighbours,
-        request.budget, request.search};
+    EquipQuestion question{.config = config,
+                           .base = request.condition,
+                           .signals = {},
+                           .today = signals.ids_of_today(),
+                           .passed = signals.candidates.passed,
+                           .pairs = signals.candidates.neighbours,
+                           .budget = request.budget,
+                           .search = request.search};
+    question.base.settings.erase(experiment::equipped_setting);  // with all equipped
     analysis::SignalSet all;
     for (std::size_t candidate = 0; candidate < signals.candidates.signals.size(); ++candidate) {
         all.push_back(candidate);
@@ -183,6 +200,8 @@ report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipReq
     facts.signals = signals.built.network.signals().size();
     facts.not_passed = signals.candidates.not_passed;
     facts.switched_off = signals.candidates.switched_off;
+    facts.equipped_today = signals.ids_of_today();
+    facts.equipped_and_passed = signals.candidates.equipped;
     facts.seldom_passed = signals.candidates.seldom_passed;
     return facts;
 }
@@ -223,7 +242,7 @@ Search search_of(EquipRequest& request, const std::filesystem::path& network_fol
     check_condition(request.condition);
     study::StudyConfig config = study_of(request.scenario, {}, request.seed, request.replications);
     config.name = "equip-" + config.name;
-    Signals signals = signals_of(config, request.most_candidates, network_folder);
+    Signals signals = signals_of(config, request, network_folder);
     if (request.run.folder.empty()) request.run.folder = usual_folder(config, request.condition);
     check_folder(request.run.folder);
     EquipQuestion question = question_of(config, request, signals);
@@ -318,12 +337,11 @@ core::ExitCode equip_dry_run(EquipRequest request) {
     const std::string size =
         fmt::format("{} likely, {} at most, into {}; runs that it holds are not made again.",
                     report::counted(runs.likely(), "run"), runs.most(), request.run.folder.string());
-    const std::string time = cost.wall_s
-                                 ? fmt::format("About {} with {}, warm-ups left out ({}).",
-                                               clock(runs.likely()), report::counted(processes, "worker"),
-                                               cost.measured ? "from runs of this scenario here"
-                                                             : "rough: accurate to a factor of about three")
-                                 : "Time unknown: a run of this scenario beside that folder tells.";
+    const std::string time =
+        cost.wall_s ? fmt::format("About {} with {}, warm-ups left out ({}).", clock(runs.likely()),
+                                  report::counted(processes, "worker"),
+                                  cost.measured ? "from runs of this scenario here" : rough_words)
+                    : "Time unknown: a run of this scenario beside that folder tells.";
     const std::string few = request.budget > candidates
                                 ? fmt::format(" The budget is {}, and {} could gain.", request.budget,
                                               report::counted(candidates, "signal"))

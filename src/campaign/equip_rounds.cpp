@@ -140,7 +140,7 @@ std::size_t count_of(const std::map<analysis::SignalSet, std::set<std::uint32_t>
 }  // namespace
 
 EquipCandidates equip_candidates(const study::StudyConfig& config, const scenario::BuiltNetwork& built,
-                                 std::size_t most) {
+                                 const std::vector<bool>& today, std::size_t most) {
     const Crossings crossings = crossings_of(built.network);
     std::map<core::SignalIndex, std::size_t> trips;  // of emergency vehicles that pass
     std::vector<std::set<core::SignalIndex>> passed(config.replications);
@@ -162,6 +162,8 @@ EquipCandidates equip_candidates(const study::StudyConfig& config, const scenari
     candidates.switched_off = std::erase_if(trips, [&](const auto& one) {
         return !built.preemption.empty() && built.preemption[one.first.value].enabled.value_or(1) == 0;
     });
+    candidates.equipped =
+        std::erase_if(trips, [&](const auto& one) { return !today.empty() && today[one.first.value]; });
     for (const auto& [signal, count] : trips)
         candidates.signals.push_back(signal);
     if (candidates.signals.size() > most) {
@@ -191,8 +193,9 @@ EquipRounds::EquipRounds(EquipQuestion question, RunOptions options)
 experiment::ConditionSpec EquipRounds::with(analysis::SignalSet set) const {
     std::ranges::sort(set);
     experiment::ConditionSpec condition = question_.base;
-    const std::vector<std::string> ids =
-        core::texts_of(set, [&](const std::size_t candidate) { return question_.signals.at(candidate); });
+    std::vector<std::string> ids = question_.today;
+    for (const std::size_t candidate : set)
+        ids.push_back(question_.signals.at(candidate));
     const std::string equipped =
         ids.empty() ? experiment::none_equipped : fmt::format("{}", fmt::join(ids, ","));
     condition.settings[experiment::equipped_setting] = equipped;

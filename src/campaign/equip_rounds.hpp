@@ -30,15 +30,16 @@ struct EquipCandidates {
     /// Candidates that follow each other on ways, the most driven first, six at most.
     std::vector<std::array<std::size_t, 2>> neighbours;
     std::size_t not_passed = 0;     ///< No emergency vehicle passes them.
+    std::size_t equipped = 0;       ///< Passed, but equipped today.
     std::size_t switched_off = 0;   ///< Passed, but their preemption parameters have `enabled` 0.
     std::size_t seldom_passed = 0;  ///< More emergency vehicles pass each of `most` others.
 };
 
-/// The signals that emergency vehicles of a study's first scenario pass in any of its replications; if they
-/// are more than `most`, those that most of these vehicles pass, of equal ones the first. Throws as
-/// scenario::prepare does.
+/// The signals that emergency vehicles of a study's first scenario pass in any of its replications, without
+/// those that are equipped `today` (by core::SignalIndex; empty: none is); if they are more than `most`,
+/// those that most of these vehicles pass, of equal ones the first. Throws as scenario::prepare does.
 EquipCandidates equip_candidates(const study::StudyConfig& config, const scenario::BuiltNetwork& built,
-                                 std::size_t most);
+                                 const std::vector<bool>& today, std::size_t most);
 
 /// What a set of equipped signals does, by replication; nothing for runs that failed.
 struct EquipOutcome {
@@ -57,6 +58,7 @@ struct EquipQuestion {
     study::StudyConfig config;                      ///< Scenario, seed and replications.
     experiment::ConditionSpec base;                 ///< The condition whose signals are chosen.
     std::vector<std::string> signals;               ///< Ids of the candidates.
+    std::vector<std::string> today;                 ///< Ids of those that are equipped in every set.
     std::vector<analysis::SignalSet> passed;        ///< As EquipCandidates has them.
     std::vector<std::array<std::size_t, 2>> pairs;  ///< That are tried together.
     std::size_t budget = 1;
@@ -103,7 +105,7 @@ class EquipRounds {
     std::size_t runs() const { return done_; }
     std::size_t failed_runs() const { return failed_; }
 
-    /// The condition with these candidates equipped, the others not.
+    /// The condition with these candidates and those of today equipped, the others not.
     experiment::ConditionSpec with(analysis::SignalSet set) const;
 
   private:

@@ -159,9 +159,8 @@ Printout plan_printout(const study::Plan& plan, const std::filesystem::path& fol
     std::string text = "the rest: ";
     text += rest.wall_s ? fmt::format("about {} (h:m:s)", core::clock_text(*rest.wall_s))
                         : "time unknown: the route files of measured demand cannot be read";
-    text += fmt::format(
-        ", about {} on the disk ({})", size_text(rest.disk_bytes),
-        rest.measured ? "from runs of these scenarios here" : "rough: accurate to a factor of about three");
+    text += fmt::format(", about {} on the disk ({})", size_text(rest.disk_bytes),
+                        rest.measured ? "from runs of these scenarios here" : rough_words);
     text = "\n" + core::wrapped(head, 4) + "\n" + core::wrapped(text, 4) + "\n";
     if (plan.manifest.precision) text += core::wrapped(precision_text(*plan.manifest.precision), 4) + "\n";
     return {{{"study", plan.manifest.study},

@@ -1,6 +1,7 @@
 #include "report/equipment.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -57,14 +58,19 @@ std::vector<SheetCell> ranked_row(const EquipmentFacts& facts, std::size_t equip
             signal.others, signal.chosen_by};
 }
 
+/// `1) Via Po / Via Roma, 2) S5`, numbered as the map and the table of ranks are.
 std::string names_of(const EquipmentFacts& facts) {
     std::vector<std::string> names;
     for (const EquippedSignal& signal : facts.ranked)
-        names.push_back(
-            fmt::format("{} (No. {})",
-                        signal.streets.empty() ? short_signal_name(signal.signal) : printable(signal.streets),
-                        signal.number));
+        names.push_back(fmt::format(
+            "{}) {}", names.size() + 1,
+            signal.streets.empty() ? short_signal_name(signal.signal) : printable(signal.streets)));
     return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::size_t rank_of(const EquipmentFacts& facts, std::size_t number) {
+    const auto found = std::ranges::find(facts.ranked, number, &EquippedSignal::number);
+    return static_cast<std::size_t>(found - facts.ranked.begin()) + 1;
 }
 
 template <class Facts>
@@ -94,8 +100,8 @@ std::string together_sentence(const EquipmentFacts& facts) {
     std::vector<std::string> pairs;
     for (const EquipPairFacts& pair : facts.pairs)
         if (pair.chosen)
-            pairs.push_back(fmt::format("No. {} with {}, which gain {} s ({})", pair.numbers[0],
-                                        pair.numbers[1], estimate_or_dash(pair.both_gain),
+            pairs.push_back(fmt::format("{} with {}, which gain {} s ({})", rank_of(facts, pair.numbers[0]),
+                                        rank_of(facts, pair.numbers[1]), estimate_or_dash(pair.both_gain),
                                         shown_word(pair.both_gain)));
     return pairs.empty() ? "" : fmt::format("Chosen together: {}.", fmt::join(pairs, "; "));
 }
@@ -105,6 +111,28 @@ bool is_of_pair(const EquipmentFacts& facts, const EquippedSignal& signal) {
     return std::ranges::any_of(facts.pairs, [&](const EquipPairFacts& pair) {
         return pair.chosen && std::ranges::find(pair.numbers, signal.number) != pair.numbers.end();
     });
+}
+
+bool shows_any(const EquipmentFacts& facts) {
+    const auto shown = [](const auto& one) { return is_shown(one.gain) || is_shown(one.so_far); };
+    return std::ranges::any_of(facts.ranked, shown) ||
+           std::ranges::any_of(facts.pairs, [](const EquipPairFacts& pair) {
+               return pair.chosen && is_shown(pair.both_gain);
+           });
+}
+
+/// How many seeds would show the gain of all ranks, if it and its spread are what they look like: the width
+/// of an interval falls with the root of their number.
+std::string seeds_sentence(const EquipmentFacts& facts) {
+    const analysis::MaybeEstimate& gain = facts.ranked.back().so_far;
+    const analysis::Interval* const interval = analysis::shown_interval(gain);
+    if (interval == nullptr || is_shown(gain)) return "";
+    if (gain->mean <= 0.0) return "Their mean is no gain.";
+    constexpr double most = 1000.0;  // --seeds
+    const double ratio = interval->half_width() / gain->mean;
+    const double seeds = std::ceil(static_cast<double>(gain->n) * ratio * ratio);
+    if (seeds > most) return fmt::format("More than {:.0f} seeds would show so small a gain of all.", most);
+    return fmt::format("About {:.0f} seeds would show the gain of all, if it is as it looks.", seeds);
 }
 
 std::string not_shown_sentence(const EquipmentFacts& facts) {
@@ -138,6 +166,11 @@ std::string share_sentence(const EquipmentFacts& facts) {
         return fmt::format("{} of {} bring {:.0f} % of the gain of all.", *rank,
                            counted(facts.signals, "signal"), great_share * 100.0);
     return fmt::format("These do not bring {:.0f} % of the gain of all.", great_share * 100.0);
+}
+
+/// What gains count from.
+const char* start_of(const EquipmentFacts& facts) {
+    return facts.equipped_today.empty() ? "no signal equipped" : "those equipped today";
 }
 
 std::string left_out_sentence(std::size_t count, const char* why) {
@@ -221,12 +254,16 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts) {
                                         counted(facts.candidates.size(), "candidate")));
     } else {
         const EquippedSignal& last = facts.ranked.back();
-        sentences.push_back(fmt::format("Equip first: {}.", names_of(facts)));
         sentences.push_back(
-            fmt::format("Together, an EV needs {} s less a trip than with none ({}), and the others {}.",
-                        estimate_or_dash(last.so_far), shown_word(last.so_far), others_words(last.others)));
+            fmt::format("{}: {}.", shows_any(facts) ? "Equip first" : "No gain is shown yet; likely best",
+                        names_of(facts)));
+        sentences.push_back(fmt::format(
+            "Together, an EV needs {} s less a trip than with {} ({}), and the others {}.",
+            estimate_or_dash(last.so_far), facts.equipped_today.empty() ? "none" : "those of today",
+            shown_word(last.so_far), others_words(last.others)));
         sentences.push_back(together_sentence(facts));
         sentences.push_back(not_shown_sentence(facts));
+        sentences.push_back(seeds_sentence(facts));
     }
     sentences.push_back(end_sentence(facts));
     sentences.push_back(share_sentence(facts));
@@ -242,11 +279,14 @@ std::vector<std::string> circumstances_of(const EquipmentFacts& facts) {
         left_out_sentence(facts.not_passed, "no EV passes in these seeds"),
         left_out_sentence(facts.seldom_passed, "fewer EVs pass than the candidates"),
         left_out_sentence(facts.switched_off, "the scenario's preemption parameters switch off"),
-        fmt::format(
-            "EV time, s: baseline {}, no signal equipped {}, all signals {}, alone {}. Gains count from no "
-            "signal equipped.",
-            estimate_or_dash(facts.baseline_s), estimate_or_dash(facts.none_s), estimate_or_dash(facts.all_s),
-            estimate_or_dash(facts.alone_s)),
+        facts.equipped_today.empty()
+            ? ""
+            : fmt::format("Equipped today: {}; EVs pass {} of them.",
+                          printable(fmt::format("{}", fmt::join(facts.equipped_today, ", "))),
+                          facts.equipped_and_passed),
+        fmt::format("EV time, s: baseline {}, {} {}, all signals {}, alone {}. Gains count from {}.",
+                    estimate_or_dash(facts.baseline_s), start_of(facts), estimate_or_dash(facts.none_s),
+                    estimate_or_dash(facts.all_s), estimate_or_dash(facts.alone_s), start_of(facts)),
         fmt::format("{}.", counted(facts.runs, "run"))};
     std::erase(sentences, "");
     return sentences;
@@ -268,9 +308,9 @@ std::string pair_legend() {
 std::string ranked_legend(const EquipmentFacts& facts) {
     return fmt::format(
         "In the order of choice. Gains are of fresh runs, seed {}, so that the choice does not flatter "
-        "them: over the ranks before [95 %, all ranks together (Bonferroni)], and so far, over no signal "
-        "equipped [95 %, each]. %: of the gain of all signals.",
-        facts.fresh_seed);
+        "them: over the ranks before [95 %, all ranks together (Bonferroni)], and so far, over {} [95 %, "
+        "each]. %: of the gain of all signals.",
+        facts.fresh_seed, start_of(facts));
 }
 
 }  // namespace detail
@@ -326,6 +366,7 @@ std::string equipment_json(const EquipmentFacts& facts) {
                        {"not_passed", facts.not_passed},
                        {"switched_off", facts.switched_off},
                        {"seldom_passed", facts.seldom_passed},
+                       {"equipped_today", facts.equipped_today},
                        {"runs", facts.runs},
                        {"baseline_s", estimate_json(facts.baseline_s)},
                        {"none_equipped_s", estimate_json(facts.none_s)},

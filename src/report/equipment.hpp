@@ -60,8 +60,10 @@ struct EquipmentFacts {
     std::uint64_t fresh_seed = 0;  ///< Of those that estimate.
     std::uint32_t replications = 0;
     std::size_t budget = 0;
-    std::size_t signals = 0;        ///< Of the network.
-    std::size_t not_passed = 0;     ///< Of them, no emergency vehicle passes in these replications.
+    std::size_t signals = 0;     ///< Of the network.
+    std::size_t not_passed = 0;  ///< Of them, no emergency vehicle passes in these replications.
+    std::vector<std::string> equipped_today = {};  ///< Ids; texts from a file. Gains count from there.
+    std::size_t equipped_and_passed = 0;           ///< Of them, emergency vehicles pass.
     std::size_t switched_off = 0;   ///< Passed, but `enabled` is 0 in the scenario's preemption parameters.
     std::size_t seldom_passed = 0;  ///< Left out because more emergency vehicles pass the candidates.
     std::size_t runs = 0;           ///< Those that decide and those that estimate.

@@ -179,8 +179,11 @@ Figure equipment_map_figure(const EquipmentFacts& facts) {
     draw_ranks(canvas, facts);
     canvas.credit(facts.attribution);
     canvas.legend(map_entries(facts));
-    return {
-        "map", "Where they are", canvas.finish(), "Discs bear the order, the first column of the table.", {}};
+    return {"map",
+            "Where they are",
+            canvas.finish(),
+            "Discs bear the order, as the answer above and the first column of the table do.",
+            {}};
 }
 
 }  // namespace detail

@@ -181,6 +181,22 @@ TEST_F(EquipTest, may_take_a_run_for_that_of_a_set_without_the_signals_that_nobo
     EXPECT_NE(time_with("none", "without2"), time_with("A", "first2"));
 }
 
+TEST_F(EquipTest, starts_from_what_is_equipped_today) {
+    const Ended ended = equip({"--set", "actuation.equipped=A", "--json"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const auto found = nlohmann::json::parse(ended.out);
+    EXPECT_EQ(found.at("equipped_today"), nlohmann::json({"A"}));
+    ASSERT_EQ(found.at("candidates").size(), 1U);
+    EXPECT_EQ(found.at("candidates")[0].at("signal"), "B");
+    EXPECT_THAT(read("out/report.html"), AllOf(HasSubstr("Equipped today: A; EVs pass 1 of them."),
+                                               HasSubstr("Gains count from those equipped today.")));
+    std::set<std::string> sets;
+    const auto manifest = nlohmann::json::parse(read("out/round-01/manifest.json"));
+    for (const auto& condition : manifest.at("conditions"))
+        sets.insert(condition.value("settings", nlohmann::json::object()).value("actuation.equipped", ""));
+    EXPECT_THAT(sets, testing::UnorderedElementsAre("", "A", "A,B")) << "the first is the baseline";
+}
+
 TEST_F(EquipTest, refuses_what_has_no_answer_and_leaves_nothing_behind) {
     const auto refused = [&](const std::vector<std::string>& words, int code, const std::string& message) {
         const Ended ended = clearway(words);
@@ -199,8 +215,9 @@ TEST_F(EquipTest, refuses_what_has_no_answer_and_leaves_nothing_behind) {
             "has no policy that requests green from signals");
     refused({"equip", "./crossings", "--budget", "1", "--condition", "baseline"}, 3,
             "has no policy that requests green from signals");
-    refused({"equip", "./crossings", "--budget", "1", "--set", "actuation.equipped=A"}, 3,
-            "is chosen by equip itself");
+    refused({"equip", "./crossings", "--budget", "1", "--set", "actuation.equipped=all"}, 3,
+            "says that every signal is equipped today");
+    refused({"equip", "./crossings", "--budget", "1", "--set", "actuation.equipped=C"}, 3, "no signal \"C\"");
     write_line_scenario();
     refused({"equip", "line", "--budget", "1"}, 3, "has no signals");
 }

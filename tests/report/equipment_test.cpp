@@ -108,10 +108,9 @@ TEST(Equipment, HasPairsThatWereTriedTogether) {
     facts.pairs = {{{1, 4}, about(2.0, 3.0), true, false},
                    {{4, 9}, about(21.0, 4.0), false, true, about(42.0, 5.0)}};
     const std::string text = flat_text(facts);
-    EXPECT_THAT(text,
-                AllOf(HasSubstr("21.0 [17.0, 25.0]  shown"),
-                      HasSubstr("Chosen together: No. 4 with 9, which gain 42.0 [37.0, 47.0] s (shown)."),
-                      Not(HasSubstr("Not shown:"))));
+    EXPECT_THAT(text, AllOf(HasSubstr("21.0 [17.0, 25.0]  shown"),
+                            HasSubstr("Chosen together: 1 with 2, which gain 42.0 [37.0, 47.0] s (shown)."),
+                            Not(HasSubstr("Not shown:"))));
     EXPECT_LT(text.find("21.0 [17"), text.find("2.0 [-1.0, 5.0]")) << "the greatest gain first";
     EXPECT_EQ(
         pairs_csv(facts),
@@ -126,12 +125,36 @@ TEST(Equipment, HasPairsThatWereTriedTogether) {
 TEST(Equipment, EndsWithTheAnswer) {
     const std::string text = flat_text(two_of_twelve());
     const std::string answer =
-        text.substr(text.find("Equip first: Gate <Road> / High Street (No. 4), south of"));
+        text.substr(text.find("Equip first: 1) Gate <Road> / High Street, 2) south of"));
     EXPECT_THAT(answer, HasSubstr("42.0 [38.0, 46.0]"));
     EXPECT_THAT(text, HasSubstr("Not shown: the gain of rank 2"));
     EXPECT_THAT(text, HasSubstr("Stopped at 2 of 5"));
     EXPECT_THAT(text, testing::ContainsRegex("- +- +all signals")) << "no rank 12";
     EXPECT_LE(answer.size(), 6U * 80U) << "six lines at the end of a terminal";
+}
+
+TEST(Equipment, NamesNoOrderWhereNothingIsShown) {
+    EquipmentFacts facts = two_of_twelve();
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("seeds would show")));
+    facts.ranked[0].gain = facts.ranked[0].so_far = about(2.0, 3.0);
+    facts.ranked[1].gain = about(1.0, 4.0);
+    facts.ranked[1].so_far = about(3.0, 6.0);
+    EXPECT_THAT(flat_text(facts), AllOf(HasSubstr("No gain is shown yet; likely best: 1) Gate <Road> / High"),
+                                        Not(HasSubstr("Equip first")),
+                                        HasSubstr("About 40 seeds would show the gain of all, if it is as")));
+    facts.ranked[1].so_far = about(0.1, 6.0);
+    EXPECT_THAT(flat_text(facts), HasSubstr("More than 1000 seeds would show so small a gain"));
+    facts.ranked[1].so_far = about(-1.0, 6.0);
+    EXPECT_THAT(flat_text(facts), HasSubstr("Their mean is no gain."));
+}
+
+TEST(Equipment, SaysWhatIsEquippedToday) {
+    EquipmentFacts facts = two_of_twelve();
+    facts.equipped_today = {"east", "west"};
+    facts.equipped_and_passed = 1;
+    EXPECT_THAT(flat_text(facts), AllOf(HasSubstr("Equipped today: east, west; EVs pass 1 of them."),
+                                        HasSubstr("less a trip than with those of today (shown)"),
+                                        Not(HasSubstr("no signal equipped"))));
 }
 
 TEST(Equipment, SaysThatTheBudgetIsMoreThanThereAreSignals) {

@@ -17,9 +17,13 @@ struct RunCost {
     bool measured = false;  ///< From runs of this scenario on this disk; else rough.
 };
 
-/// The cost of a run before any was made, accurate to a factor of about three: 10 us per vehicle and step for
-/// 120 s on the road plus 0.2 s (no time if measured demand cannot be read), and on the disk 12 KiB plus 160
-/// bytes per vehicle.
+/// What is said of it.
+inline constexpr const char* rough_words =
+    "rough: to a factor of three, more where traffic jams; clearway scenario check times a run";
+
+/// The cost of a run before any was made, accurate to a factor of about three where traffic flows: 10 us per
+/// vehicle and step for 120 s on the road plus 0.2 s (no time if measured demand cannot be read), and on the
+/// disk 12 KiB plus 160 bytes per vehicle.
 RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::TrafficModel traffic_model);
 
 /// Costs of runs, estimated from those in a run folder and its neighbours.
