@@ -190,6 +190,12 @@ void count_run(const std::vector<metrics::LeaseRow>& leases, IdlePart& part) {
     }
     ++part.runs;
     if (!acts) ++part.idle_runs;
+    for (const metrics::LeaseRow& row : leases) {
+        if (acts || row.policy != part.policy) continue;
+        part.vain += row.issued;
+        for (const auto& [reason, count] : row.refused)
+            part.refused[reason] += count;
+    }
     if (acts && !acts_on_others) ++part.own_runs;
 }
 
@@ -243,14 +249,24 @@ void close_gap(const Runs& condition, const Runs& baseline, const Runs& solo, Re
     summary.gap_closed = gap_closed(with, without, alone, resamples.of(with.size()));
 }
 
-/// The condition that `condition` is compared with: `against`, or when that is empty its baseline. Nullptr
-/// for solo, for that condition itself and where there is none.
+/// The name that a study file gave: what follows `+` was added by factors.
+std::string_view given_name(const ConditionSpec& condition) {
+    return std::string_view(condition.name).substr(0, condition.name.find('+'));
+}
+
+/// The condition that `condition` is compared with. Nullptr for solo, for the reference itself and where
+/// there is none.
 const ConditionSpec* compared_with(const ConditionSpec& condition, const std::vector<ConditionSpec>& all,
-                                   const std::string& against) {
+                                   const Reference& reference) {
     if (condition.traffic_model == TrafficModel::free_flow) return nullptr;
+    core::Settings levels = condition.factors;
+    for (const auto& [factor, level] : reference.levels)
+        levels[factor] = level;
     const auto found = std::ranges::find_if(all, [&](const ConditionSpec& other) {
-        return experiment::same_environment(other, condition) &&
-               (against.empty() ? !other.acts() : other.name == against);
+        if (!experiment::same_environment(other, condition)) return false;
+        if (!reference.levels.empty())
+            return other.factors == levels && given_name(other) == given_name(condition);
+        return reference.name.empty() ? !other.acts() : other.name == reference.name;
     });
     return found == all.end() || found->name == condition.name ? nullptr : &*found;
 }
@@ -350,7 +366,7 @@ namespace {
 /// As `summarise` takes them.
 struct Choices {
     std::optional<double> response_threshold_s;
-    std::string against;
+    Reference reference;
 };
 
 ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEntry& entry,
@@ -364,14 +380,14 @@ ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEn
     find_same(index, scenario);
     const auto solo = std::ranges::find(conditions, TrafficModel::free_flow, &ConditionSpec::traffic_model);
     for (ConditionSummary& summary : scenario.conditions) {
-        const ConditionSpec* const baseline = compared_with(summary.condition, conditions, choices.against);
+        const ConditionSpec* const baseline = compared_with(summary.condition, conditions, choices.reference);
         const Runs runs = index.runs(entry.name, summary.condition.name);
         const Runs baseline_runs = baseline == nullptr ? Runs{} : index.runs(entry.name, baseline->name);
         summary.response = response_of(runs, baseline_runs, threshold_s, resamples.level());
         if (baseline == nullptr) continue;
         summary.baseline = baseline->name;
         detail::compare_conditions(runs, baseline_runs, *scenario.find(baseline->name), resamples, summary);
-        if (solo == conditions.end() || !choices.against.empty()) continue;
+        if (solo == conditions.end() || !choices.reference.is_baseline()) continue;
         close_gap(runs, baseline_runs, index.runs(entry.name, solo->name), resamples, summary);
     }
     detail::adjust(scenario);
@@ -379,6 +395,14 @@ ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEn
 }
 
 }  // namespace
+
+std::string to_text(const Reference& reference) {
+    if (reference.levels.empty()) return reference.name;
+    std::vector<std::string> levels;
+    for (const auto& [factor, level] : reference.levels)
+        levels.push_back(fmt::format("{} {}", factor, level));
+    return fmt::format("the same with {}", fmt::join(levels, " and "));
+}
 
 std::vector<MetricInfo> all_metrics() {
     std::vector<MetricInfo> infos;
@@ -427,7 +451,7 @@ const ConditionSummary* ScenarioSummary::find(const std::string& condition) cons
 }
 
 Summary summarise(const results::Results& results, double level, std::optional<double> response_threshold_s,
-                  const std::string& against) {
+                  const Reference& reference) {
     Summary summary;
     summary.manifest = results.manifest;
     summary.level = level;
@@ -435,7 +459,7 @@ Summary summarise(const results::Results& results, double level, std::optional<d
     ResampleCache resamples(level);
     for (const results::ScenarioEntry& entry : results.manifest.scenarios) {
         summary.scenarios.push_back(summarise_scenario(index, entry, results.manifest.conditions, resamples,
-                                                       {response_threshold_s, against}));
+                                                       {response_threshold_s, reference}));
         for (const ConditionSummary& condition : summary.scenarios.back().conditions)
             detail::add_unfinished(entry.name, condition, "", summary.unpaired);
     }

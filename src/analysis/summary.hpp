@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,7 +14,9 @@
 #include "analysis/objections.hpp"
 #include "analysis/response.hpp"
 #include "analysis/traffic.hpp"
+#include "core/settings.hpp"
 #include "results/store.hpp"
+#include "traffic/refusal.hpp"
 
 namespace clearway::analysis {
 
@@ -95,6 +98,9 @@ struct IdlePart {
     std::size_t idle_runs = 0;  ///< Complete runs in which none of its leases was carried out.
     std::size_t runs = 0;       ///< Complete runs.
     std::size_t own_runs = 0;   ///< Complete runs in which it only changed the emergency vehicle's own lane.
+    std::uint64_t vain = 0;     ///< Leases that it issued in idle runs.
+    /// Those of them that were refused, by reason.
+    std::map<traffic::Refusal, std::uint64_t> refused = {};
 };
 
 struct ConditionSummary {
@@ -161,11 +167,23 @@ struct Summary {
 Summary compare_studies(const results::Results& first, const results::Results& second,
                         double level = usual_level, std::optional<double> response_threshold_s = {});
 
+/// What conditions are compared with: one condition of the study, by its name; or for each the one that has
+/// these levels of factors, `condition.policy` -> `corridor`, and is the same in all others; or its baseline,
+/// if neither is given.
+struct Reference {
+    std::string name = {};
+    core::Settings levels = {};
+
+    bool is_baseline() const { return name.empty() && levels.empty(); }
+};
+/// `corridor`, or `the same with condition.policy corridor`; empty for the baseline.
+std::string to_text(const Reference& reference);
+
 /// A condition's baseline is the first condition of the same traffic model without policies; its solo times
 /// are those of the first free-flow condition. Without `response_threshold_s`, each scenario has its own (see
-/// usual_response_threshold_s). With `against`, the name of a condition, that one is the baseline of all
-/// others of its environment, and no share of a gap is given. Deterministic.
+/// usual_response_threshold_s). Another reference takes the place of the baseline among the conditions of its
+/// environment, and no share of a gap is given. Deterministic.
 Summary summarise(const results::Results& results, double level = usual_level,
-                  std::optional<double> response_threshold_s = {}, const std::string& against = {});
+                  std::optional<double> response_threshold_s = {}, const Reference& reference = {});
 
 }  // namespace clearway::analysis

@@ -1,7 +1,9 @@
 #include "campaign/names.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -39,7 +41,61 @@ core::Problem unknown_part(const std::string& where, const std::string& name,
     return problem;
 }
 
+using Levels = std::map<std::string, std::vector<std::string>>;
+
+/// `condition.policy=corridor`.
+std::string example_of(const Levels& levels) {
+    return fmt::format("{}={}", levels.begin()->first, levels.begin()->second.front());
+}
+
+/// The levels of each factor that conditions have.
+Levels levels_of(const std::vector<experiment::ConditionSpec>& conditions) {
+    Levels levels;
+    for (const experiment::ConditionSpec& condition : conditions) {
+        for (const auto& [factor, level] : condition.factors) {
+            std::vector<std::string>& known = levels[factor];
+            if (std::ranges::find(known, level) == known.end()) known.push_back(level);
+        }
+    }
+    return levels;
+}
+
 }  // namespace
+
+analysis::Reference reference_from(const std::string& against,
+                                   const std::vector<experiment::ConditionSpec>& conditions,
+                                   const std::filesystem::path& folder) {
+    if (against.empty()) return {};
+    const char* const option = "--against";
+    const std::vector<std::string> names = core::texts_of(conditions, &experiment::ConditionSpec::name);
+    if (std::ranges::find(names, against) != names.end()) return {.name = against};
+    const Levels levels = levels_of(conditions);
+    if (levels.empty() || against.find('=') == std::string::npos || against.find('+') != std::string::npos) {
+        core::Problem problem =
+            unknown_name(option, against, names, "clearway study status " + folder.string());
+        if (!levels.empty()) problem.allowed += "; or a factor and its level, as " + example_of(levels);
+        throw core::InputError(std::move(problem));
+    }
+    analysis::Reference reference;
+    std::istringstream words(against);
+    for (std::string word; std::getline(words, word, ',');) {
+        const std::size_t equals = std::min(word.find('='), word.size());
+        const std::string factor = word.substr(0, equals);
+        const std::string level = word.substr(std::min(equals + 1, word.size()));
+        const auto found = levels.contains(factor) ? levels.find(factor) : levels.find("condition." + factor);
+        if (found == levels.end()) {
+            std::vector<std::string> factors;
+            for (const auto& [name, known] : levels)
+                factors.push_back(name);
+            throw core::InputError(unknown_name(fmt::format("{}: factor", option), factor, factors));
+        }
+        if (std::ranges::find(found->second, level) == found->second.end())
+            throw core::InputError(
+                unknown_name(fmt::format("{}: level of {}", option, found->first), level, found->second));
+        reference.levels[found->first] = level;
+    }
+    return reference;
+}
 
 std::vector<std::string> failure_names() {
     return core::texts_of(failures::failure_presets(), &failures::FailurePreset::name);

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "analysis/summary.hpp"
 #include "core/error.hpp"
 #include "experiment/condition.hpp"
 
@@ -13,6 +15,13 @@ namespace clearway::campaign {
 core::Problem unknown_name(const std::string& where, const std::string& name,
                            const std::vector<std::string>& known,
                            const std::string& listed_by = "clearway list");
+
+/// What `--against` names: nothing, a condition, or levels of factors, `policy=corridor` or
+/// `condition.policy=corridor,condition.failure=B10`. Throws core::InputError for what the study does not
+/// have; `folder` is its run folder.
+analysis::Reference reference_from(const std::string& against,
+                                   const std::vector<experiment::ConditionSpec>& conditions,
+                                   const std::filesystem::path& folder);
 
 std::vector<std::string> failure_names();
 

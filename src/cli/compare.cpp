@@ -89,15 +89,11 @@ std::vector<report::Tolerance> check(Arguments& arguments) {
     return tolerances;
 }
 
-void check_against(const Arguments& arguments, const results::Manifest& manifest) {
-    const std::vector<std::string> names =
-        core::texts_of(manifest.conditions, &experiment::ConditionSpec::name);
-    if (!arguments.second.empty())
+analysis::Reference reference_of(const Arguments& arguments, const results::Manifest& manifest) {
+    if (!arguments.against.empty() && !arguments.second.empty())
         throw core::InputError(
             {"--against", "is for one run folder, and there are two", "", "Leave out " + arguments.second});
-    if (std::ranges::find(names, arguments.against) == names.end())
-        throw core::InputError(campaign::unknown_name("--against", arguments.against, names,
-                                                      "clearway study status " + arguments.first));
+    return campaign::reference_from(arguments.against, manifest.conditions, arguments.first);
 }
 
 analysis::Summary summary_of(const Arguments& arguments) {
@@ -105,14 +101,14 @@ analysis::Summary summary_of(const Arguments& arguments) {
         if (!folder.empty()) campaign::renew_edited_tables(results::Store::open(folder));
     const results::Results first =
         results::read_results(results::Store::open(arguments.first), results::VehicleRows::emergency);
-    if (!arguments.against.empty()) check_against(arguments, first.manifest);
+    const analysis::Reference reference = reference_of(arguments, first.manifest);
     if (!arguments.second.empty())
         return analysis::compare_studies(
             first,
             results::read_results(results::Store::open(arguments.second), results::VehicleRows::emergency),
             analysis::usual_level, arguments.response_threshold_s);
     analysis::Summary summary =
-        analysis::summarise(first, analysis::usual_level, arguments.response_threshold_s, arguments.against);
+        analysis::summarise(first, analysis::usual_level, arguments.response_threshold_s, reference);
     const bool compared = std::ranges::any_of(summary.scenarios, [](const auto& scenario) {
         return std::ranges::any_of(scenario.conditions,
                                    [](const auto& condition) { return !condition.baseline.empty(); });
@@ -166,9 +162,11 @@ Action configure_compare(App& app) {
     app.add_option("other", arguments->second,
                    "Second run folder: its runs are compared with the same runs of the first")
         .option_text("DIR [none]");
-    app.add_option("--against", arguments->against,
-                   "Condition of the run folder that the others are compared with")
-        .option_text("NAME [the baselines]");
+    app.add_option(
+           "--against", arguments->against,
+           "Condition of the run folder that the others are compared with, or levels of factors: each "
+           "is compared with the one that is the same but for these")
+        .option_text("NAME|FACTOR=LEVEL,... [the baselines]");
     app.add_option("--metric", arguments->metrics, "Metric to compare, a column of runs.csv; may be repeated")
         .allow_extra_args(false)
         .option_text("NAME [EV and others' times, collisions, teleports]");

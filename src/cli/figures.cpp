@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "campaign/names.hpp"
 #include "campaign/programs.hpp"
 #include "cli/detail/app.hpp"
 #include "cli/verb.hpp"
@@ -16,6 +17,7 @@
 #include "core/temporary_folder.hpp"
 #include "report/figure_files.hpp"
 #include "report/read_facts.hpp"
+#include "results/store.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -25,6 +27,7 @@ enum class Formats { all, svg };
 struct Arguments {
     std::filesystem::path folder;
     std::filesystem::path output;
+    std::string against;  ///< Empty: the baselines.
     double least_relevant_s = report::usual_least_relevant_s;
     Formats formats = Formats::all;
 };
@@ -60,6 +63,9 @@ void convert(const std::vector<std::filesystem::path>& drawings, const std::stri
 
 /// Of a folder of clearway equip, which is no run folder.
 core::ExitCode write_equipment(const Arguments& arguments) {
+    if (!arguments.against.empty())
+        throw core::InputError({"--against", "is given for a folder of clearway equip",
+                                "a folder of run or study", "Leave it out"});
     std::vector<std::filesystem::path> drawings;
     core::claim(arguments.output, report::figure_folder());
     for (const char* const name : {"curve.svg", "map.svg"}) {
@@ -78,8 +84,15 @@ core::ExitCode write_equipment(const Arguments& arguments) {
 
 core::ExitCode write(const Arguments& arguments) {
     if (std::filesystem::exists(arguments.folder / "equip.json")) return write_equipment(arguments);
+    if (std::filesystem::exists(arguments.folder / "evaluation.tex"))
+        throw core::InputError(
+            {arguments.folder.string(), "is of clearway links evaluate", "a folder of run, study or equip",
+             "Its tables are evaluation.tex and evaluation.csv, its figures are on links.html"});
     const bool all = arguments.formats == Formats::all;
-    const report::StudyFacts facts = report::read_facts(arguments.folder, arguments.least_relevant_s);
+    const results::Manifest manifest = results::Store::open(arguments.folder).manifest();
+    const report::StudyFacts facts = report::read_facts(
+        arguments.folder, arguments.least_relevant_s,
+        campaign::reference_from(arguments.against, manifest.conditions, arguments.folder));
     const report::FigureFiles files = report::write_figures(facts, arguments.output);
     report::write_index(files, arguments.output, {});
     if (all) {
@@ -106,6 +119,10 @@ Action configure_figures(App& app) {
     app.add_option("--out", arguments->output, "Folder for the files; made if it does not exist")
         .required()
         .option_text("DIR (required)");
+    app.add_option("--against", arguments->against,
+                   "Condition that stands for the baseline, or levels of factors: each condition is compared "
+                   "with the one that is the same but for these")
+        .option_text("NAME|FACTOR=LEVEL,... [the baselines]");
     app.add_option("--least-difference", arguments->least_relevant_s,
                    "Smallest difference of an EV's time that counts as an effect, s; 0: any")
         .range(0.0, 1e6)

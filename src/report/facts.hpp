@@ -253,6 +253,8 @@ struct StudyFacts {
     std::vector<LossCurve> curves;
     std::vector<Provenance> provenance;
     std::string command;  ///< Repeats the study.
+    /// With what conditions are compared instead of their baselines; empty otherwise.
+    std::string reference = {};
 };
 
 }  // namespace clearway::report

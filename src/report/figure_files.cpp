@@ -63,8 +63,14 @@ class FileWriter : public detail::Writer {
         core::write_output(file, text);
         return file;
     }
-    /// A caption that can stand alone, with what is drawn and of which scenario.
+    /// A caption that can stand alone, with what is drawn, of which scenario and compared with what.
     std::string full(const std::string& caption, const std::string& name) const {
+        return with_scenario(caption, name) + reference_note();
+    }
+    std::string reference_note() const {
+        return study_.reference.empty() ? "" : fmt::format(" (baseline: {})", study_.reference);
+    }
+    std::string with_scenario(const std::string& caption, const std::string& name) const {
         for (const ScenarioFacts& scenario : study_.scenarios) {
             if (caption == scenario.name) return topic_ + ": " + caption;
             if (name.ends_with("-" + plain_name(scenario.name)) &&
@@ -82,8 +88,10 @@ class FileWriter : public detail::Writer {
     }
     void put(const Table& table) override {
         files_.tables.push_back(write(table.name, ".csv", detail::to_csv(table.data)));
-        files_.typeset.push_back(write(table.name, ".tex", detail::to_latex(table)));
-        files_.entries.push_back({section_, table.name, table.caption, "", false, true});
+        Table typeset = table;
+        typeset.caption += reference_note();
+        files_.typeset.push_back(write(table.name, ".tex", detail::to_latex(typeset)));
+        files_.entries.push_back({section_, table.name, typeset.caption, "", false, true});
     }
 
     std::filesystem::path folder_;

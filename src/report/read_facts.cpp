@@ -312,10 +312,13 @@ StudyFacts facts_of(const results::Store& store, const results::Results& results
     return study;
 }
 
-StudyFacts read_facts(const fs::path& folder, double least_relevant_s) {
+StudyFacts read_facts(const fs::path& folder, double least_relevant_s, const analysis::Reference& reference) {
     const results::Store store = results::Store::open(folder);
     const results::Results results = results::read_results(store, results::VehicleRows::emergency);
-    return facts_of(store, results, analysis::summarise(results), least_relevant_s);
+    const analysis::Summary summary = analysis::summarise(results, analysis::usual_level, {}, reference);
+    StudyFacts facts = facts_of(store, results, summary, least_relevant_s);
+    facts.reference = analysis::to_text(reference);
+    return facts;
 }
 
 }  // namespace clearway::report

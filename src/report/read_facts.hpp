@@ -22,7 +22,8 @@ namespace clearway::report {
 ///
 /// Reads only. Smaller differences of EV times than `least_relevant_s` do not count. Throws core::InputError
 /// for a folder that is not a run folder and for damaged files.
-StudyFacts read_facts(const std::filesystem::path& folder, double least_relevant_s = usual_least_relevant_s);
+StudyFacts read_facts(const std::filesystem::path& folder, double least_relevant_s = usual_least_relevant_s,
+                      const analysis::Reference& reference = {});
 
 /// The same from results that have been read and summarised already.
 StudyFacts facts_of(const results::Store& store, const results::Results& results,

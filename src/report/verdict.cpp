@@ -176,16 +176,29 @@ std::string lease_sentence(const ConditionFacts& condition) {
 namespace {
 
 /// One sentence for all parts of which `runs_of` counts a run, those of equally many runs together.
+/// ` (7,407 leases, most refused as vehicle_gone)`: what a part wanted that never acted; nothing if that was
+/// nothing.
+std::string vain_leases(const analysis::IdlePart& part) {
+    if (part.vain == 0) return {};
+    const std::string leases = counted(part.vain, "lease");
+    const auto most = std::ranges::max_element(part.refused, {}, [](const auto& one) { return one.second; });
+    if (most == part.refused.end()) return fmt::format(" ({}, none carried out)", leases);
+    return fmt::format(" ({}, {} refused as {})", leases, most->second >= part.vain ? "all" : "most",
+                       name(most->first));
+}
+
 std::string sentence_of_parts(const char* what, const std::vector<analysis::IdlePart>& parts,
                               std::size_t analysis::IdlePart::*runs_of) {
     std::vector<std::pair<std::string, std::string>> groups;  // `3 of 20 runs`, names.
     for (const analysis::IdlePart& part : parts) {
         if (part.*runs_of == 0) continue;
         std::string runs = fmt::format("{} of {}", part.*runs_of, counted(part.runs, "run"));
+        const std::string name =
+            part.policy + (runs_of == &analysis::IdlePart::idle_runs ? vain_leases(part) : "");
         if (!groups.empty() && groups.back().first == runs)
-            groups.back().second += ", " + part.policy;
+            groups.back().second += ", " + name;
         else
-            groups.emplace_back(std::move(runs), part.policy);
+            groups.emplace_back(std::move(runs), name);
     }
     std::string text;
     for (const auto& [runs, names] : groups)

@@ -162,6 +162,33 @@ TEST(FigureFiles, HoldOnlyWhatTheStudyUsed) {
                 AllOf(HasSubstr("signal red"), Not(HasSubstr("signal yellow"))));
 }
 
+/// Two factors, of which the second has a level at which one combination is missing.
+TEST(FigureFiles, HaveTheGridOfFactorsWithItsIntervals) {
+    StudyFacts study = tests::study({"merge"});
+    std::vector<ConditionFacts>& conditions = study.scenarios[0].conditions;
+    conditions.resize(1);
+    const auto add = [&](const char* failure, const char* policy, double gain_s) {
+        ConditionFacts& made =
+            conditions.emplace_back(tests::condition(fmt::format("own+{}+{}", failure, policy), "", 90.0));
+        tests::compare(made, tests::around(-gain_s, 1.5), tests::around(0.5, 0.2));
+        made.factors = {{"condition.failure", failure}, {"condition.policy", policy}};
+    };
+    add("perfect", "corridor", 12.0);
+    add("B10", "corridor", 8.0);
+    add("B20", "corridor", 4.0);
+    add("perfect", "geocast", 14.0);
+    add("B20", "geocast", 6.0);
+    const core::TemporaryFolder folder;
+    write_figures(study, folder.path());
+    EXPECT_EQ(text_of(folder.path() / "factors-emergency-grid.csv"),
+              "Condition,policy,perfect,low 95 %,high 95 %,B10,low 95 %,high 95 %,B20,low 95 %,high 95 %\n"
+              "\"merge, own\",corridor,-12.0,-13.5,-10.5,-8.0,-9.5,-6.5,-4.0,-5.5,-2.5\n"
+              "\"merge, own\",geocast,-14.0,-15.5,-12.5,,,,-6.0,-7.5,-4.5\n");
+    EXPECT_THAT(text_of(folder.path() / "factors-others-grid.tex"),
+                AllOf(HasSubstr("\\label{tab:factors-others-grid}"), HasSubstr("by failure"),
+                      HasSubstr("0.5 & [\\num{0.3}, \\num{0.7}]")));
+}
+
 TEST(FigureFiles, AreAllOnOnePage) {
     const core::TemporaryFolder folder;
     const FigureFiles files = write_figures(tests::study({"merge", "<b>City</b>/../x"}), folder.path());

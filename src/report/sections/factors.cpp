@@ -1,6 +1,7 @@
 // Grid charts of a study's factors: what each combination does for emergency vehicles and to the others.
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include <fmt/format.h>
@@ -110,24 +111,71 @@ GridCell cell_of(const Made& made, Measure measure) {
 
 using Panels = std::map<std::string, std::vector<Made>>;
 
+Panels panels_of(const std::vector<Made>& made, const std::vector<Factor>& factors) {
+    Panels panels;
+    for (const Made& one : made)
+        panels[panel_of(one, factors)].push_back(one);
+    return panels;
+}
+
+/// What a panel has at each level of the first factor, for one level of the second; null where nothing was
+/// made.
+std::vector<const Made*> row_of(const std::vector<Made>& panel, const std::vector<Factor>& factors,
+                                const std::string& level) {
+    const Factor& across = factors[0];
+    std::vector<const Made*> row(across.levels.size(), nullptr);
+    for (const Made& one : panel) {
+        if (factors.size() > 1 && level_of(one, factors[1].name) != level) continue;
+        const auto column = std::ranges::find(across.levels, level_of(one, across.name));
+        if (column != across.levels.end())
+            row[static_cast<std::size_t>(column - across.levels.begin())] = &one;
+    }
+    return row;
+}
+
+/// The second factor; where there is none, one level without a name.
+Factor down_of(const std::vector<Factor>& factors) {
+    return factors.size() > 1 ? factors[1] : Factor{"", {""}, {""}};
+}
+
 Grid grid_of(const std::string& heading, const std::vector<Made>& panel, const std::vector<Factor>& factors,
              Measure measure) {
     Grid grid;
     grid.heading = heading;
-    const Factor& across = factors[0];
-    grid.columns = across.titles;
-    const Factor down = factors.size() > 1 ? factors[1] : Factor{"", {""}, {""}};
+    grid.columns = factors[0].titles;
+    const Factor down = down_of(factors);
     for (std::size_t level = 0; level < down.levels.size(); ++level) {
-        Grid::Row row{down.titles[level], std::vector<GridCell>(grid.columns.size())};
-        for (const Made& one : panel) {
-            if (factors.size() > 1 && level_of(one, down.name) != down.levels[level]) continue;
-            const auto column = std::ranges::find(across.levels, level_of(one, across.name));
-            if (column != across.levels.end())
-                row.cells[static_cast<std::size_t>(column - across.levels.begin())] = cell_of(one, measure);
-        }
+        Grid::Row row{down.titles[level], {}};
+        for (const Made* const one : row_of(panel, factors, down.levels[level]))
+            row.cells.push_back(one == nullptr ? GridCell{} : cell_of(*one, measure));
         grid.rows.push_back(std::move(row));
     }
     return grid;
+}
+
+/// The grids as one table, with the intervals for which a drawing has no room.
+Table grid_table(const std::vector<Made>& made, const std::vector<Factor>& factors, Measure measure,
+                 const std::string& name) {
+    const Factor down = down_of(factors);
+    const bool has_down = factors.size() > 1;
+    DataTable table{{"Condition"}, {}};
+    if (has_down) table.head.push_back(last_part(down.name));
+    table.head.insert(table.head.end(), factors[0].titles.begin(), factors[0].titles.end());
+    for (const auto& [heading, panel] : panels_of(made, factors)) {
+        for (std::size_t level = 0; level < down.levels.size(); ++level) {
+            std::vector<std::string>& row = table.rows.emplace_back();
+            row.push_back(heading);
+            if (has_down) row.push_back(down.titles[level]);
+            for (const Made* const one : row_of(panel, factors, down.levels[level]))
+                row.push_back(one == nullptr ? std::string()
+                                             : estimate_or_nothing(one->condition->difference(measure),
+                                                                   typeset(1, Sign::always)));
+        }
+    }
+    return {
+        name + "-grid",
+        fmt::format("{}, by {}", labelled(measure, "difference to the baseline"), last_part(factors[0].name)),
+        table};
 }
 
 DataTable data_of(const std::vector<Made>& made, const std::vector<Factor>& factors, Measure measure) {
@@ -149,11 +197,8 @@ DataTable data_of(const std::vector<Made>& made, const std::vector<Factor>& fact
 
 Figure factors_figure(const std::vector<Made>& made, const std::vector<Factor>& factors, Measure measure,
                       const char* name, const std::string& caption) {
-    Panels panels;
-    for (const Made& one : made)
-        panels[panel_of(one, factors)].push_back(one);
     std::vector<Grid> grids;
-    for (const auto& [heading, panel] : panels)
+    for (const auto& [heading, panel] : panels_of(made, factors))
         grids.push_back(grid_of(heading, panel, factors, measure));
     Canvas canvas =
         draw_grids(caption, grids,
@@ -178,10 +223,21 @@ void factors_section(const StudyFacts& study, Writer& writer) {
         "worse). (!): the combination loses or hits more emergency vehicles than the baseline, or ran "
         "without "
         "safety checks. With many cells, one interval in twenty excludes 0 by chance.</p>\n");
-    writer.figures({factors_figure(made, factors, Measure::emergency_restricted_time, "factors-emergency",
-                                   labelled(Measure::emergency_restricted_time, "difference")),
-                    factors_figure(made, factors, Measure::other_time_loss, "factors-others",
-                                   labelled(Measure::other_time_loss, "difference"))});
+    struct Shown {
+        Measure measure;
+        const char* name;
+    };
+    constexpr std::array<Shown, 2> all = {{{Measure::emergency_restricted_time, "factors-emergency"},
+                                           {Measure::other_time_loss, "factors-others"}}};
+    std::vector<Figure> figures;
+    for (const Shown& shown : all)
+        figures.push_back(
+            factors_figure(made, factors, shown.measure, shown.name, labelled(shown.measure, "difference")));
+    writer.figures(std::move(figures));
+    writer.open_fold("The same with intervals");
+    for (const Shown& shown : all)
+        writer.table(grid_table(made, factors, shown.measure, shown.name));
+    writer.close_fold();
 }
 
 }  // namespace clearway::report::detail

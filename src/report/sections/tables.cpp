@@ -149,7 +149,7 @@ void write_statistics(const ScenarioFacts& scenario, Writer& writer) {
         DataTable table = statistics_table(scenario, measure);
         if (!table.rows.empty())
             tables.push_back({fmt::format("statistics-{}-{}", scenario.name, info(measure).field),
-                              fmt::format("{}: {}, paired differences, {}", scenario.name,
+                              fmt::format("{}: {}, paired differences to the baseline, {}", scenario.name,
                                           info(measure).title, info(measure).unit),
                               std::move(table)});
     }
