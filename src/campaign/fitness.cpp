@@ -147,12 +147,16 @@ double lane_km(const roads::Network& network) {
 std::string conclusion_of(const std::string& scenario, const std::vector<Finding>& findings) {
     std::vector<std::string> failed;
     std::vector<std::string> short_of;
+    std::vector<std::string> noted;
     for (const Finding& finding : findings) {
         if (finding.grade == Grade::failed) failed.push_back(finding.name);
         if (finding.grade == Grade::falls_short) short_of.push_back(finding.name);
+        if (finding.grade == Grade::note) noted.push_back(finding.name);
     }
     if (!failed.empty()) return fmt::format("{} cannot be run: {}.", scenario, core::listed(failed));
-    if (short_of.empty()) return scenario + " is fit for a study.";
+    if (short_of.empty() && noted.empty()) return scenario + " is fit for a study.";
+    if (short_of.empty())
+        return fmt::format("{} is fit for a study, with what is noted: {}.", scenario, core::listed(noted));
     return fmt::format("{} is not fit for a study as it is: {}.", scenario, core::listed(short_of));
 }
 
@@ -325,9 +329,9 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double a
         const scenario::BuiltNetwork built = scenario::open_network(scenario, roads);
         findings = findings_of(*record, {scenario, built.network, asked_density,
                                          store.scenario_folder(scenario.name) / "demand" / "0"});
-        findings.push_back(
-            {"speed", Grade::ok,
-             fmt::format("{:.1f} times real time, including loading", record->metrics.simulated_s / wall_s)});
+        findings.push_back({"speed", Grade::ok,
+                            fmt::format("{:.1f} s a run, {:.1f} times real time, including loading", wall_s,
+                                        record->metrics.simulated_s / wall_s)});
         const results::RunTiming timing = store.read_timing(key).value_or(results::RunTiming{});
         findings.push_back({"memory", Grade::ok, fmt::format("{} MiB", timing.peak_kib / 1024)});
         remove_runs(options.folder);

@@ -91,6 +91,7 @@ void say_how_to_continue(const study::Plan& plan, const std::filesystem::path& f
     fmt::print(stderr,
                "clearway: interrupted with {} of {} complete; they are kept in {}. To continue:\n  {}\n",
                progress.done, core::counted(progress.total, "run"), folder.string(), options.command);
+    if (progress.done == 0) return;  // nothing to estimate by
     try {
         if (const auto left_s = estimated_time_left_s(plan, folder, options.workers))
             fmt::print(stderr, "clearway: about {} is left\n", core::clock_text(*left_s));
@@ -268,8 +269,11 @@ StudyResult run_part(const study::Plan& plan, const results::Store& store, const
 }
 
 StudyResult run_missing(const study::Plan& plan, const results::Store& store, const RunOptions& options) {
-    fmt::print(stderr, "clearway: {} into {}\n", core::counted(plan.run_count(), "run"),
-               options.folder.string());
+    const bool few = plan.manifest.conditions.size() > 1 && !plan.manifest.precision &&
+                     plan.manifest.replications < analysis::fewest_for_interval;
+    fmt::print(
+        stderr, "clearway: {} into {}{}\n", core::counted(plan.run_count(), "run"), options.folder.string(),
+        few ? fmt::format("; fewer than {} seeds give no interval", analysis::fewest_for_interval) : "");
     core::Progress progress("runs", plan.run_count(), core::Progress::style_for_stderr());
     PresentEstimate estimate(store);
     StudyResult result = run_part(plan, store, options, [&](const StudyProgress& now) {

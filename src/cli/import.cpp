@@ -88,9 +88,11 @@ core::ExitCode import(Arguments& arguments) {
         // A bare name could be that of a scenario shipped with Clearway.
         const std::filesystem::path& folder = arguments.request.folder;
         const std::string scenario = folder.is_absolute() ? folder.string() : "./" + folder.string();
-        fmt::print("{}picture: {}/network.svg\nNext: {}\n", scenario_import::to_text(findings),
-                   folder.string(),
-                   core::shell_text({"clearway", "scenario", "check", scenario, "--lock-trials", "6"}));
+        fmt::print(
+            "{}picture: {}/network.svg\nNext: {}\n(--lock-trials 6 looks for locks too, with 12 more "
+            "runs)\n",
+            scenario_import::to_text(findings), folder.string(),
+            core::shell_text({"clearway", "scenario", "check", scenario}));
     }
     const bool falls_short =
         findings.bad_vehicles_share > scenario_import::most_bad_vehicles || !findings.trial_failure.empty();

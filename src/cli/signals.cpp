@@ -125,14 +125,14 @@ campaign::Table table_of(const std::vector<SignalSheet>& sheets) {
                            {"controller", "Controller"},
                            {"program", ""},
                            {"fixed_time", ""},
-                           {"cycle_s", "Cycle s"},
+                           {"cycle_s", "Cycle"},
                            {"offset_s", ""},
                            {"yellow_s", ""},
                            {"red_clearance_s", ""},
                            {"minimum_green_s", ""},
-                           {"", "Yellow s"},
-                           {"", "Red s"},
-                           {"", "Min green s"},
+                           {"", "Yellow"},
+                           {"", "Red"},
+                           {"", "Green"},
                            {"crossings", "Crossings"},
                            {"approaches", ""},
                            {"phases", ""},
@@ -169,10 +169,11 @@ campaign::Printout printout_of(const std::string& name, const std::vector<Signal
             ? "The network has no signals.\n"
             : "\n" +
                   core::wrapped(
-                      fmt::format("{}. Yellow, red clearance and least green as their programs show them; -: "
-                                  "none, so that a hold takes them from a formula (actuation.clearance) or "
-                                  "setting.",
-                                  core::counted(sheets.size(), "signal")),
+                      fmt::format(
+                          "{}. Cycle, yellow, red clearance and least green, s, as their programs show "
+                          "them; -: none, so that a hold takes them from a formula (actuation.clearance) or "
+                          "setting.",
+                          core::counted(sheets.size(), "signal")),
                       0) +
                   "\n";
     return {{{"scenario", name}}, {table_of(sheets)}, text};

@@ -30,6 +30,7 @@ core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, 
     study::Plan plan = campaign::plan_for(config, run);
     study::check_roads(plan);
     study::keep_shard(plan, shard);
+    results::Store::require_fits(run.folder, plan.manifest);
     campaign::print(campaign::plan_printout(plan, run.folder, run.workers), run.publish.printing);
     return core::ExitCode::ok;
 }

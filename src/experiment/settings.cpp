@@ -370,6 +370,9 @@ std::vector<core::Problem> check_setting(const std::string& name, const std::str
         return {{where + name, "is unknown",
                  "COMPONENT.NAME, the component being one of " + core::listed(all), cure}};
     }
+    const std::vector<std::string> names = core::texts_of(known->table.rows, &core::SettingInfo::name);
+    if (std::ranges::find(names, field) == names.end())
+        return {core::unknown_setting(where + name, field, names)};
     return known->table.check({{field, value}}, where + component + ".");
 }
 

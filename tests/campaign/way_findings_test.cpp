@@ -58,7 +58,7 @@ TEST_F(WayFindings, name_those_whom_an_incident_cuts_off) {
     EXPECT_EQ(round[2].grade, Grade::ok);
     const auto off = findings("[[incident]]\nedge = \"far\"\n");
     EXPECT_EQ(off[1].grade, Grade::falls_short);
-    EXPECT_EQ(off[1].text, "1 incident: no way round while all last for two");
+    EXPECT_EQ(off[1].text, "1 incident on edge far, all lanes: no way round while all last for two");
     // It lasts for 900 s, and SUMO waits for 300.
     EXPECT_EQ(off[2].grade, Grade::note);
     EXPECT_THAT(off[2].advice, HasSubstr("time_to_teleport_s = -1"));
@@ -68,9 +68,9 @@ TEST_F(WayFindings, name_those_whom_an_incident_cuts_off) {
 TEST_F(WayFindings, those_who_are_called_to_an_incident_are_not_cut_off) {
     const std::string called = "emergency.call.0.0,t,ambulance,60.00,best,max,gate far\n";
     EXPECT_EQ(findings("[[incident]]\nedge = \"far\"\n", called)[1].text,
-              "1 incident: no way round while all last for two");
+              "1 incident on edge far, all lanes: no way round while all last for two");
     EXPECT_EQ(findings("[[incident]]\nedge = \"goal\"\n", called)[1].text,
-              "1 incident: no way round while all last for one");
+              "1 incident on edge goal, all lanes: no way round while all last for one");
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/counted.hpp"
+#include "core/error.hpp"
 #include "roads/closure.hpp"
 #include "roads/route_search.hpp"
 #include "scenario/fleet.hpp"
@@ -52,6 +54,16 @@ Finding choice_finding(roads::RouteSearch& search, const std::vector<Trip>& trip
                         choosing, core::counted(trips.size(), "EV"))};
 }
 
+/// `Avenue de la Costa (edge 12#3, all lanes)`.
+std::string place_words(const roads::Network& network, const traffic::Incident& incident) {
+    const roads::Edge& edge = network.edge(incident.edge);
+    const std::string lanes = incident.lanes.size() < edge.lane_count
+                                  ? fmt::format("lane {}", fmt::join(incident.lanes, ", "))
+                                  : "all lanes";
+    const std::string place = fmt::format("edge {}, {}", edge.id, lanes);
+    return edge.name.empty() ? place : fmt::format("{} ({})", edge.name, place);
+}
+
 Finding incident_finding(roads::RouteSearch& search, const std::vector<Trip>& trips,
                          const std::vector<scenario::PlacedIncident>& incidents,
                          const roads::Network& network) {
@@ -68,7 +80,10 @@ Finding incident_finding(roads::RouteSearch& search, const std::vector<Trip>& tr
         };
         if (search.search({trip.from, trip.to}, open_s, way) == roads::no_way_s) cut_off.push_back(trip.id);
     }
-    const std::string count = core::counted(incidents.size(), "incident");
+    const std::vector<std::string> places =
+        core::texts_of(incidents, [&](const auto& one) { return place_words(network, one.closed); });
+    const std::string count =
+        fmt::format("{} on {}", core::counted(incidents.size(), "incident"), core::listed(places));
     if (cut_off.empty()) return {"incidents", Grade::ok, count + ", with a way round for every EV"};
     return {"incidents", Grade::falls_short,
             fmt::format("{}: no way round while all last for {}", count, core::listed(cut_off)),

@@ -80,6 +80,25 @@ bool is_one_of(const std::string& element, std::initializer_list<std::string_vie
     return std::ranges::find(names, element) != names.end();
 }
 
+/// `give one of its files: hello.sumocfg, ...`: what looks like the start of an import.
+std::string sources_in(const std::filesystem::path& folder) {
+    constexpr std::array endings = {".sumocfg", ".osm",     ".osm.gz",    ".osm.bz2",
+                                    ".osm.pbf", ".net.xml", ".net.xml.gz"};
+    constexpr std::size_t most = 5;
+    std::vector<std::string> names;
+    std::error_code unreadable;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
+        const std::string name = entry.path().filename().string();
+        if (std::ranges::any_of(endings, [&](const char* ending) { return name.ends_with(ending); }))
+            names.push_back(name);
+    }
+    if (names.empty()) return "give a file";
+    std::ranges::sort(names);
+    const std::size_t more = names.size() > most ? names.size() - most : 0;
+    names.resize(names.size() - more);
+    return fmt::format("give one of its files: {}{}", core::listed(names), more > 0 ? ", ..." : "");
+}
+
 bool has_name_of_configuration(const std::filesystem::path& file) {
     const std::string extension = lower(file.extension().string());
     return extension == ".sumocfg" || extension == ".cfg";
@@ -89,6 +108,9 @@ bool has_name_of_configuration(const std::filesystem::path& file) {
 
 SourceKind kind_of(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) refuse(file, "does not exist", "check the path");
+    if (std::filesystem::is_directory(file))
+        throw core::InputError(
+            {file.string(), "is a folder", "a map, a network or a SUMO configuration", sources_in(file)});
     PackedFile stream(file);
     std::string head = head_of(stream);
     if (head.empty()) refuse(file, "is empty", "download it again");
