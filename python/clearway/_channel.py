@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from ._program import ClearwayError
+
 #: Bytes in each direction; as python::Channel::capacity.
 CAPACITY = 1 << 26
 
@@ -92,3 +94,24 @@ class Sheet:
         target[:] = values
         at = self._place[name]
         self._directory[at], self._directory[at + 1] = offset, len(values)
+
+
+class Moment:
+    """The arrays of a sheet until the answer to them was given. Who asks later, when the memory holds others, is told."""
+
+    __slots__ = ("_arrays",)
+
+    def __init__(self, sheet: Sheet) -> None:
+        self._arrays: Any = sheet
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._arrays[name]
+
+    def end(self) -> None:
+        self._arrays = _Past()
+
+
+class _Past:
+    def __getitem__(self, name: str) -> np.ndarray:
+        raise ClearwayError(f"{name} of an earlier decision was asked for, whose memory holds the present one. Keep copies of what is needed "
+                            "later: belief.vehicles.x_m.copy()")

@@ -16,7 +16,7 @@ import random
 import signal
 import sys
 import traceback
-from collections.abc import Callable, Container
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -31,12 +31,20 @@ METHODS = {"policy": "act", "predictor": "predict"}
 PR_SET_CHILD_SUBREAPER = 36
 
 
+#: Types of defaults that make an argument of ``__init__`` a setting.
+SETTING_TYPES = (bool, int, float, str)
+
+
 class NoClass(AttributeError):
-    """The file has no class of this name. The message says all, so no traceback is shown."""
+    """The file has no class of this name, or the class no such method. The message says all, so no traceback is shown."""
 
 
 class SettingError(ValueError):
     """Settings do not fit the class. The message says all, so no traceback is shown."""
+
+
+class WrongAnswer(ValueError):
+    """What a method returned. No line of user code is running any more: the message says which method, and no traceback is shown."""
 
 
 def _value(setting: str, text: str, default: Any) -> Any:
@@ -56,15 +64,28 @@ def _value(setting: str, text: str, default: Any) -> Any:
 
 def keyword_arguments(kind: type, settings: dict[str, str]) -> dict[str, Any]:
     """Settings as arguments of a class: those whose default is a truth value, a number or a text can be set."""
-    if not settings:
-        return {}
-    parameters = inspect.signature(kind).parameters
-    defaults = {name: one.default for name, one in parameters.items() if type(one.default) in (bool, int, float, str)}
+    try:
+        parameters = inspect.signature(kind).parameters
+    except (TypeError, ValueError):  # of a class that is written in C, or that says something else
+        parameters = {}
+    needed = [name for name, one in parameters.items() if one.default is one.empty and one.kind not in (one.VAR_POSITIONAL, one.VAR_KEYWORD)]
+    if needed:
+        raise SettingError(f"{place_of(kind, '__init__')}: {', '.join(needed)} of __init__ has no default (allowed: arguments with one, "
+                           "because a run makes the part without any)")
+    defaults = {name: one.default for name, one in parameters.items() if type(one.default) in SETTING_TYPES}
     for name in settings:
         if name not in defaults:
-            there = ", ".join(f"{one}={default!r}" for one, default in defaults.items())
-            raise SettingError(f"{kind.__name__}.{name} is unknown (allowed: arguments of __init__ that have a default: {there or 'none'})")
+            raise SettingError(f"{kind.__name__}.{name} {_why_no_setting(name, parameters, defaults)}")
     return {name: _value(f"{kind.__name__}.{name}", text, defaults[name]) for name, text in settings.items()}
+
+
+def _why_no_setting(name: str, parameters: Mapping[str, inspect.Parameter], defaults: dict[str, Any]) -> str:
+    one = parameters.get(name)
+    there = ", ".join(f"{setting}={default!r}" for setting, default in defaults.items()) or "none"
+    if one is not None and one.default is not one.empty:
+        return (f"cannot be set: its default is {one.default!r} (allowed: arguments of __init__ whose default is a number, a truth value "
+                f"or a text: {there}). Give each number an argument of its own, or take a text and split it")
+    return f"is unknown (allowed: arguments of __init__ that have a default: {there}){_program.did_you_mean(name, defaults)}"
 
 
 def load(file: Path, name: str, settings: dict[str, str]) -> Any:
@@ -91,8 +112,30 @@ def make_part(greeting: dict[str, Any]) -> Any:
     method = METHODS[greeting["kind"]]
     bases = (Policy.act, Predictor.predict)  # of which nothing is meant to remain
     if not callable(getattr(part, method, None)) or getattr(type(part), method, None) in bases:
-        raise TypeError(f"{type(part).__name__} has no method {method}(), which a {greeting['kind']} needs")
+        own = [name for name in dir(part) if callable(getattr(type(part), name, None)) and not name.startswith("_") and name != method]
+        raise NoClass(f"{type(part).__name__} has no method {method}(), which a {greeting['kind']} needs{_program.did_you_mean(method, own)}")
     return part
+
+
+def place_of(kind: type, method: str) -> str:
+    """`my_policy.py, line 4, Green.act`: where a method is written, as far as that can be seen."""
+    name = f"{kind.__name__}.{method}"
+    try:
+        code = inspect.unwrap(getattr(kind, method)).__code__
+        return f"{Path(code.co_filename).name}, line {code.co_firstlineno}, {name}"
+    except (AttributeError, ValueError):  # a callable of another kind
+        return name
+
+
+@contextlib.contextmanager
+def answer_of(part: Any, method: str) -> Iterator[None]:
+    """Tells what is wrong with an answer with the method that gave it. What user code raises while it is read passes."""
+    try:
+        yield
+    except (TypeError, ValueError) as error:
+        if frames_of_part(traceback.extract_tb(error.__traceback__)):
+            raise
+        raise WrongAnswer(f"{type(error).__name__}: {error} ({place_of(type(part), method)})") from None
 
 
 def answer_policy(part: Any, network: Network, channel: Channel, greeting: dict[str, Any]) -> Callable[[], None]:
@@ -100,7 +143,11 @@ def answer_policy(part: Any, network: Network, channel: Channel, greeting: dict[
     part.network, part.period_s = network, greeting["period_s"]
 
     def answer() -> None:
-        channel.write_text(json.dumps(checked_leases(part.act(Belief(sheet, network))), allow_nan=False))
+        belief = Belief(sheet, network)
+        leases = part.act(belief)
+        with answer_of(part, "act"):
+            channel.write_text(json.dumps(checked_leases(leases), allow_nan=False))
+        belief._end()
     return answer
 
 
@@ -110,7 +157,10 @@ def answer_predictor(part: Any, network: Network, channel: Channel, greeting: di
 
     def answer() -> None:
         observation = Observation(question, network, greeting["link_radius_m"])
-        answers.write("probability", checked_probabilities(part.predict(observation), len(question["pair_left"])))
+        probabilities = part.predict(observation)
+        with answer_of(part, "predict"):
+            answers.write("probability", checked_probabilities(probabilities, len(question["pair_left"])))
+        observation._end()
     return answer
 
 
@@ -139,20 +189,46 @@ def report(channel: Channel, error: BaseException) -> None:
     channel.ring(LOST if _files.is_of_machine(error) else FAILED)
 
 
+def frames_of_part(frames: Iterable[traceback.FrameSummary]) -> list[traceback.FrameSummary]:
+    """These without those of this package, which tell nobody what to change."""
+    own = (str(Path(__file__).parent) + os.sep, "<frozen importlib", "<frozen runpy")
+    return [frame for frame in frames if not frame.filename.startswith(own)]
+
+
 def told(error: BaseException) -> str:
-    """What was raised, because a console may show no more than the first line, and its traceback from user code on."""
-    own = str(Path(__file__).parent)
-    trace = error.__traceback__
-    while trace is not None and trace.tb_frame.f_code.co_filename.startswith((own, "<frozen importlib")):
-        trace = trace.tb_next
-    cause = traceback.format_exception_only(error)[-1].strip()
-    text = "".join(traceback.format_exception(type(error), error, trace or error.__traceback__)).strip()
-    return f"{cause[:1000]}{line_of(trace)}\n{text[-100_000:]}"
+    """What was raised, because a console may show no more than the first line, and the frames of user code on the way there.
+
+    Errors that were caught before follow in full. Where no user code ran, this package is at fault, and its frames are shown.
+    """
+    frames = frames_of_part(traceback.extract_tb(error.__traceback__))
+    only = traceback.format_exception_only(error)
+    notes = "\n".join(map(str, getattr(error, "__notes__", ()))).splitlines()
+    cause = only.pop(-1 - len(notes))  # of a syntax error, its place stands before
+    place = line_of(frames)
+    if isinstance(error, SyntaxError) and error.filename and not frames:
+        place = f" ({Path(error.filename).name}, line {error.lineno})"
+    is_chained = error.__cause__ or (error.__context__ and not error.__suppress_context__)
+    if place and not is_chained and len(cause) <= 1000:
+        text = "".join([*["Traceback (most recent call last):\n"][:len(frames)], *traceback.format_list(frames), *only])
+    else:
+        text = in_full(error)
+    first, _, others = cause.strip()[:1000].partition("\n")
+    return "\n".join([first + place, *filter(None, [others, text.rstrip()[-100_000:]])])
 
 
-def line_of(trace: Any) -> str:
+def in_full(error: BaseException) -> str:
+    """As Python prints it, with the errors before it, of each the frames of user code if there are any."""
+    whole = traceback.TracebackException.from_exception(error)
+    waiting = [whole]
+    while waiting:
+        one = waiting.pop()
+        one.stack = traceback.StackSummary.from_list(frames_of_part(one.stack) or one.stack)
+        waiting += [before for before in (one.__cause__, one.__context__) if before is not None]
+    return "".join(whole.format())
+
+
+def line_of(frames: list[traceback.FrameSummary]) -> str:
     """The last line of the file of the part that was reached, as ` (FILE.py, line 12)`."""
-    frames = traceback.extract_tb(trace) if trace else []
     if not frames:
         return ""
     last = [frame for frame in frames if frame.filename == frames[0].filename][-1]
@@ -214,7 +290,7 @@ def be_part(memory: int, read: int, write: int, owner: int) -> None:
         end_group()
     try:
         serve(channel)
-    except (NoClass, SettingError, Unusable, _program.LoadedAgain) as error:
+    except (NoClass, SettingError, WrongAnswer, Unusable, _program.LoadedAgain) as error:
         channel.write_text(str(error))
         channel.ring(FAILED)
     except BaseException as error:  # noqa: BLE001: even sys.exit() in user code is this run's failure

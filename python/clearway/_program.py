@@ -3,15 +3,20 @@ from __future__ import annotations
 
 import collections
 import difflib
+import functools
+import inspect
 import json
 import numbers
 import os
+import re
 import shutil
 import subprocess
 import sys
 import threading
 from pathlib import Path
-from typing import IO, Any, Iterable, Sequence
+from typing import IO, Any, Callable, Iterable, Sequence, TypeVar
+
+F = TypeVar("F", bound=Callable[..., Any])
 
 
 class ClearwayError(Exception):
@@ -80,10 +85,96 @@ def counted(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
-def did_you_mean(word: Any, known: Iterable[str]) -> str:
+#: So many names are listed where another one is unknown; of more, the nearest alone.
+MOST_LISTED = 6
+
+
+def nearest(word: Any, known: Iterable[str], most: int = 1) -> list[str]:
+    """The known words that are meant, the likeliest first: those whose last part it is (``condition.policy``), those that are spelt
+    alike, and those that contain it."""
+    word, known = str(word), list(known)
+    folded = word.casefold()
+    found = [name for name in known if name.rpartition(".")[2] == word]
+    found += difflib.get_close_matches(word, known, most)
+    if len(folded) > 2:
+        found += sorted((name for name in known if folded in name.casefold()), key=len)
+    return list(dict.fromkeys(found))[:most]
+
+
+def did_you_mean(word: Any, known: Iterable[str], most: int = 1) -> str:
     """``. Did you mean 'WORD'?`` with the nearest of the known words, as the programs ask; empty if none is near."""
-    near = difflib.get_close_matches(str(word), list(known), 1)
-    return f". Did you mean {near[0]!r}?" if near else ""
+    near = nearest(word, known, most)
+    return f". Did you mean {' or '.join(map(repr, near))}?" if near else ""
+
+
+def there_are(word: Any, known: Sequence[str], noun: str, all_by: str) -> str:
+    """What follows ``there is no WORD``: few names all, of many the nearest and how to see all."""
+    if len(known) <= MOST_LISTED:
+        return f"; it has {', '.join(known) or 'none'}{did_you_mean(word, known)}"
+    near = did_you_mean(word, known, 3) or f". It has {', '.join(known[:3])} and others."
+    return f"{near} {all_by} names all {counted(len(known), noun)}"
+
+
+#: What keywords mean that others use.
+_MEANT = {"dense": 'variant="dense"', "replications": "seeds", "replication": "seeds", "n_seeds": "seeds", "num_seeds": "seeds"}
+
+
+def no_keyword(call_name: str, unknown: str, own: Iterable[str], overrides: Iterable[str] = (), meant: str | None = None) -> InputError:
+    """What is raised for a keyword that a call does not have: the one that is meant, or those that there are."""
+    own, overrides = list(own), list(overrides)
+    meant = meant or (_MEANT.get(unknown) if _MEANT.get(unknown) in own or overrides else None)
+    near = f". Did you mean {repr(meant) if meant in own else meant}?" if meant else did_you_mean(unknown, [*own, *overrides], 2)
+    there = f"; it has {', '.join(own)}"
+    there += f", and overrides (docs/reference/study-file.md): {', '.join(overrides[:3])}, ..." if overrides else ""
+    return InputError(f"{call_name}() has no keyword {unknown!r}{near or there}")
+
+
+def unknown_override(call_name: str, error: InputError, given: Iterable[str], own: Iterable[str], **meant: str) -> InputError:
+    """The error of a program that does not know an override, as one about the keyword of this call; another error as it is."""
+    said = re.search(r"(?:is unknown|unknown key) \(allowed: ([\w, ]+)\)", str(error))
+    overrides = said[1].split(", ") if said else []
+    unknown = next((name for name in given if said and name not in overrides), None)
+    if unknown is None or not re.search(rf"\b{re.escape(unknown)}\b", str(error)):
+        return error
+    return no_keyword(call_name, unknown, own, overrides, meant.get(unknown))
+
+
+def keywords_of(function: Callable[..., Any]) -> list[str]:
+    """Names of its arguments."""
+    parameters = inspect.signature(function).parameters.values()
+    return [one.name for one in parameters if one.kind is not one.VAR_KEYWORD and one.name != "self"]
+
+
+def tells_keywords(call_name: str, *, cure: str = "") -> Callable[[F], F]:
+    """Lets a function tell a keyword that it does not have as ``no_keyword`` does."""
+    def decorate(function: F) -> F:
+        known = keywords_of(function)
+
+        @functools.wraps(function)
+        def call(*words: Any, **given: Any) -> Any:
+            for name in given:
+                if name not in known:
+                    said = str(no_keyword(call_name, name, known))
+                    raise InputError(said + (cure and f"{'' if said.endswith('?') else '.'} {cure}"))
+            return function(*words, **given)
+        return call  # type: ignore[return-value]
+    return decorate
+
+
+class Told:
+    """Base of what users look into: an attribute that is not there is told with the nearest, and those that are."""
+
+    def __getattr__(self, name: str) -> Any:
+        if hasattr(type(self), name):  # a property in which another attribute was missing: that one is told
+            return object.__getattribute__(self, name)
+        if name.startswith("_"):
+            raise AttributeError(f"{type(self).__name__} has no {name!r}")
+        there = sorted({one for one in dir(self) if not one.startswith("_")})
+        meant = did_you_mean(name, there, 2) or "."
+        raise AttributeError(f"{type(self).__name__} has no {name!r}{meant} It has {', '.join(there)}")
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {', '.join(sorted({one for one in dir(self) if not one.startswith('_')}))}>"
 
 
 def error_of(exit_code: int, message: str) -> ClearwayError:

@@ -10,52 +10,55 @@ from typing import Any
 
 import numpy as np
 
-from ._channel import Sheet
+from ._channel import Moment, Sheet
+from ._program import Told
 
 #: Lane of a vehicle whose lane is not known.
 NO_LANE = 4294967295
 HUMAN, AUTOMATED, EMERGENCY = 0, 1, 2
 
 
-class Network:
-    """The map, as everybody knows it. Lanes, edges and signals are numbers here; ``lane_ids``, ... have SUMO's names."""
+class Network(Told):
+    """The map, as everybody knows it. Lanes, edges and signals are numbers here, by which these are ordered:
+
+    * ``lane_ids``, ``edge_ids``, ``signal_ids``: SUMO's names;
+    * ``edge_lane_count``: number of lanes of each edge; ``edge_is_internal``: whether it is inside a junction;
+    * ``edge_free_s``: time along each edge at the limit of its fastest lane, s; permissions are those of ``onward``;
+    * ``onward``: for each edge, those that an emergency vehicle may turn into;
+    * ``lane_edge``: edge of each lane; ``lane_number``: its number there, 0 the outermost; ``lane_length_m``,
+      ``lane_speed_limit_mps``;
+    * ``signal_phases``: phases of each signal's own program: a letter for each link, SUMO's.
+    """
 
     def __init__(self, description: dict[str, Any]) -> None:
         self.lane_ids: list[str] = description["lane_ids"]
         self.edge_ids: list[str] = [edge[0] for edge in description["edges"]]
-        #: Number of lanes of each edge.
         self.edge_lane_count = np.array([edge[1] for edge in description["edges"]], dtype=np.uint32)
-        #: Whether an edge is inside a junction.
         self.edge_is_internal = np.array([edge[2] for edge in description["edges"]], dtype=bool)
-        #: For each edge, those that an emergency vehicle may turn into.
         self.onward: list[list[int]] = description["onward"]
         lanes = description["lanes"]
-        #: Edge of each lane.
         self.lane_edge = np.array(lanes["edge"], dtype=np.uint32)
-        #: Time along each edge at the limit of its fastest lane, s; permissions are those of ``onward``.
         self.edge_free_s = np.full(len(self.edge_ids), np.inf)
         np.minimum.at(self.edge_free_s, self.lane_edge, np.array(lanes["length_m"]) / np.maximum(lanes["speed_limit_mps"], 0.01))
-        #: Number of each lane on its edge, 0 the outermost.
         self.lane_number = np.array(lanes["number"], dtype=np.uint32)
         self.lane_length_m = np.array(lanes["length_m"], dtype=np.float32)
         self.lane_speed_limit_mps = np.array(lanes["speed_limit_mps"], dtype=np.float32)
         self.signal_ids: list[str] = [signal[0] for signal in description["signals"]]
-        #: Phases of each signal's own program: a letter for each link, SUMO's.
         self.signal_phases: list[list[str]] = [signal[1] for signal in description["signals"]]
 
 
-class _Rows:
+class _Rows(Told):
     """Arrays by name, each made when it is first asked for."""
 
     _prefix = ""
     _names: tuple[str, ...] = ()
 
-    def __init__(self, sheet: Sheet) -> None:
+    def __init__(self, sheet: Moment) -> None:
         self._sheet = sheet
 
     def __getattr__(self, name: str) -> np.ndarray:
         if name not in self._names:
-            raise AttributeError(f"{type(self).__name__} has no {name!r}; it has {', '.join(self._names)}")
+            return super().__getattr__(name)
         array = self._sheet[self._prefix + name]
         self.__dict__[name] = array
         return array
@@ -63,12 +66,18 @@ class _Rows:
     def __dir__(self) -> list[str]:
         return [*self._names, *super().__dir__()]
 
+    def _forget(self) -> None:
+        """Lets arrays be asked for anew."""
+        for name in self._names:
+            self.__dict__.pop(name, None)
+
 
 class Vehicles(_Rows):
     """Believed vehicles, an element each, ordered by ``key``; the arrays cannot be written.
 
     ``key`` (identity during the run), ``vehicle_class`` (0 human, 1 automated, 2 emergency), ``x_m``, ``y_m``, ``heading_rad``,
-    ``speed_mps``, ``lane``, ``lane_position_m``, ``route_edge``, ``sigma_m`` (of the position), ``age_s`` (of the report).
+    ``speed_mps``, ``lane`` (not known: ``clearway.parts.NO_LANE``), ``lane_position_m``, ``route_edge``, ``sigma_m`` (of the
+    position), ``age_s`` (of the report).
     """
 
     _names = ("key", "vehicle_class", "x_m", "y_m", "heading_rad", "speed_mps", "lane", "lane_position_m", "route_edge", "sigma_m",
@@ -84,7 +93,10 @@ class Vehicles(_Rows):
 
 
 class Links(_Rows):
-    """Believed links, each from both ends: ``index`` as an edge list, ``distance_m``, ``probability``."""
+    """Believed links, each from both ends: ``index`` as an edge list, ``distance_m``, ``probability``.
+
+    By vehicle: those of row i are elements ``first[i]`` to ``first[i + 1] - 1`` of ``neighbour``, which ``of`` gives.
+    """
 
     _prefix = "link_"
     _names = ("first", "neighbour", "distance_m", "probability")
@@ -104,21 +116,22 @@ class Links(_Rows):
 
 
 @dataclasses.dataclass(frozen=True)
-class Approach:
-    """A signal that an emergency vehicle will pass."""
+class Approach(Told):
+    """A signal that an emergency vehicle will pass.
 
-    #: Number of the signal in the network.
+    ``signal`` (its number in the network), ``distance_m`` (to the stop line), ``own_links`` (links of the signal that the
+    emergency vehicle itself may take), ``links`` (these and all other links of its approaches that do not conflict with them:
+    what to hold green).
+    """
+
     signal: int
-    #: To the stop line, m.
     distance_m: float
-    #: Links of the signal that the emergency vehicle itself may take.
     own_links: list[int]
-    #: These and all other links of its approaches that do not conflict with them: what to hold green.
     links: list[int]
 
 
-class EmergencyVehicle:
-    """An emergency vehicle on the road, as it knows itself, or else as it is believed to be."""
+class EmergencyVehicle(Told):
+    """An emergency vehicle on the road, as it knows itself, or else as it is believed to be. ``key`` is its identity."""
 
     def __init__(self, belief: "Belief", number: int) -> None:
         self._sheet, self._number, self._belief = belief._sheet, number, belief
@@ -132,7 +145,7 @@ class EmergencyVehicle:
     heading_rad = property(lambda self: self._one("heading_rad"), doc="Counter-clockwise from the x axis.")
     speed_mps = property(lambda self: self._one("speed_mps"), doc="Present speed.")
     allowed_speed_mps = property(lambda self: self._one("allowed_speed_mps"), doc="Highest that road and vehicle allow.")
-    lane = property(lambda self: self._one("lane"), doc="Lane of the network.")
+    lane = property(lambda self: self._one("lane"), doc="Lane of the network; ``NO_LANE``: not known.")
     lane_position_m = property(lambda self: self._one("lane_position_m"), doc="From the start of the lane.")
 
     def _bounds(self, name: str) -> slice:
@@ -173,17 +186,27 @@ class EmergencyVehicle:
                 for at in range(part.start, part.stop)]
 
 
-class Belief:
-    """What is believed now: all that a policy sees. Arrays are views of shared memory, valid until ``act`` returns."""
+class Belief(Told):
+    """What is believed now: all that a policy sees. Besides what is below: ``time_s`` (simulation time), ``network`` (``Network``),
+    ``vehicles`` (``Vehicles``), ``links`` (``Links``).
+
+    Arrays are views of shared memory, valid until ``act`` returns: copy what is needed later (``belief.vehicles.x_m.copy()``). A
+    belief that is asked for arrays after that raises ClearwayError; an array that was kept holds other numbers.
+    """
 
     def __init__(self, sheet: Sheet, network: Network) -> None:
         sheet.renew()
-        self._sheet = sheet
+        self._sheet = Moment(sheet)
         self.network = network
-        #: Simulation time, s.
         self.time_s = float(sheet["time_s"][0])
-        self.vehicles = Vehicles(sheet)
-        self.links = Links(sheet)
+        self.vehicles = Vehicles(self._sheet)
+        self.links = Links(self._sheet)
+
+    def _end(self) -> None:
+        """To be called when ``act`` has answered."""
+        self._sheet.end()
+        self.vehicles._forget()
+        self.links._forget()
 
     @property
     def emergency_vehicles(self) -> list[EmergencyVehicle]:
@@ -241,13 +264,13 @@ class _Fields(dict):
 
 
 @dataclasses.dataclass(frozen=True)
-class Lease:
+class Lease(Told):
     """One action for one vehicle or signal. It ends by itself after ``lasting_s`` unless the next decision renews it.
 
     Make one with the class methods; ``vehicle`` is a key (``belief.vehicles.key[row]``) or an ``EmergencyVehicle``, ``serves`` the
     emergency vehicle for which it is, ``reason`` a few words for tables. Whether it can be carried out is judged as for every
     policy: what cannot is counted under its reason in ``results.leases`` (a vehicle that is gone: ``vehicle_gone``). What no lease
-    can ever be, as a speed of NaN, raises here.
+    can ever be, as a speed of NaN, raises here. ``fields`` holds what was asked for.
     """
 
     fields: dict[str, Any]
@@ -335,11 +358,13 @@ class Lease:
 class Policy:
     """Base of policies in Python: ``--policy my_policy.py:Mine``. Deriving from it is not required; ``act`` is.
 
-    One object serves one run, in a process of its own: it may keep what it likes between calls, and shares nothing with other runs.
-    The same belief must give the same leases (draw random numbers from a generator with a fixed seed).
+    One object serves one run, in a process of its own: it may keep copies of what it likes between calls
+    (``self.before = belief.vehicles.x_m.copy()``; the arrays themselves are overwritten), and shares nothing with other runs. The
+    same belief must give the same leases (draw random numbers from a generator with a fixed seed).
+
+    ``period_s`` (time between two decisions, s) and ``network`` (the map, ``Network``) are set before the first call of ``act``.
     """
 
-    #: Time between two decisions, s, and the map; set before the first call of ``act``.
     period_s: float
     network: Network
 
@@ -349,11 +374,14 @@ class Policy:
 
 
 class Observation(_Rows):
-    """What was reported, for a predictor. Rows of vehicles are ordered by ``key``; arrays are views, valid until ``predict`` returns.
+    """What was reported, for a predictor. Rows of vehicles are ordered by ``key``; arrays are views, valid until ``predict`` returns:
+    copy what is needed later.
 
+    ``time_s`` (simulation time), ``network`` (``Network``), ``link_radius_m`` (vehicles nearer than this are linked).
     Of vehicles: ``key``, ``vehicle_class``, ``age_s``, ``known`` (1: nothing to predict), ``sensor_sigma_m``; dead-reckoned to now:
     ``x_m``, ``y_m``, ``heading_rad``, ``speed_mps``, ``lane``, ``lane_position_m``; as reported: ``last_x_m``, ``last_y_m``.
-    Of candidates: ``pair_left``, ``pair_right`` (rows), ``pair_last_seen_m``, ``pair_dead_reckoned_m``.
+    Of observed links: ``link_left``, ``link_right`` (rows; ``edge_index`` has both ways). Of candidates: ``pair_left``,
+    ``pair_right`` (rows; ``pairs`` has both), ``pair_last_seen_m``, ``pair_dead_reckoned_m``.
     """
 
     _names = ("key", "vehicle_class", "age_s", "known", "sensor_sigma_m", "x_m", "y_m", "heading_rad", "speed_mps", "lane",
@@ -362,12 +390,15 @@ class Observation(_Rows):
 
     def __init__(self, sheet: Sheet, network: Network, link_radius_m: float) -> None:
         sheet.renew()
-        super().__init__(sheet)
+        super().__init__(Moment(sheet))
         self.network = network
-        #: Vehicles nearer than this are linked, m.
         self.link_radius_m = link_radius_m
-        #: Simulation time, s.
         self.time_s = float(sheet["time_s"][0])
+
+    def _end(self) -> None:
+        """To be called when ``predict`` has answered."""
+        self._sheet.end()
+        self._forget()
 
     @functools.cached_property
     def edge_index(self) -> np.ndarray:
@@ -382,7 +413,10 @@ class Observation(_Rows):
 
 
 class Predictor:
-    """Base of predictors in Python: ``--predictor my_net.py:Mine``. Deriving from it is not required; ``predict`` is."""
+    """Base of predictors in Python: ``--predictor my_net.py:Mine``. Deriving from it is not required; ``predict`` is.
+
+    ``network`` (the map, ``Network``) is set before the first call of ``predict``.
+    """
 
     network: Network
 
@@ -409,6 +443,8 @@ def checked_leases(answer: Any) -> list[dict[str, Any]]:
 
 def checked_probabilities(answer: Any, count: int) -> np.ndarray:
     """The array that ``predict`` returned."""
+    if answer is None:
+        raise TypeError(f"predict returned None: return an array of {count} probabilities, one for each of observation.pairs")
     values = np.asarray(answer)
     if values.shape != (count,) or values.dtype.kind not in "fiub":
         raise ValueError(f"predict returned an array of shape {values.shape} and type {values.dtype}; one number for each of the "

@@ -16,6 +16,7 @@ from support import FolderCase, PROGRAMS, SOURCE, program
 FAULTS = """
 import errno, os, subprocess, sys, time
 import numpy as np
+import clearway
 from clearway import Lease, Policy
 class Raises(Policy):
     def act(self, belief):
@@ -126,8 +127,21 @@ class Starts(Policy):
         return []
 class StartsAlone(Starts):
     alone = True
+class Prints(Policy):
+    def act(self, belief):
+        print("seen at", int(belief.time_s > 1e9))
+        print("warned", file=sys.stderr)
+        return []
 class NoAct:
     pass
+class Acts(Policy):
+    def acts(self, belief):
+        return []
+class Needs(Policy):
+    def __init__(self, within_m, most=3):
+        self.within_m = within_m
+    def act(self, belief):
+        return []
 class Inherits(Policy):
     pass
 class OwnFields(Policy):
@@ -142,9 +156,52 @@ class Important(Policy):
 class Number(Policy):
     def act(self, belief):
         return 3
+class Misspelt(Policy):
+    def act(self, belief):
+        return [ev.approach for ev in belief.emergency_vehicles]
+class Slowly(Policy):
+    def act(self, belief):
+        yield Lease.drive_at(1, -5)
+class Caught(Policy):
+    def act(self, belief):
+        try:
+            belief.vehicles.speed
+        except AttributeError as error:
+            raise ValueError("first\\nsecond") from error
+class Keeps(Policy):
+    kept = None
+    def act(self, belief):
+        if self.kept is not None:
+            before, x_m, time_s, vehicle = self.kept
+            assert before.time_s == time_s and len(x_m) and vehicle.key >= 0 and before.network is belief.network
+            for ask in (lambda: before.vehicles.x_m, lambda: before.emergency_vehicles, lambda: before.incidents, lambda: vehicle.x_m,
+                        lambda: before.links.of(0), lambda: before.signal_state(0), lambda: vehicle.approaches, lambda: len(before.vehicles)):
+                try:
+                    ask()
+                    raise AssertionError("answered")
+                except clearway.ClearwayError:
+                    pass
+            before.vehicles.y_m
+        for vehicle in belief.emergency_vehicles:
+            self.kept = belief, belief.vehicles.x_m.copy(), belief.time_s, vehicle
+            belief.links.index
+        return []
 class WrongShape:
     def predict(self, observation):
         return np.zeros(len(observation.pairs[0]) + 1)
+class NoArray:
+    def predict(self, observation):
+        pass
+class KeepsObservation:
+    kept = None
+    def predict(self, observation):
+        if self.kept is not None:
+            self.kept.last_x_m
+        self.kept = observation
+        return observation.pair_last_seen_m < 0.0
+class MisspeltColumn:
+    def predict(self, observation):
+        return observation.pair_last_m
 class WrongNumber:
     def predict(self, observation):
         return np.full(observation.pairs.shape[1], np.nan)
@@ -242,24 +299,36 @@ class FaultTest(FolderCase):
                 "Interrupts": "KeyboardInterrupt",
                 "NotANumber": "speed_mps is nan (allowed: 0 to 200)", "NotALease": "'hold_green' in its list, which is not a",
                 "Nothing": "act returned None", "Writes": "read-only", "OwnFields": "made by its class methods", "Important": "priority is 1000",
-                "TooMuch": "bytes (allowed", "Number": "act returned 3, which is not a list"}
+                "TooMuch": "bytes (allowed", "Number": "act returned 3, which is not a list", "Slowly": "speed_mps is -5",
+                "Misspelt": "EmergencyVehicle has no 'approach'. Did you mean 'approaches'? It has ahead, ", "Caught": "ValueError: first (bad.py",
+                "Keeps": "y_m of an earlier decision was asked for"}
         results = self.run_all(list(says))
         for name, message in says.items():
             failed = results.errors.where(condition=name)
             (found,) = failed["message"]
             self.assertIn(message, found)
             if name != "Dies":
-                self.assertRegex(found.splitlines()[0], r"bad.py: (\w+Error|SystemExit|KeyboardInterrupt)")  # the cause comes first
-                self.assertIn("Traceback", found)
-                if name == "Raises":
-                    self.assertRegex(found.splitlines()[0], r"division by zero \(bad.py, line \d+\)")
-                answered = ("NotALease", "Nothing", "TooMuch", "Number")  # `act` has returned, so that nothing else is on the stack
-                self.assertEqual("_host.py" in found, name in answered, found)
-                self.assertIn("bad.py" if name not in ("Nothing", "TooMuch", "Number") else "act", found)
+                first, *others = found.splitlines()
+                self.assertRegex(first, r"bad.py: ([\w.]*Error|SystemExit|KeyboardInterrupt).* \(bad.py, line \d+(, \w+\.act)?\)$")
+                line = int(re.search(r"line (\d+)", first)[1])
+                class_line = next(number for number, text in enumerate(FAULTS.splitlines(), 1) if text.startswith(f"class {name}("))
+                self.assertTrue(class_line < line < class_line + 25, first)
+                self.assertNotIn(str(Path(clearway.__file__).parent), found)
+                answered = ("NotALease", "Nothing", "TooMuch", "Number")  # `act` has returned, so that no line of it is running
+                self.assertEqual("Traceback" in found, name not in answered, found)
+                self.assertEqual((name in answered, f"{name}.act" in first), (not others,) * 2, found)
+                if name not in ("Caught", "Interrupts"):  # another error was raised before; the line has its word
+                    self.assertEqual(found.count(message), 1, found)
             # Who killed a process cannot be seen, so it counts as the system, which does so where memory is short.
             self.assertEqual(failed["cause"][0], "signal" if name == "Dies" else "python")
         self.assertEqual(list(results.runs["condition"]), ["baseline"])
         self.assertEqual(hosts_of(self.folder), [])
+
+    def test_what_a_part_prints_is_in_the_log_of_its_run(self) -> None:
+        clearway.run("intersection", [clearway.Condition("Prints", policy="bad.py:Prints")], seeds=1, out="runs")
+        (log,) = [file.read_text() for file in Path("runs/logs").glob("*.log")]
+        self.assertIn("seen at 0", log)
+        self.assertIn("warned", log)
 
     def test_a_signal_that_does_not_exist_is_refused(self) -> None:
         conditions = [clearway.Condition("no_signal", policy="bad.py:NoSignal"),
@@ -306,12 +375,17 @@ class FaultTest(FolderCase):
         self.assertEqual(set(results.runs["condition"]), {"baseline", "Fine"})
 
     def test_a_predictor_of_wrong_shape_or_with_nan_fails(self) -> None:
-        conditions = [clearway.Condition(name, policy="corridor", failure="B10", predictor=f"bad.py:{name}")
-                      for name in ("WrongShape", "WrongNumber")]
+        says = {"WrongShape": "one number for each of the", "WrongNumber": "the probability nan for pair 0 (allowed: 0 to 1)",
+                "NoArray": "predict returned None", "KeepsObservation": "last_x_m of an earlier decision was asked for",
+                "MisspeltColumn": "Observation has no 'pair_last_m'. Did you mean 'pair_last_seen_m'"}
+        conditions = [clearway.Condition(name, policy="corridor", failure="B10", predictor=f"bad.py:{name}") for name in says]
         with self.assertWarns(RuntimeWarning):
             results = clearway.run("intersection", conditions, seeds=1, out="runs")
-        self.assertIn("one number for each of the", results.errors.where(condition="WrongShape")["message"][0])
-        self.assertIn("the probability nan for pair 0 (allowed: 0 to 1)", results.errors.where(condition="WrongNumber")["message"][0])
+        for name, message in says.items():
+            found = results.errors.where(condition=name)["message"][0]
+            self.assertEqual(found.count(message), 1, found)
+            self.assertRegex(found.splitlines()[0], r" \(bad.py, line \d+(, \w+\.predict)?\)$")
+            self.assertNotIn(str(Path(clearway.__file__).parent), found)
 
     def test_links_evaluate_ends_with_the_traceback_of_a_predictor_that_fails(self) -> None:
         ended = subprocess.run([str(PROGRAMS / "clearway"), "links", "evaluate", "intersection", "--predictor", "bad.py:WrongShape",
@@ -391,12 +465,16 @@ class FaultTest(FolderCase):
         self.write("raises.py", "raise OSError('no net here')\n")
         for word, says in (("nowhere.py:Mine", "nowhere.py is not a file"), ("bad.py:Mine", "has no class 'Mine'; it has Raises"),
                            ("bad.py:Raise", "Did you mean 'Raises'?"), ("bad.py:NoAct", "NoAct has no method act()"),
+                           ("bad.py:Acts", "Acts has no method act(), which a policy needs. Did you mean 'acts'?"),
+                           ("bad.py:Needs", ", Needs.__init__: within_m of __init__ has no default"),
                            ("bad.py:Inherits", "Inherits has no method act()"), ("bad.py", "FILE.py:CLASS"),
-                           ("syntax.py:Mine", "SyntaxError"), ("raises.py:Mine", "OSError: no net here")):
+                           ("syntax.py:Mine", "SyntaxError: invalid syntax (syntax.py, line 1)\n"), ("raises.py:Mine", "OSError: no net here")):
             ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", word, "--out", "runs"],
                                    capture_output=True, text=True, check=False)
             self.assertEqual(ended.returncode, 3, ended.stderr)
             self.assertIn(says, ended.stderr)
+            self.assertEqual("Traceback" in ended.stderr, word == "raises.py:Mine")
+            self.assertNotIn("_host.py", ended.stderr)
             self.assertFalse(Path("runs").exists())
 
     def test_another_python_is_told_what_it_lacks(self) -> None:

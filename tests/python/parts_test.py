@@ -163,7 +163,8 @@ class EqualPartsTest(FolderCase):
 SLOW = """
 from clearway import Lease
 class Slow:
-    def __init__(self, share: float = 1.0, within_m: float = 200.0, most: int = 100, on: bool = True, reason: str = "slow", other=None):
+    def __init__(self, share: float = 1.0, within_m: float = 200.0, most: int = 100, on: bool = True, reason: str = "slow", other=None,
+                 leads=[1, 2]):
         self.share, self.within_m, self.most, self.on, self.reason = share, within_m, most, on, reason
         assert (type(share), type(within_m), type(most), type(on), type(reason)) == (float, float, int, bool, str)
     def act(self, belief):
@@ -212,7 +213,9 @@ class SettingsTest(FolderCase):
 
     def test_what_does_not_fit_is_told_before_anything_runs(self) -> None:
         for setting, says in (("Slow.shares=1", "Slow.shares is unknown (allowed: arguments of __init__ that have a default: share=1.0"),
-                              ("Slow.other=1", "Slow.other is unknown"), ("Slow.share=fast", "Slow.share is 'fast' (allowed: a finite number"),
+                              ("Slow.shar=1", "Did you mean 'share'?"),
+                              ("Slow.other=1", "Slow.other cannot be set: its default is None (allowed: arguments of __init__ whose default"),
+                              ("Slow.leads=1", "Slow.leads cannot be set: its default is [1, 2] (allowed: "), ("Slow.share=fast", "Slow.share is 'fast' (allowed: a finite number"),
                               ("Slow.share=nan", "Slow.share is 'nan' (allowed: a finite number"),
                               ("Slow.within_m=-inf", "Slow.within_m is '-inf' (allowed: a finite number"),
                               ("Slow.most=1.5", "Slow.most is '1.5' (allowed: a whole number"), ("Slow.on=1", "allowed: true, false"),
