@@ -49,7 +49,8 @@ __version__ = "0.1.0"
 #: Where each public name lives. Modules are loaded at the first use of one of their names.
 _HOMES = {
     "_program": ["ClearwayError", "InputError", "EnvironmentFault"],
-    "results": ["Results", "Table", "Difference", "open"],
+    "results": ["Results", "Difference", "open"],
+    "tables": ["Table"],
     "running": ["Condition", "run", "study"],
     "recording": ["Recording", "Step", "trace"],
     "datasets": ["Sample", "dataset"],
@@ -69,15 +70,18 @@ if TYPE_CHECKING:
     from .vector import VectorEnv, vector_env
     from .parts import Approach, Belief, EmergencyVehicle, Lease, Links, Network, Observation, Policy, Predictor, Vehicles
     from .recording import Recording, Step, trace
-    from .results import Difference, Results, Table, open
+    from .results import Difference, Results, open
     from .running import Condition, run, study
+    from .tables import Table
 
 
 def __getattr__(name: str) -> Any:
     if name == "torchscript":  # a module whose help says what a TorchScript predictor is given
         return importlib.import_module(".torchscript", __name__)
     if name not in _MODULE_OF:
-        raise AttributeError(f"clearway has no {name!r}; it has {', '.join(__all__)}")
+        from ._program import did_you_mean
+        meant = "." if name.startswith("_") else did_you_mean(name, __all__, 2) or "."
+        raise AttributeError(f"clearway has no {name!r}{meant} It has {', '.join(__all__)}")
     value = getattr(importlib.import_module("." + _MODULE_OF[name], __name__), name)
     globals()[name] = value
     return value

@@ -18,25 +18,27 @@ _CURE = "Record it again with `clearway links dataset SCENARIO --samples --out D
 
 
 @dataclasses.dataclass
-class Sample:
+class Sample(_program.Told):
     """One graph: what a predictor is given, and the answers. Names and shapes are those of PyTorch Geometric::
 
         data = torch_geometric.data.Data(**{name: torch.from_numpy(array) for name, array in sample.arrays().items()})
+
+    * ``x``: node features, ``float32[vehicles, features]``. Of ``--samples``: 3 cos kx, 3 sin kx, 3 cos ky, 3 sin ky with
+      k = 2 pi / 400 m, and exp(-age / 10 s), of the dead-reckoned place. Published: x and y, m; with 5 features also speed, m/s,
+      lane, and class (0 human, 1 automated, 2 emergency). `clearway.torchscript` gives a module marked ``dataset`` the same;
+    * ``edge_index``: edges along which messages may go, both ways, ``int64[2, edges]``: the observed links;
+    * ``edge_label_index``: pairs to decide, each once, ``int64[2, pairs]``;
+    * ``edge_label``: whether the pair is linked, ``float32[pairs]``: 0 or 1;
+    * ``edge_label_attr``: features of the pairs, ``float32[pairs, features]``: the dead-reckoned distance, m; empty for published
+      data sets;
+    * ``origin``: where it comes from: scenario, failure, replication, time_s, ...
     """
 
-    #: Node features, ``float32[vehicles, features]``. Of ``--samples``: 3 cos kx, 3 sin kx, 3 cos ky, 3 sin ky with
-    #: k = 2 pi / 400 m, and exp(-age / 10 s), of the dead-reckoned place. Published: x and y, m; with 5 features also speed,
-    #: m/s, lane, and class (0 human, 1 automated, 2 emergency). `clearway.torchscript` gives a module marked ``dataset`` the same.
     x: np.ndarray
-    #: Edges along which messages may go, both ways, ``int64[2, edges]``: the observed links.
     edge_index: np.ndarray
-    #: Pairs to decide, each once, ``int64[2, pairs]``.
     edge_label_index: np.ndarray
-    #: Whether the pair is linked, ``float32[pairs]``: 0 or 1.
     edge_label: np.ndarray
-    #: Features of the pairs, ``float32[pairs, features]``: the dead-reckoned distance, m; empty for published data sets.
     edge_label_attr: np.ndarray
-    #: Where it comes from: scenario, failure, replication, time_s, ...
     origin: dict[str, Any] = dataclasses.field(default_factory=dict)
 
     def arrays(self) -> dict[str, np.ndarray]:

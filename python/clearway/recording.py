@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from . import _files, _program
-from .results import Table
+from .tables import Table
 
 NONE = 4294967295
 #: As src/trace/detail/seal.cpp.
@@ -22,16 +22,16 @@ _H5PY_ERRORS = (OSError, KeyError, RuntimeError, TypeError, ValueError, Attribut
 T = TypeVar("T")
 
 
-class Step:
+class Step(_program.Told):
     """One step of a recording: the truth as arrays by vehicle, and what was observed, believed and asked for in it.
 
-    ``x_m``, ``y_m``, ``heading_rad``, ``speed_mps``, ``acceleration_mps2``, ``lane``, ``lane_position_m``, ``route_edge`` and
-    ``vehicle_class`` have one element for each vehicle on the road, ``id`` its name in SUMO.
+    ``number`` counts from 0 within the recording, ``time_s`` is the simulation time. ``x_m``, ``y_m``, ``heading_rad``, ``speed_mps``,
+    ``acceleration_mps2``, ``lane``, ``lane_position_m``, ``route_edge`` and ``vehicle_class`` have one element for each vehicle on
+    the road, ``id`` its name in SUMO. ``lane`` numbers lanes of the network; ``clearway.recording.NONE`` is none.
     """
 
     def __init__(self, recording: "Recording", number: int) -> None:
         self._recording = recording
-        #: Counts from 0 within the recording.
         self.number = number
         self.time_s = float(recording._steps["time_s"][number])
 
@@ -40,12 +40,16 @@ class Step:
         return self._recording._array(f"{group}/{column}")[begin[self.number]:begin[self.number + 1]]
 
     def __getattr__(self, column: str) -> np.ndarray:
-        if column.startswith("_"):
-            raise AttributeError(column)
+        if column.startswith("_") or hasattr(type(self), column):
+            return super().__getattr__(column)
         try:
             return self._rows("snapshot", "class" if column == "vehicle_class" else column)
         except KeyError:
-            raise AttributeError(f"a step has no {column!r}") from None
+            return super().__getattr__(column)
+
+    def __dir__(self) -> list[str]:
+        columns = self._recording._read("snapshot", list)
+        return [*("vehicle_class" if name == "class" else name for name in columns if name != "vehicle"), *super().__dir__()]
 
     @property
     def id(self) -> np.ndarray:
@@ -64,17 +68,16 @@ class Step:
 
     @property
     def leases(self) -> Table:
-        """What the policy asked for in this step."""
-        texts, names = self._recording._texts, self._recording.ids
-        columns: dict[str, np.ndarray] = {}
-        for name in self._recording._read("leases", list):
-            values = self._rows("leases", name)
-            if name in ("policy", "reason"):
-                values = _named(values, texts)
-            elif name in ("vehicle", "beneficiary"):
-                values = _named(values, names)
-            columns[name] = values
-        return Table(columns)
+        """What the policy asked for in this step; columns that do not belong to an action are empty."""
+        recording = self._recording
+        columns = {name: _in_words(self._rows("leases", name), recording._read(f"leases/{name}", _words))
+                   for name in recording._read("leases", list)}
+        for names, of in ((recording._texts, ("policy", "reason", "links", "own_links")), (recording.ids, ("vehicle", "beneficiary"))):
+            columns |= {name: _named(columns[name], names) for name in of}
+        action, has_stretch = columns["action"], columns["stretch_lane"] != NONE
+        belongs = {"speed_mps": action == "drive_at", "lane_number": action == "change_lane", "side": action == "pull_aside",
+                   "signal": columns["signal"] != NONE, **{name: has_stretch for name in columns if name.startswith("stretch_")}}
+        return Table({name: _only_where(belongs[name], values) if name in belongs else values for name, values in columns.items()})
 
     def __repr__(self) -> str:
         return f"<Step {self.number} at {self.time_s} s: {len(self._rows('snapshot', 'vehicle'))} vehicles>"
@@ -85,8 +88,21 @@ def _named(rows: np.ndarray, names: np.ndarray) -> np.ndarray:
     return padded[np.where(rows == NONE, len(names), rows)]
 
 
-class Recording:
-    """A recording that is open; iterate it for its steps. Use it in a ``with`` block, or close it."""
+def _only_where(belongs: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """The values, and where none belongs there what tables have for a missing one: NaN, or an empty text."""
+    if values.dtype.kind == "U":
+        return np.where(belongs, values, "")
+    if values.dtype.kind in "iu":
+        return values.astype(np.int64) if belongs.all() else np.where(belongs, values, np.nan)
+    return np.where(belongs, values, np.array(np.nan, values.dtype))
+
+
+class Recording(_program.Told):
+    """A recording that is open; iterate it for its steps. Use it in a ``with`` block, or close it.
+
+    ``file`` is its path, ``scenario``, ``condition`` and ``replication`` say of which run it is, ``ids`` are SUMO's names of the
+    vehicles.
+    """
 
     def __init__(self, file: str | Path) -> None:
         self.file = _files.path_of("file", file)
@@ -140,7 +156,10 @@ class Recording:
 
     @property
     def events(self) -> Table:
-        """Departures, arrivals, teleports, collisions, emergency brakings: one row each, with its time."""
+        """Departures, arrivals, teleports, collisions, emergency brakings: one row each, with its time.
+
+        ``other``, ``lane`` and ``place`` are those of a collision, ``deceleration_mps2`` that of a braking; else they are empty.
+        """
         begin = self._begin("events")
         columns: dict[str, np.ndarray] = {"time_s": np.repeat(self._steps["time_s"], np.diff(begin.astype(np.int64)))}
         for name in self._read("events", list):
@@ -148,7 +167,9 @@ class Recording:
             columns[name] = _in_words(self._array(path), self._read(path, _words))
         for name in ("vehicle", "other"):
             columns[name] = _named(columns[name], self.ids)
-        return Table(columns)
+        belongs = {"lane": columns["lane"] != NONE, "place": columns["kind"] == "collision",
+                   "deceleration_mps2": columns["kind"] == "emergency_braking"}
+        return Table({name: _only_where(belongs[name], values) if name in belongs else values for name, values in columns.items()})
 
     def __len__(self) -> int:
         return len(self._steps["time_s"])

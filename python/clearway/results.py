@@ -4,146 +4,65 @@ from __future__ import annotations
 import dataclasses
 import errno
 import html
-import json
 import sqlite3
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _files, _program
+from ._conditions import Conditions, Given
+from .tables import Table
 
 if TYPE_CHECKING:
-    import pandas
-
     from .recording import Recording
 
-
-#: Rows of a table in a notebook.
-SHOWN_ROWS = 10
 #: What verdicts judge.
 PRIMARY_METRIC = "emergency_restricted_travel_time_s"
 #: Replications of a study.
 MOST_SEEDS = 100000
 _SQLITE_OF_MACHINE = {sqlite3.SQLITE_IOERR: errno.EIO, sqlite3.SQLITE_NOMEM: errno.ENOMEM, sqlite3.SQLITE_CANTOPEN: errno.EMFILE}
-
-
-class Table(Mapping[str, np.ndarray]):
-    """A table as numpy arrays by column. Read-only; columns carry their units in their names (``emergency_travel_time_s``).
-
-    Numbers are ``float64`` or, where all are whole and none is missing, ``int64``; a missing number is NaN. Texts are arrays of
-    ``str``, a missing text is ``""``.
-    """
-
-    def __init__(self, columns: Mapping[str, np.ndarray], names: Mapping[str, list[str]] | None = None) -> None:
-        """``names`` are all that a column can hold, such as the conditions of a study."""
-        self._columns = dict(columns)
-        self._names = names or {}
-        self.row_count = len(next(iter(self._columns.values()))) if self._columns else 0
-
-    def __getitem__(self, column: str) -> np.ndarray:
-        try:
-            return self._columns[column]
-        except KeyError:
-            raise _program.InputError(f"there is no column {column!r}; columns are {', '.join(self._columns)}"
-                                      f"{_program.did_you_mean(column, self._columns)}") from None
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._columns)
-
-    def __len__(self) -> int:
-        """Rows, as in pandas; iterating yields the columns."""
-        return self.row_count
-
-    def where(self, **values: Any) -> "Table":
-        """The rows whose columns have these values: ``runs.where(scenario="city", condition="corridor")``. Raises InputError for
-        a scenario or condition that the study does not have.
-        """
-        chosen = np.ones(self.row_count, dtype=bool)
-        for column, value in values.items():
-            array = self[column]
-            if np.ndim(value) != 0 or isinstance(value, str) != (array.dtype.kind == "U"):
-                kind = "a text" if array.dtype.kind == "U" else "a number"
-                raise _program.InputError(f"column {column!r} is compared with {value!r} (allowed: {kind})")
-            if column in self._names and value not in self._names[column]:
-                raise _program.InputError(f"the study has no {column} {value!r}; it has {', '.join(filter(None, self._names[column]))}"
-                                          f"{self._factor_with(value) or _program.did_you_mean(value, self._names[column])}")
-            chosen &= array == value
-        return Table({name: array[chosen] for name, array in self._columns.items()}, self._names)
-
-    def _factor_with(self, value: str) -> str:
-        """How to choose by the factor that has this value; empty if none has."""
-        factors = (name for name, array in self._columns.items() if "." in name and value in array.tolist())
-        return next((f". where(**{{{name!r}: {value!r}}}) chooses by factor" for name in factors), "")
-
-    def to_pandas(self) -> "pandas.DataFrame":
-        """The same as a DataFrame. Needs pandas (Debian: python3-pandas)."""
-        try:
-            import pandas
-        except ImportError as error:
-            raise _program.EnvironmentFault("pandas is not installed (Debian: python3-pandas); tables are numpy arrays without it"
-                                            ) from error
-        return pandas.DataFrame(self._columns)
-
-    def head(self, count: int = 5) -> "Table":
-        """The first rows."""
-        if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 0:
-            raise _program.InputError(f"head: {count!r} (allowed: a number of rows from 0)")
-        return Table({name: array[:count] for name, array in self._columns.items()}, self._names)
-
-    def __repr__(self) -> str:
-        return f"<Table of {_program.counted(self.row_count, 'row')}: {', '.join(self._columns)}>"
-
-    def _repr_html_(self) -> str:
-        """What a notebook shows: the first rows, all columns."""
-        def row(tag: str, texts: Iterable[str]) -> str:
-            return "<tr>" + "".join(f"<{tag}>{html.escape(text)}</{tag}>" for text in texts) + "</tr>"
-        shown = self.head(SHOWN_ROWS)
-        rows = zip(*([_cell(value) for value in array] for array in shown.values()))
-        return (f"<table><thead>{row('th', self)}</thead><tbody>{''.join(row('td', one) for one in rows)}</tbody></table>"
-                f"<p>{_program.counted(self.row_count, 'row')}, {_program.counted(len(self._columns), 'column')}"
-                f"{f'; the first {SHOWN_ROWS} rows are shown' if self.row_count > SHOWN_ROWS else ''}</p>")
-
-
-def _cell(value: Any) -> str:
-    if isinstance(value, (float, np.floating)):
-        return "" if np.isnan(value) else f"{value:.6g}"
-    return str(value)
+#: Tables that are made of event logs when they are asked for.
+_DERIVED = ("signals", "signal_events")
 
 
 @dataclasses.dataclass(frozen=True)
-class Difference:
-    """A condition minus its baseline, paired by replication, as the console and ``clearway compare`` print it."""
+class Difference(_program.Told):
+    """A condition minus its baseline, paired by replication, as the console and ``clearway compare`` print it.
+
+    * ``scenario``, ``condition``, ``compared_with``, ``metric``: what is compared with what;
+    * ``difference``: mean of the paired differences, in the metric's unit; None without a complete pair;
+    * ``interval_95``: its 95 % interval by Student's t; ``bca_95``: by the bias-corrected and accelerated bootstrap; None with too
+      few seeds;
+    * ``relative_1``: difference divided by the baseline's mean; ``median``, ``median_95``: of the differences;
+    * ``effect_size_dz``, ``t_p``, ``wilcoxon_p``; ``holm_p``: p of the t test, corrected for all comparisons of the scenario (Holm);
+    * ``complete_pairs``, ``incomplete_pairs``, ``vehicles_left_out``: how many;
+    * ``locked_pairs``: in which vehicles locked each other in either run; where there are any, ``difference_without_locks`` and
+      ``interval_95_without_locks`` are those of the other pairs, else None;
+    * ``objections``: why the mean must not be believed as it stands (vehicles that did not arrive); empty where nothing is wrong.
+    """
 
     scenario: str
     condition: str
     compared_with: str
     metric: str
-    #: Mean of the paired differences, in the metric's unit; None without a complete pair.
     difference: float | None
-    #: 95 % interval by Student's t; None with too few seeds.
     interval_95: tuple[float, float] | None
-    #: Difference divided by the baseline's mean.
     relative_1: float | None
-    #: 95 % interval by the bias-corrected and accelerated bootstrap.
     bca_95: tuple[float, float] | None
     median: float | None
     median_95: tuple[float, float] | None
     effect_size_dz: float | None
     t_p: float | None
-    #: p of the t test, corrected for all comparisons of the scenario (Holm).
     holm_p: float | None
     wilcoxon_p: float | None
     complete_pairs: int
     incomplete_pairs: int
     vehicles_left_out: int
-    #: Pairs in which vehicles locked each other in either run; where there are any, the mean of the other pairs with its 95 %
-    #: interval, else None.
     locked_pairs: int
     difference_without_locks: float | None
     interval_95_without_locks: tuple[float, float] | None
-    #: Why the mean must not be believed as it stands (vehicles that did not arrive); empty where nothing is wrong.
     objections: str
 
     def __str__(self) -> str:
@@ -159,14 +78,19 @@ def _pair(bounds: list[float] | None) -> tuple[float, float] | None:
     return None if bounds is None else (bounds[0], bounds[1])
 
 
-class Results:
-    """A run folder (``clearway.open``). Its tables are read once, when they are first asked for."""
+class Results(_program.Told):
+    """A run folder (``clearway.open``). Its tables are read once, when they are first asked for. ``folder`` is its path, ``tables``
+    the names of its tables.
+
+    Where a condition is asked for, it is given by its name, by the title that tables show (``"Ours, B10"``), or by factors that
+    choose one: ``{"condition.policy": "corridor", "condition.failure": "B10"}``.
+    """
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = _files.path_of("folder", folder)
-        #: Names of the tables.
         self.tables: list[str] = _program.call(["export", "results", str(self.folder.absolute()), "--list"])[1].split()
         self._read: dict[str, Table] = {}
+        self._conditions = Conditions(self.folder)
 
     def table(self, name: str) -> Table:
         """A table by name; ``tables`` lists them, docs/reference/columns.md says what the columns mean."""
@@ -176,33 +100,17 @@ class Results:
         if name not in self._read:
             database = self.folder / "results.sqlite"
             try:
-                columns = _read_table(database, name)
+                columns = _derived_table(self.folder, name) if name in _DERIVED else _read_table(database, name)
                 # Levels of factors are names, too.
                 factors = {column: sorted(set(values.tolist())) for column, values in columns.items()
                            if "." in column and values.dtype.kind == "U"}
-                self._read[name] = Table(columns, self._names() | factors)
+                self._read[name] = Table(columns, {"scenario": self._conditions.scenarios, **factors}, self._conditions)
             except sqlite3.Error as error:
                 if reason := _SQLITE_OF_MACHINE.get(getattr(error, "sqlite_errorcode", 0) & 0xff):
                     raise _files.refusal(database, reason) from None
                 raise _program.InputError(f"{database}: cannot be read: {error}. Give the same call again, in case the machine "
                                          "failed to read it; otherwise remove it: `clearway report` on the folder writes it again") from None
         return self._read[name]
-
-    def _names(self) -> dict[str, list[str]]:
-        file = self.folder / "manifest.json"
-        content = _files.content(file)
-        try:
-            manifest = json.loads(content)
-            return {kind: [one["name"] for one in manifest[f"{kind}s"]] for kind in ("scenario", "condition")}
-        except (ValueError, LookupError, TypeError) as error:
-            raise _program.InputError(f"{file}: is damaged ({error!r}). Take it from a backup, or run the study into another folder"
-                                      ) from None
-
-    def _require_names(self, **names: str) -> None:
-        for kind, known in self._names().items():
-            if kind in names and names[kind] not in known:
-                raise _program.InputError(f"the study has no {kind} {names[kind]!r}; it has {', '.join(known)}"
-                                          f"{_program.did_you_mean(names[kind], known)}")
 
     @property
     def runs(self) -> Table:
@@ -238,36 +146,58 @@ class Results:
                 events = recording.events
                 of = {"scenario": recording.scenario, "condition": recording.condition, "replication": recording.replication}
             tables.append({**{name: np.full(events.row_count, value) for name, value in of.items()}, **events})
-        return Table({name: np.concatenate([table[name] for table in tables]) for name in tables[0]})
+        return Table({name: np.concatenate([table[name] for table in tables]) for name in tables[0]},
+                     {"scenario": self._conditions.scenarios}, self._conditions)
 
-    def recording(self, scenario: str, condition: str, replication: int = 0) -> "Recording":
+    def recording(self, scenario: str, condition: Given, replication: int = 0) -> "Recording":
         """The recording of a run; see ``clearway.trace``."""
         from .recording import Recording
-        self._require_names(scenario=scenario, condition=condition)
+        self._conditions.require_scenario(scenario)
+        name = self._conditions.name_of(condition)
         _program.require_whole("replication", replication, 0, MOST_SEEDS - 1)
-        return Recording(self.folder / "recordings" / scenario / condition / f"{replication:05d}.h5")
+        return Recording(self.folder / "recordings" / scenario / name / f"{replication:05d}.h5")
 
-    def paired_difference(self, metric: str, condition: str, scenario: str | None = None, against: str | None = None) -> Difference:
+    def paired_difference(self, metric: str, condition: Given, scenario: str | None = None, against: Given | None = None) -> Difference:
         """The paired difference of a condition and its baseline, with the console's intervals (the program works it out).
 
-        ``metric`` is a column of ``runs``, ``scenario`` may be left out where there is one, ``against`` names another condition
-        in place of the baseline. Raises InputError for names that the folder does not have.
+        ``metric`` is a column of ``runs``, ``scenario`` may be left out where there is one, ``against`` is another condition in
+        place of the baseline; factors that it leaves out are those of ``condition``, as here the failure::
+
+            results.paired_difference("emergency_travel_time_s", {"condition.policy": "my_policy.py:Green", "condition.failure": "B10"},
+                                      against={"condition.policy": "corridor"})
+
+        Raises InputError for names that the folder does not have.
         """
-        there = self.paired_differences(metric, against)
+        scenario = self._conditions.scenario_with(condition) if scenario is None else scenario
+        name = self._conditions.name_of(condition)
+        other = None if against is None else self._conditions.name_of(against, like=name)
+        there = self.paired_differences(metric, other)
         if scenario is not None:
-            self._require_names(scenario=scenario)
-        found = [one for one in there if one.condition == condition]
-        if scenario is not None:
-            found = [one for one in found if one.scenario == scenario]
+            self._conditions.require_scenario(scenario)
+        found = [one for one in there if one.condition == name and scenario in (None, one.scenario)]
         if len(found) == 1:
             return found[0]
-        compared = ", ".join(f"{one.scenario}/{one.condition}" for one in there)
-        what = "several scenarios have it: name one" if found else f"is not compared with {against or 'a baseline'} here"
-        near = "" if found else _program.did_you_mean(condition, [one.condition for one in there])
-        raise _program.InputError(f"condition {condition!r}: {what}; there are {compared}{near}")
+        if found:
+            raise _program.InputError(f"condition {name!r}: several scenarios have it (allowed: scenario= one of "
+                                      f"{', '.join(one.scenario for one in found)})")
+        raise _program.InputError(f"condition {name!r}: is not compared with {other or 'a baseline'} here"
+                                  + (" (allowed: other conditions)" if there else ""))
 
-    def paired_differences(self, metric: str, against: str | None = None) -> list[Difference]:
-        """All conditions of the folder against their baselines, or against the condition ``against``."""
+    def paired_differences(self, metric: str, against: Given | None = None) -> list[Difference]:
+        """All conditions of the folder against their baselines, or against the condition ``against``.
+
+        With factors, each is compared with the condition that has these and is otherwise the same:
+        ``against={"condition.policy": "corridor"}`` compares every policy with ``corridor`` under the same failure. ``holm_p`` then
+        corrects for all comparisons with that condition.
+        """
+        if not isinstance(against, Mapping):
+            return self._compared(metric, None if against is None else self._conditions.name_of(against))
+        pairs = self._conditions.compared(against)
+        found = [one for other, names in pairs.items() for one in self._compared(metric, other) if one.condition in names]
+        scenarios, names = self._conditions.scenarios, self._conditions.names
+        return sorted(found, key=lambda one: (scenarios.index(one.scenario), names.index(one.condition)))
+
+    def _compared(self, metric: str, against: str | None) -> list[Difference]:
         chosen = [] if against is None else ["--against", against]
         rows = _program.call_json(["compare", str(self.folder.absolute()), "--metric", str(metric), *chosen])["comparisons"]
         differences = []
@@ -305,6 +235,11 @@ def _read_table(database: Path, name: str) -> dict[str, np.ndarray]:
         connection.close()
     columns = list(zip(*rows)) if rows else [()] * len(names)
     return {name: _column(values, types.get(name, "")) for name, values in zip(names, columns)}
+
+
+def _derived_table(folder: Path, name: str) -> dict[str, np.ndarray]:
+    rows = _program.call_json(["export", "results", str(folder.absolute()), name])
+    return {column: _column(tuple(row[column] for row in rows), "") for column in (rows[0] if rows else ())}
 
 
 def _column(values: tuple[Any, ...], declared: str) -> np.ndarray:

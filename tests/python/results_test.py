@@ -13,7 +13,9 @@ import unittest
 from unittest import mock
 
 import clearway
+import clearway.recording as recording_module
 import numpy as np
+from clearway import _conditions
 from support import FolderCase, program, told_when
 
 T_975_4 = 2.7764451051977987  # Student's t, 4 degrees of freedom
@@ -92,17 +94,80 @@ class ResultsTest(FolderCase):
         table = clearway.Table({"a<b": np.array(["<x>", "y"]), "n": np.array([1.0 / 3.0, math.nan])})
         self.assertIn("<tr><th>a&lt;b</th><th>n</th></tr>", table._repr_html_())
         self.assertIn("<tr><td>&lt;x&gt;</td><td>0.333333</td></tr><tr><td>y</td><td></td></tr>", table._repr_html_())
-        self.assertEqual(repr(runs.head(1))[:17], "<Table of 1 row: ")
         self.assertIn("<p>0 rows, 0 columns</p>", clearway.Table({})._repr_html_())
         whole = self.results._repr_html_()
         self.assertIn("<li>intersection: corridor - baseline, emergency_restricted_travel_time_s: ", whole)
         self.assertIn(runs._repr_html_(), whole)
 
+    def printed(self, table: clearway.Table, columns: int = 80) -> list[str]:
+        with mock.patch.dict(os.environ, COLUMNS=str(columns)):
+            lines = str(table).splitlines()
+        self.assertLessEqual(max(map(len, lines[:-1])), columns)
+        return lines
+
+    def test_a_printed_table_shows_rows_as_wide_as_the_terminal(self) -> None:
+        runs, metric = self.results.runs, "emergency_restricted_travel_time_s"
+        names, first, *others, last = self.printed(runs.head())
+        self.assertEqual(names.split(), ["scenario", "condition", "replication", metric])
+        self.assertEqual(first.split(), ["intersection", "baseline", "0", f"{runs[metric][0]:.6g}"])
+        self.assertEqual((len(others), last), (4, f"[5 rows, 4 of {len(list(runs))} columns: list(table) names all, table.head(5, NAME, ...) "
+                                                  "shows one]"))
+        self.assertGreater(len(self.printed(runs, 200)[0].split()), 6)
+        self.assertTrue(self.printed(runs.where(condition="corridor"))[-1].startswith("[5 rows, "))
+        self.assertTrue(self.printed(self.results.vehicles)[-1].startswith(f"[10 of {len(self.results.vehicles)} rows, "))
+        chosen = runs.head(2, "collisions", "study_seed")
+        self.assertEqual(list(chosen), ["scenario", "condition", "replication", "collisions", "study_seed"])
+        self.assertEqual(self.printed(chosen)[-1], "[2 rows, 5 columns]")
+        with mock.patch.dict(os.environ, COLUMNS="20"):  # what was asked for is shown on any terminal
+            self.assertIn("study_seed", str(chosen))
+        self.assertEqual(list(runs[["condition", "collisions"]]), ["condition", "collisions"])
+        self.assertIn("Did you mean 'collisions'", self.message_of(clearway.InputError, lambda: runs.head(2, "colisions")))
+        self.assertEqual(("nothing" in runs, "collisions" in runs, runs.get("nothing", 3)), (False, True, 3))
+        self.assertIn("there is no column {}", self.message_of(clearway.InputError, lambda: runs[{}]))
+
+    def test_long_names_of_conditions_are_shortened_and_lines_kept_whole(self) -> None:
+        table = clearway.Table({"condition": np.array(["policy+failure=B10+policy=my_policy.py_Green", "baseline"]),
+                                "condition.failure": np.array(["B10", ""]), "message": np.array(["one\ntwo " + "x" * 90, "short"]),
+                                "same": np.array([1.0, 1.0]), "number": np.array([math.nan, 2.5])})
+        names, first, second, _ = self.printed(table)
+        self.assertEqual(names.split()[0], "condition")
+        self.assertTrue(first.startswith("policy+..B10+..my_policy.py_Green  one two xx"), first)
+        self.assertIn("x..x", first)
+        self.assertEqual(self.printed(table, 200)[1].split()[0], "policy+failure=B10+policy=my_policy.py_Green")
+        self.assertEqual(self.printed(table, 200)[0].split()[-1], "same")  # what says least comes last
+        self.assertEqual(second.split()[:2], ["baseline", "short"])
+        self.assertEqual(str(clearway.Table({})), "<Table without columns>")
+
+    def test_of_many_names_the_nearest_are_told(self) -> None:
+        message = self.message_of(clearway.InputError, lambda: self.results.runs["emergency_travel_time"])
+        self.assertTrue(message.startswith("there is no column 'emergency_travel_time'. Did you mean 'emergency_travel_time_s' or "), message)
+        self.assertTrue(message.endswith(f"? list(table) names all {len(list(self.results.runs))} columns"), message)
+        self.assertLess(len(message), 250)
+        self.assertEqual(self.message_of(clearway.InputError, lambda: self.results.runs["xyzzy"]),
+                         f"there is no column 'xyzzy'. It has scenario, condition, replication and others. list(table) names all "
+                         f"{len(list(self.results.runs))} columns")
+
+    def test_a_policy_is_looked_for_where_it_stands(self) -> None:
+        where = self.results.runs.where
+        for value in ("corridor", "dissertation"):
+            self.assertEqual(self.message_of(clearway.InputError, lambda: where(policy=value)),
+                             f"there is no column 'policy'. Did you mean 'condition'? where(condition={value!r}) chooses by it")
+        table = clearway.Table({"condition": np.array(["a"]), "condition.policy": np.array(["corridor"])})
+        self.assertIn("Did you mean 'condition.policy'? where(**{'condition.policy': 'corridor'}) chooses by it",
+                      self.message_of(clearway.InputError, lambda: table.where(policy="corridor")))
+
+    def test_event_logs_of_signals_are_tables(self) -> None:
+        for name in ("signals", "signal_events"):
+            lines = list(csv.DictReader(io.StringIO(program("export", "results", str(self.results.folder), name, "--csv"))))
+            table = self.results.table(name)
+            self.assertEqual((table.row_count, list(table)), (len(lines), list(lines[0])), name)
+            self.assertEqual(set(table["condition"]), {"corridor"})
+
     def test_what_is_misspelt_names_the_nearest(self) -> None:
         for call, meant in ((lambda: self.results.runs["emergency_travel_time"], "emergency_travel_time_s"),
                             (lambda: self.results.table("vehicle"), "vehicles"),
                             (lambda: self.results.paired_difference("emergency_travel_time", "corridor"), "emergency_travel_time_s")):
-            self.assertIn(f"Did you mean '{meant}'?", self.message_of(clearway.InputError, call))
+            self.assertIn(f"Did you mean '{meant}'", self.message_of(clearway.InputError, call))
 
     def test_where_and_pandas(self) -> None:
         corridor = self.results.runs.where(condition="corridor", replication=2)
@@ -142,8 +207,38 @@ class ResultsTest(FolderCase):
         self.assertTrue(read == printed)
         self.assertEqual(asked, program("replay", str(file), "--csv", "leases").count("\n") - 1)
 
+    def test_leases_and_events_of_a_recording_lack_what_the_program_leaves_empty(self) -> None:
+        file = self.results.folder / "recordings/intersection/corridor/00000.h5"
+        with clearway.trace(file) as recording:
+            steps = [step.leases for step in recording]
+            events, names = recording.events, {"event": "kind", "other_vehicle": "other"}
+        leases = {name: np.concatenate([step[name] for step in steps]) for name in steps[0]}
+        self.assertGreater(len(set(leases["action"])), 2)
+        for table, kind, apart in ((leases, "leases", {"time_s", "signal", "stretch_lane"}), (dict(events), "events", {"lane"})):
+            lines = list(csv.DictReader(io.StringIO(program("replay", str(file), "--csv", kind))))
+            for column in set(lines[0]) - {"time_s"}:
+                for line, value in zip(lines, table[names.get(column, column)], strict=True):
+                    is_missing = value == "" if isinstance(value, str) else math.isnan(value)
+                    self.assertEqual(line[column] == "", is_missing, (column, line, value))
+                    if not is_missing and column not in apart:  # lanes and signals are numbers here
+                        said = line[column] if isinstance(value, str) else float(line[column])
+                        self.assertTrue(said == value or math.isclose(said, value, rel_tol=1e-6), (column, line, value))
+        for table in (leases, dict(events), dict(self.results.events)):
+            self.assertFalse([name for name, values in table.items() if values.dtype.kind in "iuf" and (values > 4e9).any()])
+        self.assertEqual(set(events["place"]), {""})
+        self.assertEqual(events["lane"].dtype, np.float64)
+
+    def test_a_missing_number_is_nan_and_whole_numbers_without_one_stay_whole(self) -> None:
+        lanes = np.array([3, recording_module.NONE], np.uint32)
+        some = recording_module._only_where(lanes != recording_module.NONE, lanes)
+        self.assertEqual((some.dtype, some[0], math.isnan(some[1])), (np.float64, 3.0, True))
+        every = recording_module._only_where(lanes[:1] != recording_module.NONE, lanes[:1])
+        self.assertEqual((every.dtype, every.tolist()), (np.int64, [3]))
+
     def test_events_of_all_recordings(self) -> None:
         events = self.results.events
+        self.assertEqual(events.where(condition="Baseline").row_count, events.where(condition="baseline").row_count)
+        self.assertIn("no condition 'coridor'", self.message_of(clearway.InputError, lambda: events.where(condition="coridor")))
         arrived = (events["kind"] == "arrived") & (events["condition"] == "corridor") & (events["replication"] == 1)
         run = self.results.runs.where(condition="corridor", replication=1)
         outcome = self.results.vehicles.where(condition="corridor", replication=1)["outcome"]
@@ -159,9 +254,12 @@ class ResultsTest(FolderCase):
 
     def test_wrong_names_are_told_with_what_there_is(self) -> None:
         for call, says in ((lambda: self.results.table("nothing"), "it has"),
-                           (lambda: self.results.runs["nothing"], "columns are scenario"),
+                           (lambda: self.results.runs["nothing"], "It has scenario"),
                            (lambda: self.results.paired_difference("nothing_s", "corridor"), "nothing_s"),
-                           (lambda: self.results.paired_difference("collisions", "mine"), "intersection/corridor"),
+                           (lambda: self.results.paired_difference("collisions", "mine"), "no condition 'mine'; it has baseline, corridor"),
+                           (lambda: self.results.paired_difference("collisions", "baseline"), "'baseline': is not compared with a baseline here"),
+                           (lambda: self.results.paired_differences("collisions", "mine"), "no condition 'mine'; it has baseline, corridor"),
+                           (lambda: self.results.paired_difference("collisions", {"condition.policy": "a"}), "no factor 'condition.policy'"),
                            (lambda: clearway.open("no-folder"), "no-folder"),
                            (lambda: clearway.trace("no.h5"), "no.h5: cannot be read: No such file or directory. Check"),
                            (lambda: clearway.trace(__file__), "is not a recording"),
@@ -218,8 +316,10 @@ class ResultsTest(FolderCase):
         with self.results.recording("intersection", "corridor") as recording:
             whole = recording.file.read_bytes()
             start = recording._file["snapshot/x_m"].id.get_chunk_info(0).byte_offset
-            with self.assertRaisesRegex(AttributeError, "no 'x_km'"):
+            with self.assertRaisesRegex(AttributeError, "no 'x_km'. Did you mean 'x_m'.* It has acceleration_mps2, .*vehicle_class"):
                 _ = recording[0].x_km
+            with self.assertRaisesRegex(AttributeError, "Recording has no 'event'. Did you mean 'events'"):
+                _ = recording.event
         for closed in (lambda: recording[0].x_m, lambda: recording[0].leases, lambda: recording.events):
             self.assertIn("is closed", self.message_of(clearway.ClearwayError, closed))
         for at in (100, 512 + 200, start, len(whole) - 1):  # of the seal, of HDF5's structure, of numbers
@@ -317,6 +417,121 @@ class ResultsTest(FolderCase):
                            (lambda: self.results.paired_difference("a\0", "corridor"), null),
                            (lambda: clearway.env("a\0"), null)):
             self.assertIn(says, self.message_of(clearway.InputError, call))
+
+
+STUDY = """replications = 2
+scenarios = ["intersection"]
+conditions = ["baseline"]
+[[condition]]
+name = "policy"
+policy = ["corridor"]
+[factors]
+condition.policy = ["corridor", "preempt_signals", "check_in_out"]
+condition.failure = ["perfect", "B10"]
+[titles]
+preempt_signals = "Ours"
+"""
+
+
+class ConditionsTest(FolderCase):
+    """A condition is given by its name, by its title, or by factors."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.holder = tempfile.TemporaryDirectory(prefix="clearway-test-")
+        cls.addClassCleanup(cls.holder.cleanup)
+        file = os.path.join(cls.holder.name, "study.toml")
+        with open(file, "w", encoding="utf-8") as stream:
+            stream.write(STUDY)
+        cls.results = clearway.study(file, out=os.path.join(cls.holder.name, "runs"))
+        cls.metric = "emergency_travel_time_s"
+
+    def name(self, policy: str, failure: str) -> str:
+        return f"policy+failure={failure}+policy={policy}"
+
+    def mean(self, left: str, right: str) -> float:
+        runs = self.results.runs
+        return float((runs.where(condition=left)[self.metric] - runs.where(condition=right)[self.metric]).mean())
+
+    def test_titles_are_those_of_the_report(self) -> None:
+        before = (self.results.folder / "report.html").stat()
+        found = clearway.open(self.results.folder)._conditions.titles
+        self.assertEqual((self.results.folder / "report.html").stat(), before, "the folder stays as it is")
+        said = json.loads(program("report", str(self.results.folder), "--json"))["scenarios"][0]["conditions"]
+        self.assertEqual(found, {one["title"]: {one["name"]} for one in said})
+        self.assertEqual(found["Ours, B10"], {self.name("preempt_signals", "B10")})
+
+    def test_a_title_is_taken_where_a_name_is(self) -> None:
+        ours, other = self.name("preempt_signals", "B10"), self.name("corridor", "perfect")
+        difference = self.results.paired_difference
+        for given in (ours, "Ours, B10", "Ours, B10 (!)", {"condition.policy": "preempt_signals", "condition.failure": "B10"}):
+            self.assertEqual(difference(self.metric, given), difference(self.metric, ours))
+            found = difference(self.metric, given, against="corridor, perfect sensors")
+            self.assertEqual((found.condition, found.compared_with), (ours, other))
+            self.assertAlmostEqual(found.difference, self.mean(ours, other), places=9)
+        self.assertEqual(self.results.paired_differences(self.metric, "Ours, B10"), self.results.paired_differences(self.metric, ours))
+        self.assertEqual(set(self.results.runs.where(condition="Ours, B10")["condition"]), {ours})
+        self.assertEqual(self.results.vehicles.where(condition="Ours, B10").row_count, self.results.vehicles.where(condition=ours).row_count)
+        self.assertIn(f"intersection/{ours}/00000.h5: cannot be read",
+                      self.message_of(clearway.InputError, lambda: self.results.recording("intersection", "Ours, B10")))
+
+    def test_an_incomplete_folder_has_titles(self) -> None:
+        place = self.folder / "part"
+        place.mkdir()
+        for name in ("manifest.json", "titles.json"):
+            shutil.copy(self.results.folder / name, place)
+        part = clearway.open(place)
+        self.assertEqual(part._conditions.titles, self.results._conditions.titles)
+        self.assertEqual(part.runs.where(condition="Ours, B10").row_count, 0)
+
+    def test_a_title_of_two_is_refused(self) -> None:
+        opened = clearway.open(self.results.folder)
+        opened._conditions.titles = {"Ours": {"a", "b"}}
+        self.assertIn("several conditions have the title 'Ours': a, b. Give the name of one",
+                      self.message_of(clearway.InputError, lambda: opened.runs.where(condition="Ours")))
+
+    def test_factors_that_are_left_out_are_those_of_the_other_condition(self) -> None:
+        against = {"condition.policy": "corridor"}
+        for failure in ("perfect", "B10"):
+            ours = {"condition.policy": "preempt_signals", "condition.failure": failure}
+            names = self.name("preempt_signals", failure), self.name("corridor", failure)
+            for given in (ours, names[0]):
+                found = self.results.paired_difference(self.metric, given, against=against)
+                self.assertEqual((found.condition, found.compared_with), names)
+                self.assertAlmostEqual(found.difference, self.mean(*names), places=9)
+        every = self.results.paired_differences(self.metric, against=against)
+        self.assertEqual([(one.condition, one.compared_with) for one in every],
+                         [(self.name(policy, failure), self.name("corridor", failure)) for failure in ("perfect", "B10")
+                          for policy in ("preempt_signals", "check_in_out")])
+
+    def test_what_chooses_no_condition_or_several_is_told(self) -> None:
+        difference, policy, failure = self.results.paired_difference, "condition.policy", "condition.failure"
+        for given, says in (("Our, B10", "no condition 'Our, B10'. Did you mean 'Ours, B10'"), ("B10", "no condition 'B10'. Did you mean"),
+                            ("xyzzy", "no condition 'xyzzy'. It has baseline, "),
+                            ({policy: "corridor"}, "chooses 2 conditions: policy+failure=perfect+policy=corridor, policy+failure=B10"),
+                            ({policy: "coridor"}, "no condition.policy 'coridor'; it has corridor, preempt_signals, check_in_out. Did you mean"),
+                            ({policy: 3}, "no condition.policy 3"), ({"policy": "corridor"}, "no factor 'policy'; it has condition.failure, "),
+                            ({}, "chooses 7 conditions: ")):
+            message = self.message_of(clearway.InputError, lambda: difference(self.metric, given))
+            self.assertIn(says, message)
+            self.assertLess(len(message), 400)
+        for against, says in (({failure: "B1O"}, "no condition.failure 'B1O'; it has perfect, B10"),
+                              ({failure: "B10", policy: "corridor", "a.b": 1}, "no factor 'a.b'")):
+            self.assertIn(says, self.message_of(clearway.InputError, lambda: self.results.paired_differences(self.metric, against)))
+
+    def test_numbers_and_factors_of_scenarios_choose_too(self) -> None:
+        conditions = _conditions.Conditions(self.folder)
+        levels = [("8", "true"), ("12.5", "true"), ("8", "false")]
+        spec = [{"name": f"{stem}+{lead}+{on}", "factors": {"a.lead_s": lead, "a.on": on}} for stem in ("x", "y") for lead, on in levels]
+        scenarios = [{"name": f"city+{friction}", "factors": {"scenario.friction": friction}} for friction in ("1", "0.4")]
+        self.write("manifest.json", json.dumps({"scenarios": scenarios, "conditions": [{"name": "baseline"}, *spec]}))
+        self.assertEqual(conditions.name_of({"a.lead_s": 12.5}, like="y+8+true"), "y+12.5+true")
+        self.assertEqual(conditions.name_of({"a.on": False}, like="x+8+true"), "x+8+false")
+        self.assertEqual(conditions.compared({"a.on": True}), {"x+8+true": ["x+8+false"], "y+8+true": ["y+8+false"]})
+        self.assertEqual(conditions.scenario_with({"scenario.friction": 0.4, "a.on": True}), "city+0.4")
+        self.assertEqual((conditions.scenario_with({"a.on": True}), conditions.scenario_with("x")), (None, None))
+        self.assertIn("chooses 2 conditions: x+12.5+true, y+12.5+true",
+                      self.message_of(clearway.InputError, lambda: conditions.name_of({"a.lead_s": 12.5})))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,154 @@
+"""The conditions of a run folder: by name, by the title that tables show, or by factors."""
+from __future__ import annotations
+
+import functools
+import json
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Union
+
+from . import _files, _program
+
+#: A name, a title, or values of factors: ``{"condition.policy": "corridor", "condition.failure": "B10"}``.
+Given = Union[str, Mapping[str, Any]]
+#: What tables add to a title.
+_MARKS = (" (knows the truth)", " (!)")
+
+
+class Conditions:
+    """Those of the manifest, which is read when it is first asked for."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+
+    @functools.cached_property
+    def _factors(self) -> dict[str, dict[str, dict[str, str]]]:
+        """Of each scenario and each condition by name."""
+        file = self._folder / "manifest.json"
+        content = _files.content(file)
+        try:
+            manifest = json.loads(content)
+            return {kind: {one["name"]: dict(one.get("factors") or {}) for one in manifest[f"{kind}s"]} for kind in ("scenario", "condition")}
+        except (ValueError, LookupError, TypeError, AttributeError) as error:
+            raise _program.InputError(f"{file}: is damaged ({error!r}). Take it from a backup, or run the study into another folder"
+                                      ) from None
+
+    @property
+    def scenarios(self) -> list[str]:
+        return list(self._factors["scenario"])
+
+    @property
+    def names(self) -> list[str]:
+        return list(self._factors["condition"])
+
+    @functools.cached_property
+    def titles(self) -> dict[str, set[str]]:
+        """Names by the titles that tables show. ``clearway report`` says them; it is given links to what is in the folder, so that the
+        report there stays as it is."""
+        titles: dict[str, set[str]] = {}
+        with tempfile.TemporaryDirectory(prefix="clearway-") as place:
+            for entry in _files.listed(self._folder.resolve()):
+                if entry.name != "report.html":
+                    (Path(place) / entry.name).symlink_to(entry)
+            _, said = _program.call(["report", place, "--json"], accept=(_program.RUNS_FAILED, _program.INCOMPLETE))
+            for scenario in json.loads(said)["scenarios"]:
+                for one in scenario["conditions"]:
+                    titles.setdefault(one["title"], set()).add(one["name"])
+        return titles
+
+    def require_scenario(self, name: Any) -> None:
+        if name not in self.scenarios:
+            there = _program.there_are(name, self.scenarios, "scenario", 'set(results.runs["scenario"])')
+            raise _program.InputError(f"the study has no scenario {name!r}{there}")
+
+    def name_of(self, given: Given, *, like: str | None = None, hint: str = "") -> str:
+        """The name of the condition that is meant. Factors that ``given`` leaves out are those of the condition ``like``, if one is
+        named. ``hint`` is told in place of the nearest names where there is none."""
+        if isinstance(given, Mapping):
+            return self._with_factors(given, like)
+        if given in self.names:
+            return given
+        found = self._titled(str(given))
+        if len(found) > 1:
+            raise _program.InputError(f"several conditions have the title {given!r}: {', '.join(sorted(found))}. Give the name of one")
+        if found:
+            return found.pop()
+        known = self.names if len(self.names) <= _program.MOST_LISTED else [*self.names, *self.titles]
+        there = hint or _program.there_are(given, known, "name", 'set(results.runs["condition"])')
+        raise _program.InputError(f"the study has no condition {given!r}{there}")
+
+    def _titled(self, title: str) -> set[str]:
+        for mark in _MARKS:
+            title = title.removesuffix(mark)
+        return set(self.titles.get(title, ()))
+
+    def scenario_with(self, given: Given) -> str | None:
+        """The scenario that factors choose, if any of them is one of scenarios."""
+        chosen = {name: value for name, value in given.items() if name in self._known("scenario")} if isinstance(given, Mapping) else {}
+        if not chosen:
+            return None
+        found = [name for name, factors in self._factors["scenario"].items() if _have(factors, chosen)]
+        return self._only(found, "scenario", chosen)
+
+    def compared(self, against: Mapping[str, Any]) -> dict[str, list[str]]:
+        """For each condition with these factors: those that differ from it in nothing else."""
+        pairs: dict[str, list[str]] = {}
+        keys = set(against)
+        for name, factors in self._factors["condition"].items():
+            if keys <= set(factors) and not _have(factors, against):
+                pairs.setdefault(self._with_factors(against, name), []).append(name)
+        if not pairs:
+            self._with_factors(against, None)  # tells what is not known
+            raise _program.InputError(f"against is {dict(against)!r}, from which no condition differs")
+        return pairs
+
+    def _with_factors(self, given: Mapping[str, Any], like: str | None) -> str:
+        known = self._known("condition")
+        for name in given:
+            if name not in known and name not in self._known("scenario"):
+                there = _program.there_are(name, list(known), "factor", "list(results.runs)")
+                raise _program.InputError(f"the conditions of this study have no factor {name!r}{there}")
+        given = {name: value for name, value in given.items() if name in known}
+        for name, value in given.items():
+            if not any(_have(factors, {name: value}) for factors in self._factors["condition"].values()):
+                there = _program.there_are(value, known[name], "level", f"set(results.runs[{name!r}])")
+                raise _program.InputError(f"the study has no {name} {value!r}{there}")
+        conditions = self._factors["condition"]
+        found = [name for name, factors in conditions.items() if _have(factors, given)]
+        if like is not None:
+            rest = {name: value for name, value in conditions[like].items() if name not in given}
+            same = [name for name in found if {key: value for key, value in conditions[name].items() if key not in given} == rest]
+            found = same or found
+            of_kind = [name for name in found if name.partition("+")[0] == like.partition("+")[0]]
+            found = of_kind or found
+        return self._only(found, "condition", given)
+
+    def _known(self, kind: str) -> dict[str, list[str]]:
+        """Levels of each factor."""
+        known: dict[str, list[str]] = {}
+        for factors in self._factors[kind].values():
+            for name, value in factors.items():
+                known.setdefault(name, [])
+                known[name] += [value] if value not in known[name] else []
+        return known
+
+    def _only(self, found: list[str], kind: str, given: Mapping[str, Any]) -> str:
+        if len(found) == 1:
+            return found[0]
+        several = f"{len(found)} {kind}s: {', '.join(found[:_program.MOST_LISTED])}{', ...' if len(found) > _program.MOST_LISTED else ''}"
+        raise _program.InputError(f"{dict(given)!r} chooses {several if found else f'no {kind}'} (allowed: factors that choose one)")
+
+
+def _have(factors: Mapping[str, str], given: Mapping[str, Any]) -> bool:
+    return all(name in factors and _is(factors[name], value) for name, value in given.items())
+
+
+def _is(text: str, value: Any) -> bool:
+    """Whether a level of a factor, as the manifest has it, is this value."""
+    if isinstance(value, str):
+        return text == value
+    try:
+        return text == str(value).lower() if isinstance(value, bool) else float(text) == float(value)
+    except (TypeError, ValueError):
+        return False
