@@ -46,6 +46,9 @@ class _Box(Space):
             return self.np_random.uniform(self.low, self.high).astype(self.dtype)
         return self.np_random.integers(self.low, self.high, endpoint=True, dtype=self.dtype)
 
+    def __repr__(self) -> str:
+        return f"Box({self.low.min()}, {self.high.max()}, {self.shape}, {self.dtype})"
+
     def contains(self, x: Any) -> bool:
         return bool(isinstance(x, np.ndarray) and np.can_cast(x.dtype, self.dtype) and x.shape == self.shape
                     and np.all(x >= self.low) and np.all(x <= self.high))
@@ -62,6 +65,9 @@ class _Discrete(Space):
         legal = np.flatnonzero(mask)
         return np.int64(self.np_random.choice(legal)) if len(legal) else np.int64(0)
 
+    def __repr__(self) -> str:
+        return f"Discrete({self.n})"
+
     def contains(self, x: Any) -> bool:
         is_whole = isinstance(x, (int, np.integer)) or (isinstance(x, np.ndarray) and x.shape == () and x.dtype.kind in "iu")
         return bool(is_whole and 0 <= int(x) < self.n)
@@ -76,6 +82,9 @@ class _MultiDiscrete(Space):
         if mask is None:
             return (self.np_random.random(self.nvec.shape) * self.nvec).astype(np.int64)
         return np.array([self.np_random.choice(np.flatnonzero(one)) if np.any(one) else 0 for one in mask], dtype=np.int64)
+
+    def __repr__(self) -> str:
+        return f"MultiDiscrete({self.nvec})"
 
     def contains(self, x: Any) -> bool:
         return bool(isinstance(x, np.ndarray) and x.shape == self.shape and x.dtype.kind in "iu" and np.all(x >= 0)
@@ -95,6 +104,9 @@ class _Dict(Space, Mapping):
 
     def sample(self, mask: Any = None) -> dict[str, Any]:
         return {name: space.sample(mask[name] if mask else None) for name, space in self.spaces.items()}
+
+    def __repr__(self) -> str:
+        return f"Dict({', '.join(f'{name!r}: {space!r}' for name, space in self.spaces.items())})"
 
     def contains(self, x: Any) -> bool:
         return isinstance(x, dict) and x.keys() == self.spaces.keys() and all(x[name] in space for name, space in self.spaces.items())

@@ -55,6 +55,9 @@ class Env(_Base):
     ``others_weight`` times the same of all other vehicles. It comes from the truth and is not what a study scores.
 
     Terminated when every EV has come and gone (``until="end"``: when nobody is left), truncated at the scenario's horizon.
+
+    ``action_space``, ``observation_space``; ``signal_ids``, SUMO's names of the signals in the order of actions; ``spec``, whose
+    ``make()`` makes another environment like this one; ``render_mode``, ``others_weight`` and ``until`` as given.
     """
 
     metadata = {"render_modes": ["ansi"], "render_fps": 2}
@@ -76,7 +79,6 @@ class Env(_Base):
         self._seeds = checked_seeds(seeds)
         self._arguments = _arguments(scenario, study_seed, policy, failure, predictor, set or {}, options)
         self._arguments += ["--ways", str(self.ways)] if ways else []
-        #: Makes another environment like this one: ``env.spec.make()``.
         self.spec: Any = _spec.spec_of({"scenario": scenario, "seeds": self._seeds, "study_seed": study_seed, "policy": policy,
                                         "failure": failure, "predictor": predictor, "set": set, "others_weight": self.others_weight,
                                         "until": until, "render_mode": render_mode, "ways": self.ways, **options})
@@ -91,13 +93,14 @@ class Env(_Base):
         self._np_random_seed: int | None = None
         try:
             self._describe(self._warm(self._seeds[0]).greeting)
-        except BaseException:
+        except BaseException as error:
             self._finalizer()
+            if isinstance(error, _program.InputError) and options:
+                raise _program.unknown_override("clearway.env", error, options, _program.keywords_of(Env.__init__)) from None
             raise
 
     def _describe(self, sizes: dict[str, Any]) -> None:
         signals, links, automated, ways = len(sizes["signals"]), sizes["links"], sizes["automated"], sizes["ways"]
-        #: SUMO's names of the signals, in the order of actions.
         self.signal_ids: list[str] = [signal[0] for signal in sizes["signals"]]
         self._choices = [1 + sizes["phases"]] * signals + [sizes["automated_choices"]] * automated + ([1 + ways] if ways else [])
         self._meaning = "one for each signal, then one for each automated vehicle" + (", then one for the way" if ways else "")
@@ -273,6 +276,9 @@ class Env(_Base):
                 worker.close()
             self._workers.clear()
             self._finalizer()
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {self.spec.kwargs['scenario']}>"
 
     def __enter__(self) -> "Env":
         return self

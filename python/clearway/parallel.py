@@ -26,6 +26,9 @@ class ParallelEnv(_Base):
     without a vehicle has one legal action, 0. With ``ways`` there is one more agent, ``way``, that chooses the emergency vehicle's way.
     All live until the episode ends. Every agent sees what the single agent sees (``observation``) with its own ``action_mask``, and
     gets the same reward.
+
+    ``possible_agents`` are all, ``agents`` those of the running episode; ``action_spaces`` and ``observation_spaces`` are theirs;
+    ``render_mode`` is as given.
     """
 
     metadata = {"render_modes": ["ansi"], "name": "clearway_v0", "is_parallelizable": True, "render_fps": 2}
@@ -71,7 +74,8 @@ class ParallelEnv(_Base):
             raise _program.InputError(f"actions are {actions!r} (allowed: a dictionary with an action for each agent)")
         unknown = [agent for agent in actions if agent not in self._parts]
         if unknown:
-            raise _program.InputError(f"there is no agent {unknown[0]!r}; there are {', '.join(self.possible_agents)}")
+            there = _program.there_are(unknown[0], self.possible_agents, "agent", "possible_agents")
+            raise _program.InputError(f"the environment has no agent {unknown[0]!r}{there}")
         all_actions = np.array([self._action_of(agent, actions.get(agent, 0)) for agent in self.possible_agents], dtype=np.int64)
         observation, reward, terminated, truncated, info = self._env.step(all_actions)
         live = self.agents
@@ -108,6 +112,9 @@ class ParallelEnv(_Base):
         """Ends the processes. May be called again."""
         self.agents = []
         self._env.close()
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {self._env.spec.kwargs['scenario']}: {self.max_num_agents} agents>"
 
     def __enter__(self) -> "ParallelEnv":
         return self

@@ -23,18 +23,22 @@ Part = Union[str, type]
 
 
 @dataclasses.dataclass
-class Condition:
-    """A condition of one's own. Names are those of ``clearway list``; parts in Python are classes or ``FILE.py:Class``."""
+class Condition(_program.Told):
+    """A condition of one's own. Names are those of ``clearway list``; parts in Python are classes or ``FILE.py:Class``.
+
+    ``name``; ``policy``, one or several; ``failure``; ``predictor``; ``set``, settings that differ from their defaults:
+    ``{"preempt_signals.lead_s": 12}`` (``clearway list settings``); ``model``, a file for a learned predictor: of ``clearway links
+    train``, or a ``.pth`` of the dissertation's net. The others are keys of a condition in a study file
+    (docs/reference/study-file.md), or None for their default: ``dispatch``, ``traffic_model``, ``bluelight``, ``safety_checks``,
+    ``rerouting_s``, ``rerouting_signal_penalty``.
+    """
 
     name: str
     policy: Part | Sequence[Part] = ()
     failure: str = "perfect"
     predictor: Part = "none"
-    #: Settings that differ from their defaults: ``{"preempt_signals.lead_s": 12}`` (``clearway list settings``).
     set: Mapping[str, Any] = dataclasses.field(default_factory=dict)
-    #: A model file for a learned predictor: of ``clearway links train``, or a ``.pth`` of the dissertation's net.
     model: str | Path | None = None
-    #: The others are keys of a condition in a study file (docs/reference/study-file.md); None: their default.
     dispatch: str | None = None
     traffic_model: str | None = None
     bluelight: bool | None = None
@@ -42,6 +46,8 @@ class Condition:
     rerouting_s: float | None = None
     rerouting_signal_penalty: float | None = None
 
+
+Condition.__init__ = _program.tells_keywords("clearway.Condition")(Condition.__init__)  # type: ignore[method-assign]
 
 #: Those that go into a study file as they are.
 _PLAIN_KEYS = ("dispatch", "traffic_model", "bluelight", "safety_checks", "rerouting_s", "rerouting_signal_penalty")
@@ -73,15 +79,15 @@ def policy_names(policy: Part | Sequence[Part]) -> list[str]:
     return [part_name(one) for one in (policy if several else [policy])]
 
 
-def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor",), seeds: int = 10, *, seed: int = 1,
+def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor",), seeds: int | range = 10, *, seed: int = 1,
         out: str | Path | None = None, jobs: int = 0, record: bool = False, baseline: bool = True, progress: bool = False,
         **overrides: Any) -> Results:
     """Runs a scenario under conditions over paired seeds and opens the results.
 
-    ``conditions`` are names of ``clearway list`` or ``Condition``; ``baseline`` adds the one that they are compared with.
-    ``overrides`` are those of a study file: ``variant="dense"``, ``step_length_s=0.1``, ... ``out`` is the run folder; without it,
-    one below ``runs/`` that follows from what is run. Runs that are there already are not repeated. Runs that failed are a
-    warning, and rows of ``results.errors``.
+    ``conditions`` are names of ``clearway list`` or ``Condition``; ``baseline`` adds the one that they are compared with. ``seeds``
+    is the number of replications, from 0 on: 10, or ``range(10)``. ``overrides`` are those of a study file: ``variant="dense"``,
+    ``step_length_s=0.1``, ... ``out`` is the run folder; without it, one below ``runs/`` that follows from what is run. Runs that
+    are there already are not repeated. Runs that failed are a warning, and rows of ``results.errors``.
     """
     _program.require_first_load("clearway.run")
     if isinstance(conditions, (str, Condition)):
@@ -98,7 +104,7 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
         raise _program.InputError(f"conditions: {wrong[0]!r} is neither a name nor a clearway.Condition")
     if not isinstance(scenario, (str, Path)) or not str(scenario):
         raise _program.InputError(f"scenario is {scenario!r} (allowed: a name of `clearway list`, a folder or a file)")
-    _program.require_whole("seeds", seeds, 1, MOST_SEEDS)
+    seeds = _seed_count(seeds)
     _program.require_whole("seed", seed, 0, 2**63 - 1)
     place = _files.path_of("scenario", scenario)
     scenario_word = str(place.resolve()) if os.path.exists(place) else str(scenario)
@@ -115,9 +121,24 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
         except _program.ClearwayError as error:
             # Nobody wrote that file, and it is gone: its name and lines tell nothing.
             said = re.sub(re.escape(str(file)) + r"(:\d+)*: ", "", str(error))
-            raise type(error)(said, error.exit_code) from None
+            of_condition = {key.name: f"conditions=[clearway.Condition(NAME, {key.name}=...)]" for key in dataclasses.fields(Condition)}
+            raise _program.unknown_override("clearway.run", type(error)(said, error.exit_code), overrides, _program.keywords_of(run),
+                                            **of_condition) from None
 
 
+def _seed_count(seeds: Any) -> int:
+    if isinstance(seeds, range) and seeds == range(len(seeds)):
+        seeds = len(seeds)
+    try:
+        _program.require_whole("seeds", seeds, 1, MOST_SEEDS)
+    except _program.InputError as error:
+        several = isinstance(seeds, Iterable) and not isinstance(seeds, str)
+        cure = ", or range(N): a run takes the replications from 0 on; clearway.env takes chosen ones" if several else ""
+        raise _program.InputError(str(error).removesuffix(")") + cure + ")") from None
+    return int(seeds)
+
+
+@_program.tells_keywords("clearway.study", cure="The file says what is run, and how often")
 def study(file: str | Path, *, out: str | Path | None = None, jobs: int = 0, record: bool = False, quick: bool = False,
           progress: bool = False) -> Results:
     """Runs a study file (docs/reference/study-file.md), or what of it is missing, and opens the results."""
@@ -177,6 +198,10 @@ def _study_text(scenario: str, name: str, names: list[str], own: list[Condition]
     for condition in own:
         if not isinstance(condition.set, Mapping):
             raise _program.InputError(f"condition {condition.name}: set is {condition.set!r} (allowed: a dictionary of settings)")
+        for setting, value in condition.set.items():
+            if not isinstance(value, (bool, int, float, str, np.generic)):
+                raise _program.InputError(f"condition {condition.name}: set: {setting} is {value!r} (allowed: a number, a truth value or a "
+                                          "text)")
         lines += ["[[condition]]", f"name = {_toml(condition.name)}", f"failure = {_toml(condition.failure)}",
                   f"predictor = {_toml(part_name(condition.predictor))}",
                   f"policy = {_toml(policy_names(condition.policy))}"]

@@ -24,6 +24,10 @@ class VectorEnv(_Base):
 
     Environment i takes every count-th of ``seeds`` from the i-th on. An environment whose episode has ended is reset by the next
     ``step``, which ignores its action and gives it reward 0 (Gymnasium's ``NEXT_STEP``).
+
+    ``envs`` are the environments, ``num_envs`` their number; ``action_space`` and ``observation_space`` are those of all,
+    ``single_action_space`` and ``single_observation_space`` those of one; ``metadata`` names the mode of restarting; ``closed``
+    says whether they are.
     """
 
     metadata: dict[str, Any] = {"render_modes": []}
@@ -135,6 +139,9 @@ class VectorEnv(_Base):
         for one in self.envs:
             one.close()
         self.closed = True
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of {self.num_envs} times {self.envs[0].spec.kwargs['scenario']}>"
 
     def __enter__(self) -> "VectorEnv":
         return self

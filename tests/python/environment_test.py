@@ -13,6 +13,7 @@ from unittest import mock
 
 import clearway
 import numpy as np
+from clearway import _spaces
 from support import FolderCase, program
 
 
@@ -55,6 +56,16 @@ class InterfaceTest(FolderCase):
     def setUpClass(cls) -> None:
         cls.env = clearway.env("intersection", seeds=[0], render_mode="ansi")
         cls.addClassCleanup(cls.env.close)
+
+    def test_spaces_and_environments_print_what_they_are(self) -> None:
+        own = {_spaces._Box(-1, 2, (3,), np.float32): "Box(-1.0, 2.0, (3,), float32)", _spaces._Discrete(4): "Discrete(4)",
+               _spaces._MultiDiscrete([3, 16]): "MultiDiscrete([ 3 16])", _spaces._Dict({"a": _spaces._Discrete(2)}): "Dict('a': Discrete(2))"}
+        for space, text in own.items():
+            self.assertEqual(repr(space), text)
+        for make, text in ((clearway.env, "<Env of intersection>"), (clearway.parallel_env, "<ParallelEnv of intersection: 9 agents>"),
+                           (lambda name, **given: clearway.vector_env(name, 1, **given), "<VectorEnv of 1 times intersection>")):
+            with make("intersection", seeds=[0]) as made:
+                self.assertEqual(repr(made), text)
 
     def test_reset_and_step_return_what_the_spaces_say(self) -> None:
         observation, info = self.env.reset(seed=0)
@@ -153,7 +164,7 @@ class InterfaceTest(FolderCase):
     def test_wrong_arguments_are_told(self) -> None:
         for arguments, says in (({"until": "noon"}, "emergency, end"), ({"render_mode": "human"}, "ansi"), ({"seeds": []}, "at least one"),
                                 ({"seeds": [-1]}, "-1"), ({"others_weight": float("nan")}, "nan"), ({"failure": "B99"}, "B99"),
-                                ({"policy": "nothing"}, "nothing"), ({"sparse": True}, "sparse: is unknown"),
+                                ({"policy": "nothing"}, "nothing"), ({"sparse": True}, "no keyword 'sparse'"),
                                 ({"densty": 2}, "Did you mean 'density'?"),
                                 ({"variant": "thick"}, "allowed: standard, dense"), ({"variant": True}, "variant: \"True\""),
                                 ({"step_length_s": None}, "step_length_s: \"None\""), ({"density": True}, "density: \"True\""),
@@ -161,7 +172,7 @@ class InterfaceTest(FolderCase):
                                 ({"ways": 9}, "ways is 9 (allowed: a whole number from 0 to 8)"), ({"ways": -1}, "ways is -1"),
                                 ({"ways": True}, "ways is True"), ({"ways": 2.5}, "ways is 2.5"), ({"ways": "2"}, "ways is '2'"),
                                 ({"seeds": 4}, "seeds are 4"), ({"seeds": None}, "seeds are None"), ({"policy": 3}, "is 3"),
-                                ({"set": ["a"]}, "set is ['a']"), ({"replication": 3}, "replication: is unknown")):
+                                ({"set": ["a"]}, "set is ['a']"), ({"replication": 3}, "no keyword 'replication'. Did you mean 'seeds'?")):
             self.assertIn(says, self.message_of(clearway.InputError, lambda: clearway.env("intersection", **arguments)))
         self.assertIn("nowhere", self.message_of(clearway.InputError, lambda: clearway.env("nowhere")))
         self.assertIn("seed is 'a'", self.message_of(clearway.InputError, lambda: self.env.reset(seed="a")))
@@ -441,7 +452,8 @@ class ParallelTest(FolderCase):
             self.assertEqual(live, set(env.possible_agents))
         self.assertIn("call reset()", self.message_of(clearway.ClearwayError, lambda: env.step({})))
         env.reset()
-        self.assertIn("there is no agent", self.message_of(clearway.InputError, lambda: env.step({"signal:x": 0})))
+        self.assertIn("has no agent 'signal:x'. Did you mean 'signal:center'",
+                      self.message_of(clearway.InputError, lambda: env.step({"signal:x": 0})))
         for wrong in (1.7, float("nan"), None, "1", -1, 99):
             self.assertIn("the action of automated:7 is", self.message_of(clearway.InputError, lambda: env.step({"automated:7": wrong})))
         self.assertIn("a dictionary", self.message_of(clearway.InputError, lambda: env.step([0])))

@@ -1,12 +1,19 @@
 """Import, installation and what is said when something is missing."""
+import ast
 import importlib.util
+import inspect
 import json
 import os
+import pydoc
+import re
 import subprocess
 import sys
+import textwrap
 import unittest
 
 import clearway
+import numpy as np
+from clearway import _program
 from support import FolderCase, PROGRAMS, SOURCE, program, python
 
 
@@ -22,8 +29,45 @@ class ImportTest(FolderCase):
             if name != "__version__":
                 self.assertGreater(len(getattr(clearway, name).__doc__ or ""), 30, name)
 
+    def test_help_of_a_class_says_every_public_attribute(self) -> None:
+        """Those that methods set, fields and annotations: none of them would be in ``help()`` without its docstring."""
+        classes = [value for value in (getattr(clearway, name) for name in clearway.__all__) if isinstance(value, type)]
+        self.assertGreater(len(classes), 20)
+        for kind in classes:
+            (tree,) = ast.parse(textwrap.dedent(inspect.getsource(kind))).body
+            names = {node.target.id for node in tree.body if isinstance(node, ast.AnnAssign)} | set(getattr(kind, "_names", ()))
+            names |= {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store)
+                      and isinstance(node.value, ast.Name) and node.value.id == "self"}
+            told = set(re.findall(r"``(\w+)", kind.__doc__))
+            missing = {name for name in names if not name.startswith("_")} - told - {"metadata", "np_random", "np_random_seed"}
+            self.assertEqual(missing, set(), kind.__name__)
+            self.assertIn(kind.__doc__.splitlines()[0], pydoc.render_doc(kind, renderer=pydoc.plaintext))
+
+    def test_a_misspelt_attribute_names_the_nearest_and_all(self) -> None:
+        network = clearway.Network({"lane_ids": [], "edges": [], "onward": [], "signals": [],
+                                    "lanes": {"edge": [], "length_m": [], "speed_limit_mps": [], "number": []}})
+        approach = clearway.Approach(0, 1.0, [], [])
+        table = clearway.Table({"collisions": np.zeros(1)})
+        for thing, wrong, says in ((network, "lane_lengths_m", "Network has no 'lane_lengths_m'. Did you mean 'lane_length_m' or "),
+                                   (network, "signals", "Did you mean 'signal_ids' or 'signal_phases'? It has edge_free_s, "),
+                                   (approach, "link", "Approach has no 'link'. Did you mean 'links' or 'own_links'? It has distance_m, "),
+                                   (table, "collisions", "Table has no 'collisions': a column is table['collisions']"),
+                                   (clearway.Condition("a"), "polcy", "Condition has no 'polcy'. Did you mean 'policy'? It has bluelight, "),
+                                   (table, "wher", "Did you mean 'where'? It has get, head, "),
+                                   (table, "_nothing", "Table has no '_nothing'")):
+            message = self.message_of(AttributeError, lambda: getattr(thing, wrong))
+            self.assertIn(says, message)
+        self.assertTrue(repr(network).startswith("<Network: edge_free_s, "))
+
+        class Broken(_program.Told):
+            @property
+            def whole(self) -> int:
+                return self.part
+        self.assertIn("has no 'part'", self.message_of(AttributeError, lambda: Broken().whole))
+
     def test_says_what_it_has_when_a_name_is_wrong(self) -> None:
-        self.assertIn("it has", self.message_of(AttributeError, lambda: clearway.nonsense))
+        self.assertIn("no 'conditions'. Did you mean 'Condition'? It has Approach, ",
+                      self.message_of(AttributeError, lambda: clearway.conditions))
 
     def test_has_a_module_that_says_what_torchscript_is_given(self) -> None:
         ended = python("import clearway; help(clearway.torchscript)")

@@ -285,6 +285,37 @@ class ResultsTest(FolderCase):
             self.assertIn(says, message)
             self.assertNotIn("study.toml", message)  # nobody wrote that file
 
+    def test_keywords_that_a_call_does_not_have_name_the_nearest(self) -> None:
+        condition = "conditions=[clearway.Condition(NAME, policy=...)]"
+        for call, says in ((lambda: clearway.run("intersection", [], dense=True), "run() has no keyword 'dense'. Did you mean variant=\"dense\"?"),
+                           (lambda: clearway.run("intersection", [], recrod=True), "run() has no keyword 'recrod'. Did you mean 'record'"),
+                           (lambda: clearway.run("intersection", [], seeds=1, step_lenght_s=1), "Did you mean 'step_length_s'?"),
+                           (lambda: clearway.run("intersection", [], replications=1), "Did you mean 'seeds'?"),
+                           (lambda: clearway.run("intersection", seeds=1, policy="corridor"), f"Did you mean {condition}?"),
+                           (lambda: clearway.run("intersection", seeds=1, xyzzy=1), "'xyzzy'; it has scenario, conditions, seeds, "),
+                           (lambda: clearway.run("intersection", seeds=1, variant="dens"), "allowed: standard, dense"),
+                           (lambda: clearway.study("a.toml", recrod=True), "study() has no keyword 'recrod'. Did you mean 'record'? The file says"),
+                           (lambda: clearway.study("a.toml", seeds=3), "study() has no keyword 'seeds'; it has file, out, "),
+                           (lambda: clearway.Condition("a", polcy="corridor"), "Condition() has no keyword 'polcy'. Did you mean 'policy'?"),
+                           (lambda: clearway.env("intersection", seed=3), "env() has no keyword 'seed'. Did you mean 'seeds' or"),
+                           (lambda: clearway.env("intersection", dense=True), "env() has no keyword 'dense'. Did you mean variant=\"dense\"?"),
+                           (lambda: clearway.env("intersection", variants="dense"), "Did you mean 'variant'?"),
+                           (lambda: clearway.parallel_env("intersection", seed=3), "env() has no keyword 'seed'. Did you mean 'seeds' or"),
+                           (lambda: clearway.vector_env("intersection", 1, seed=3), "env() has no keyword 'seed'. Did you mean 'seeds' or"),
+                           (lambda: clearway.run("intersection", [clearway.Condition("a", set={"G.leads": [1, 2]})], seeds=1),
+                            "condition a: set: G.leads is [1, 2] (allowed: a number")):
+            message = self.message_of(clearway.InputError, call)
+            self.assertIn(says, message)
+            self.assertLess(len(message), 260)
+
+    def test_seeds_are_a_number_or_its_range(self) -> None:
+        folder = self.results.folder
+        self.assertEqual(clearway.run("intersection", ["corridor"], seeds=range(5), out=folder, record=True).runs.row_count, 10)
+        for seeds in (range(1, 5), range(0, 9, 2), [0, 1], range(0)):
+            message = self.message_of(clearway.InputError, lambda: clearway.run("intersection", seeds=seeds))
+            self.assertIn("allowed: a whole number from 1 to 100000", message)
+            self.assertEqual("or range(N): a run takes the replications from 0 on; clearway.env takes chosen ones)" in message, len(seeds) > 0)
+
     def test_a_condition_has_every_key_of_a_study_file(self) -> None:
         given = {"traffic_model": "sublane", "bluelight": True, "safety_checks": False, "rerouting_s": 30, "rerouting_signal_penalty": 0.5}
         conditions = [clearway.Condition("plain", traffic_model="sublane"), clearway.Condition("own", **given)]
