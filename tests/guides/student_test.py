@@ -1,19 +1,55 @@
 """The first ten minutes of a student: a policy of one's own against four, two failures, a figure and a table in a LaTeX file."""
+import ast
+import contextlib
+import importlib.util
 import re
 import shutil
 import subprocess
+import sys
 import unittest
 from pathlib import Path
 
 import clearway
 from guide import blocks, commands, the, type_in
-from support import FolderCase
+from support import SOURCE, FolderCase
 
 GUIDE = "docs/guides/your-study.md"
 HEADING = "Your policy against others, for a paper"
 
 
+def python_blocks(page: str) -> list[str]:
+    """The code in Python of a page."""
+    found = []
+    for heading in re.findall(r"^#+ (.+)$", (SOURCE / page).read_text(encoding="utf-8"), re.MULTILINE):
+        for block in blocks(page, heading):
+            with contextlib.suppress(SyntaxError):
+                ast.parse(block)
+                found += [block] if "clearway." in block else []
+    return found
+
+
 class StudentTest(FolderCase):
+    def printed_by(self, name: str, code: str) -> str:
+        """What a file prints when Python runs it."""
+        ended = subprocess.run([sys.executable, str(self.write(name, code))], capture_output=True, text=True, check=False)
+        self.assertEqual((ended.returncode, ended.stderr), (0, ""), code)
+        return ended.stdout
+
+    def test_the_code_of_the_page_runs_as_it_stands_in_one_file(self) -> None:
+        code = "\n".join(python_blocks("docs/guides/python.md"))
+        self.assertEqual(code.count("seeds=10"), 2)
+        if importlib.util.find_spec("pandas") is None:  # optional, as the page says
+            code = code.replace(".to_pandas()", "")
+        self.assertEqual(set(re.findall(r"^class (\w+)", code, re.MULTILINE)), {"Green", "Mine"})
+        printed = self.printed_by("my_policy.py", code.replace("seeds=10", "seeds=5"))
+        for condition in ("corridor", "green"):
+            self.assertRegex(printed, rf"(?m)^intersection: {condition} - baseline, emergency_travel_time_s: [+-][\d.]+ \[.+, .+\] \(5 pairs\)")
+        self.assertRegex(printed, r"scenario +condition +replication +emergency_travel_time_s\n(intersection .*\n){5}\[5 rows, 4 columns\]")
+        self.assertIn("'seed': 0", printed)
+        for name, part in (("Green", "--policy"), ("Mine", "--predictor")):
+            words = [part, f"my_policy.py:{name}"] + (["--policy", "dissertation", "--failure", "B10"] if name == "Mine" else [])
+            type_in(" ".join(["clearway run intersection --seeds 1 --no-solo", *words]))
+
     def test_from_a_policy_to_a_figure_and_a_table(self) -> None:
         policy = next(block for block in blocks("docs/guides/python.md", "A policy") if "class Green" in block)
         self.write("my_policy.py", policy)
@@ -23,6 +59,14 @@ class StudentTest(FolderCase):
         self.write("mine.toml", study.replace("replications = 30", "replications = 2"))
         found = commands(GUIDE, HEADING)
         type_in(the("study", found))
+        (code,) = python_blocks(GUIDE)
+        printed = self.printed_by("read.py", code)
+        ours, *each = [line for line in printed.splitlines() if line.startswith("intersection: ")]
+        self.assertRegex(ours, r"^intersection: \S+=B10\S*Green - \S+=B10\S*corridor, emergency_travel_time_s: [+-]\d")
+        self.assertEqual(len(each), 8)
+        self.assertIn(ours, each)
+        self.assertRegex(printed, r"(?m)^scenario +condition +replication +emergency_travel_time_s$")
+        self.assertTrue(printed.endswith("\n[4 rows, 4 columns]\n"), printed)
         runs = clearway.open("runs/mine").runs
         self.assertEqual(len(set(runs["condition.policy"]) - {""}), 5)
         self.assertEqual(set(runs["condition.failure"]) - {""}, {"perfect", "B10"})
