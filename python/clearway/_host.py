@@ -190,13 +190,14 @@ def report(channel: Channel, error: BaseException) -> None:
 
 
 def frames_of_part(frames: Iterable[traceback.FrameSummary]) -> list[traceback.FrameSummary]:
-    """These without those of this package, which tell nobody what to change."""
+    """These without those of this package and of what dataclasses generates, which tell nobody what to change."""
     own = (str(Path(__file__).parent) + os.sep, "<frozen importlib", "<frozen runpy")
-    return [frame for frame in frames if not frame.filename.startswith(own)]
+    return [frame for frame in frames if not frame.filename.startswith(own) and (frame.filename, frame.name) != ("<string>", "__init__")]
 
 
 def told(error: BaseException) -> str:
-    """What was raised, because a console may show no more than the first line, and the frames of user code on the way there.
+    """What was raised and the frames of user code on the way there. A console may show no more than the first line and the last, which
+    is the line of code.
 
     Errors that were caught before follow in full. Where no user code ran, this package is at fault, and its frames are shown.
     """
@@ -209,7 +210,8 @@ def told(error: BaseException) -> str:
         place = f" ({Path(error.filename).name}, line {error.lineno})"
     is_chained = error.__cause__ or (error.__context__ and not error.__suppress_context__)
     if place and not is_chained and len(cause) <= 1000:
-        text = "".join([*["Traceback (most recent call last):\n"][:len(frames)], *traceback.format_list(frames), *only])
+        without_marks = [(frame.filename, frame.lineno, frame.name, frame.line) for frame in frames]
+        text = "".join([*["Traceback (most recent call last):\n"][:len(frames)], *traceback.format_list(without_marks), *only])
     else:
         text = in_full(error)
     first, _, others = cause.strip()[:1000].partition("\n")

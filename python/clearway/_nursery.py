@@ -110,7 +110,9 @@ class Nursery:
             os._exit(1)
 
     def _left(self, process: int) -> None:
-        """Nobody needs a part any more."""
+        """Nobody needs a part any more. It may have ended at the same moment and been waited for."""
+        if process not in self._parts:
+            return
         self._selector.unregister(self._parts[process][1])
         with contextlib.suppress(ProcessLookupError):
             os.kill(process, signal.SIGTERM)

@@ -2,15 +2,19 @@
 import errno
 import os
 import re
+import selectors
 import signal
+import socket
 import subprocess
 import sys
 import time
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import clearway
 from clearway._files import REASONS_OF_MACHINE, is_of_machine, refusal
+from clearway._nursery import Nursery
 from support import FolderCase, PROGRAMS, SOURCE, program
 
 FAULTS = """
@@ -317,6 +321,8 @@ class FaultTest(FolderCase):
                 answered = ("NotALease", "Nothing", "TooMuch", "Number")  # `act` has returned, so that no line of it is running
                 self.assertEqual("Traceback" in found, name not in answered, found)
                 self.assertEqual((name in answered, f"{name}.act" in first), (not others,) * 2, found)
+                if others and name != "Caught":
+                    self.assertEqual(others[-1].strip(), FAULTS.splitlines()[line - 1].strip())
                 if name not in ("Caught", "Interrupts"):  # another error was raised before; the line has its word
                     self.assertEqual(found.count(message), 1, found)
             # Who killed a process cannot be seen, so it counts as the system, which does so where memory is short.
@@ -507,6 +513,24 @@ class FaultTest(FolderCase):
         """Whether a run (not only the check before it) has asked its part: the nursery has become it."""
         nurseries = [pid for pid in hosts_of(self.folder) if b"_nursery" in Path(f"/proc/{pid}/cmdline").read_bytes()]
         return len(nurseries) == 2
+
+    def test_a_part_that_ends_while_its_run_does_is_waited_for_once(self) -> None:
+        with socket.socket(socket.AF_UNIX) as listener:
+            nursery = Nursery(listener)
+            ours, theirs = socket.socketpair()
+            process = subprocess.Popen(["true"])
+            os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
+            handle = os.pidfd_open(process.pid)
+            nursery._parts[process.pid] = handle, theirs
+            for place in (handle, theirs):
+                nursery._selector.register(place, selectors.EVENT_READ)
+            with mock.patch("clearway._host.end_children"):
+                nursery._ended(process.pid)
+                nursery._left(process.pid)  # one look at the selector told both
+            self.assertEqual((nursery._parts, nursery._overdue, len(ours.recv(9))), ({}, {}, 4))
+            nursery._selector.close()
+            ours.close()
+            process.returncode = 0
 
     def test_killed_parents_leave_no_process(self) -> None:
         self.check_kill(self.start_sleeping())
