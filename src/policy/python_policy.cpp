@@ -4,6 +4,7 @@
 
 #include "policy/detail/belief_sheet.hpp"
 #include "policy/detail/believed_ways.hpp"
+#include "policy/detail/known_targets.hpp"
 #include "policy/detail/lease_reader.hpp"
 #include "policy/navigate.hpp"
 #include "python/part_process.hpp"
@@ -14,6 +15,7 @@ struct PythonPolicy::State {
     State(const PolicyContext& context, const std::string& word, const core::Settings& settings)
         : network(context.network),
           ways(context, NavigateConfig{}),
+          targets(context.network),
           process(*python::part_name_from(python::resolved(word, {}, "policy")),
                   {.kind = python::PartKind::policy,
                    .settings = settings,
@@ -23,6 +25,7 @@ struct PythonPolicy::State {
 
     const roads::Network& network;
     detail::BelievedWays ways;
+    detail::KnownTargets targets;
     python::PartProcess process;
 };
 
@@ -36,10 +39,13 @@ PythonPolicy::~PythonPolicy() = default;
 void PythonPolicy::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(state_->network, belief);
     state_->ways.see(belief);
+    state_->targets.see(belief);
     detail::write_belief(view, view.emergency_vehicles(), state_->ways, state_->process.question());
     state_->process.ask();
     try {
+        const std::size_t before = leases.size();
         detail::read_leases(state_->process.answer_text(), *name_, belief.time, leases);
+        state_->targets.check(std::span(leases).subspan(before));
     } catch (const python::PartError& error) {
         throw python::PartError(fmt::format("{}: {}", *name_, error.what()));
     }

@@ -89,11 +89,19 @@ class Writes(Policy):
         belief.vehicles.x_m[:] = 0.0
         return []
 class Gone(Policy):
+    first = None
+    def act(self, belief):
+        self.first = self.first or next(iter(belief.vehicles.key[belief.vehicles.is_automated]), None)
+        return [] if self.first is None else [Lease.drive_at(self.first, 10.0, reason="to one that will leave")]
+class Row(Policy):
     def act(self, belief):
         return [Lease.drive_at(12345, 10.0, reason="to nobody")]
 class NoSignal(Policy):
     def act(self, belief):
         return [Lease.hold_green(77, [99], serves=ev) for ev in belief.emergency_vehicles]
+class NoLink(Policy):
+    def act(self, belief):
+        return [Lease.hold_green(0, [99], serves=ev) for ev in belief.emergency_vehicles]
 class NoWay(Policy):
     def act(self, belief):
         return [Lease.take_route(ev, [99, 99999], serves=ev) for ev in belief.emergency_vehicles]
@@ -336,16 +344,17 @@ class FaultTest(FolderCase):
         self.assertIn("seen at 0", log)
         self.assertIn("warned", log)
 
-    def test_a_signal_that_does_not_exist_is_refused(self) -> None:
-        conditions = [clearway.Condition("no_signal", policy="bad.py:NoSignal"),
-                      clearway.Condition("by_radio", policy="bad.py:NoSignal", failure="perfect,signal_request_propagation=sharp")]
-        refused = clearway.run("intersection", conditions, seeds=1, out="runs").leases
-        for condition in ("no_signal", "by_radio"):
-            self.assertGreater(refused.where(condition=condition, reason="no_such_signal")["leases"].sum(), 0, condition)
-
-    def test_a_way_over_roads_that_do_not_exist_is_refused(self) -> None:
-        refused = clearway.run("intersection", [clearway.Condition("no_way", policy="bad.py:NoWay")], seeds=1, out="runs").leases
-        self.assertGreater(refused.where(action="take_route", reason="no_such_edge")["leases"].sum(), 0)
+    def test_a_number_that_names_nothing_fails_with_what_is_allowed(self) -> None:
+        says = {"Row": r"Row: a lease is for vehicle 12345, which was never in a belief \(allowed: belief.vehicles.key\[row\], ",
+                "NoSignal": r"a lease is for signal 77 \(allowed: 0 to 0\)", "NoLink": r"link 99 of signal 0 \(allowed: 0 to \d+\)",
+                "NoWay": r"a way over edge 99999 \(allowed: 0 to \d+\)"}
+        with self.assertWarns(RuntimeWarning):
+            results = clearway.run("intersection", [clearway.Condition(name, policy=f"bad.py:{name}") for name in says], seeds=1,
+                                   out="runs")
+        for name, message in says.items():
+            (failed,) = results.errors.where(condition=name)["message"]
+            self.assertRegex(failed, message)
+        self.assertEqual(set(results.errors["cause"]), {"python"})
         with self.assertRaisesRegex(ValueError, "edges is empty"):
             clearway.Lease.take_route(1, [])
 

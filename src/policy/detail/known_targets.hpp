@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+#include <unordered_set>
+
+#include "roads/network.hpp"
+#include "traffic/belief.hpp"
+#include "traffic/lease.hpp"
+
+namespace clearway::policy::detail {
+
+/// What leases of foreign code may name: vehicles that were believed once (they may have left since), and
+/// signals, links and edges of the network. Another number is a mistake of the code, such as a row in place
+/// of a key.
+class KnownTargets {
+  public:
+    /// The network outlives the object.
+    explicit KnownTargets(const roads::Network& network) : network_(network) {}
+
+    void see(const traffic::BelievedGraph& belief);
+    /// Throws python::PartError, without the part's name, for the first lease of another target.
+    void check(std::span<const traffic::Lease> leases) const;
+
+  private:
+    void check(core::VehicleKey vehicle) const;
+    void check(core::SignalIndex signal, const traffic::Action& action) const;
+    void check(const traffic::TakeRoute& way) const;
+
+    const roads::Network& network_;
+    std::unordered_set<std::uint64_t> vehicles_;
+};
+
+}  // namespace clearway::policy::detail
