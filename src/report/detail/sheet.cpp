@@ -7,6 +7,7 @@
 
 #include "core/csv.hpp"
 #include "core/terminal.hpp"
+#include "report/detail/canvas.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report::detail {
@@ -14,6 +15,8 @@ namespace {
 
 constexpr std::size_t column_gap = 2;
 constexpr std::size_t least_text = 8;
+/// Two street names; ids of joined junctions name all their nodes.
+constexpr std::size_t longest_on_page = 60;
 
 template <class... Cases>
 struct Overloaded : Cases... {
@@ -26,8 +29,9 @@ std::string cell_words(const SheetCell& cell, Script script) {
     return std::visit(Overloaded{[&](std::monostate) { return missing(script); },
                                  [](std::size_t count) { return std::to_string(count); },
                                  [&](const std::string& text) {
-                                     return script == Script::plain ? printable(text)
-                                                                    : short_signal_name(text);
+                                     return script == Script::plain
+                                                ? printable(text)
+                                                : shortened(printable(text), longest_on_page);
                                  },
                                  [](bool shown) { return std::string(shown ? "shown" : "not shown"); },
                                  [&](Share share) {

@@ -44,7 +44,7 @@ Json json_of(const Sheet& sheet);
 std::string csv_of(const Sheet& sheet);
 /// For a terminal of 80 columns: long texts are cut, at least to 8 characters.
 std::string text_of(const Sheet& sheet);
-/// For a page: texts are cut to 24 characters.
+/// For a page: texts are cut to 60 characters.
 DataTable data_table_of(const Sheet& sheet);
 
 }  // namespace clearway::report::detail
