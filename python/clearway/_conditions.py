@@ -103,6 +103,11 @@ class Conditions:
             raise _program.InputError(f"against is {dict(against)!r}, from which no condition differs")
         return pairs
 
+    def levels(self, against: Mapping[str, Any]) -> str:
+        """What ``clearway compare --against`` takes for these factors; for some condition there is another one with them."""
+        own = self._factors["condition"][next(iter(self.compared(against)))]
+        return ",".join(f"{factor}={own[factor]}" for factor in against if factor in own)
+
     def _with_factors(self, given: Mapping[str, Any], like: str | None) -> str:
         known = self._known("condition")
         for name in given:

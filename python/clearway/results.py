@@ -171,7 +171,7 @@ class Results(_program.Told):
         scenario = self._conditions.scenario_with(condition) if scenario is None else scenario
         name = self._conditions.name_of(condition)
         other = None if against is None else self._conditions.name_of(against, like=name)
-        there = self.paired_differences(metric, other)
+        there = self.paired_differences(metric, against)
         if scenario is not None:
             self._conditions.require_scenario(scenario)
         found = [one for one in there if one.condition == name and scenario in (None, one.scenario)]
@@ -187,15 +187,12 @@ class Results(_program.Told):
         """All conditions of the folder against their baselines, or against the condition ``against``.
 
         With factors, each is compared with the condition that has these and is otherwise the same:
-        ``against={"condition.policy": "corridor"}`` compares every policy with ``corridor`` under the same failure. ``holm_p`` then
-        corrects for all comparisons with that condition.
+        ``against={"condition.policy": "corridor"}`` compares every policy with ``corridor`` under the same failure. ``holm_p`` corrects
+        for all comparisons of a scenario in this list, as ``clearway compare`` does.
         """
-        if not isinstance(against, Mapping):
-            return self._compared(metric, None if against is None else self._conditions.name_of(against))
-        pairs = self._conditions.compared(against)
-        found = [one for other, names in pairs.items() for one in self._compared(metric, other) if one.condition in names]
-        scenarios, names = self._conditions.scenarios, self._conditions.names
-        return sorted(found, key=lambda one: (scenarios.index(one.scenario), names.index(one.condition)))
+        if isinstance(against, Mapping):
+            return self._compared(metric, self._conditions.levels(against))
+        return self._compared(metric, None if against is None else self._conditions.name_of(against))
 
     def _compared(self, metric: str, against: str | None) -> list[Difference]:
         chosen = [] if against is None else ["--against", against]

@@ -400,7 +400,7 @@ std::string to_text(const Reference& reference) {
     if (reference.levels.empty()) return reference.name;
     std::vector<std::string> levels;
     for (const auto& [factor, level] : reference.levels)
-        levels.push_back(fmt::format("{} {}", factor, level));
+        levels.push_back(fmt::format("{} {}", factor.substr(factor.rfind('.') + 1), level));
     return fmt::format("the same with {}", fmt::join(levels, " and "));
 }
 

@@ -176,7 +176,7 @@ struct Reference {
 
     bool is_baseline() const { return name.empty() && levels.empty(); }
 };
-/// `corridor`, or `the same with condition.policy corridor`; empty for the baseline.
+/// `corridor`, or `the same with policy corridor`; empty for the baseline.
 std::string to_text(const Reference& reference);
 
 /// A condition's baseline is the first condition of the same traffic model without policies; its solo times

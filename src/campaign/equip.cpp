@@ -40,13 +40,15 @@ bool has_own_code(const experiment::ConditionSpec& base) {
         base.policies, [](const std::string& policy) { return python::part_name_from(policy).has_value(); });
 }
 
+[[noreturn]] void refuse_all_equipped() {
+    throw core::InputError({experiment::equipped_setting, "says that every signal is equipped today",
+                            "ids of those that are, separated by commas, or none", "Leave it out for none"});
+}
+
 void check_condition(const experiment::ConditionSpec& base) {
     check_names({base});
     const auto today = base.settings.find(experiment::equipped_setting);
-    if (today != base.settings.end() && today->second == experiment::all_equipped)
-        throw core::InputError({experiment::equipped_setting, "says that every signal is equipped today",
-                                "ids of those that are, separated by commas, or none",
-                                "Leave it out for none"});
+    if (today != base.settings.end() && today->second == experiment::all_equipped) refuse_all_equipped();
     const bool has_signals = !experiment::policies_with(base, traffic::Trait::asks_signals).empty();
     if (!has_signals && !has_own_code(base))
         throw core::InputError(
@@ -96,6 +98,7 @@ Signals signals_of(const study::StudyConfig& config, const EquipRequest& request
         throw core::InputError({"scenario " + scenario.name, "has no signals", "a network with signals",
                                 "`clearway scenario signals SCENARIO` lists those of a scenario"});
     signals.today = experiment::equipped_signals(request.condition, signals.built.network);
+    if (signals.ids_of_today().size() == signals.built.network.signals().size()) refuse_all_equipped();
     signals.candidates = equip_candidates(config, signals.built, signals.today, request.most_candidates);
     for (const scenario::SignalSheet& sheet : scenario::signal_sheets(signals.built.network, {}))
         signals.all_streets.push_back(streets_of(sheet));

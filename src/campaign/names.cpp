@@ -62,6 +62,31 @@ Levels levels_of(const std::vector<experiment::ConditionSpec>& conditions) {
 
 }  // namespace
 
+namespace {
+
+Levels::const_iterator factor_named(const std::string& name, const Levels& levels) {
+    return levels.contains(name) ? levels.find(name) : levels.find("condition." + name);
+}
+
+/// `policy=corridor,failure=B40,dark_share=0.5`: what follows a comma and is no factor belongs to the level
+/// before.
+std::vector<std::pair<std::string, std::string>> chosen_levels(const std::string& against,
+                                                               const Levels& levels) {
+    std::vector<std::pair<std::string, std::string>> chosen;
+    std::istringstream words(against);
+    for (std::string word; std::getline(words, word, ',');) {
+        const std::size_t equals = std::min(word.find('='), word.size());
+        const std::string factor = word.substr(0, equals);
+        if (!chosen.empty() && factor_named(factor, levels) == levels.end())
+            chosen.back().second += "," + word;
+        else
+            chosen.emplace_back(factor, word.substr(std::min(equals + 1, word.size())));
+    }
+    return chosen;
+}
+
+}  // namespace
+
 analysis::Reference reference_from(const std::string& against,
                                    const std::vector<experiment::ConditionSpec>& conditions,
                                    const std::filesystem::path& folder) {
@@ -77,12 +102,8 @@ analysis::Reference reference_from(const std::string& against,
         throw core::InputError(std::move(problem));
     }
     analysis::Reference reference;
-    std::istringstream words(against);
-    for (std::string word; std::getline(words, word, ',');) {
-        const std::size_t equals = std::min(word.find('='), word.size());
-        const std::string factor = word.substr(0, equals);
-        const std::string level = word.substr(std::min(equals + 1, word.size()));
-        const auto found = levels.contains(factor) ? levels.find(factor) : levels.find("condition." + factor);
+    for (const auto& [factor, level] : chosen_levels(against, levels)) {
+        const auto found = factor_named(factor, levels);
         if (found == levels.end()) {
             std::vector<std::string> factors;
             for (const auto& [name, known] : levels)

@@ -14,6 +14,8 @@ constexpr int rings = 20;
 constexpr int spots_of_ring = 16;
 constexpr double first_ring = 16.0;
 constexpr double ring_step = 4.0;
+/// Marks nearer than this decide to which side a disc goes.
+constexpr double near = 40.0;
 
 double distance(const Spot& one, const Spot& other) {
     return std::hypot(one.x - other.x, one.y - other.y);
@@ -65,12 +67,26 @@ class Spreader {
                });
     }
 
-    /// From the nearest ring outwards, in each beginning above and going round with the clock.
+    /// The direction away from the other marks near it, clockwise from above: so discs keep their sides.
+    double away(std::size_t row) const {
+        Spot sum;
+        for (std::size_t other = 0; other < places_.size(); ++other) {
+            const double apart = distance(places_[row], places_[other]);
+            if (apart == 0.0 || apart > near) continue;
+            sum.x += (places_[row].x - places_[other].x) / apart;
+            sum.y += (places_[row].y - places_[other].y) / apart;
+        }
+        return sum == Spot{} ? 0.0 : std::atan2(sum.x, -sum.y);
+    }
+
+    /// From the nearest ring outwards, in each beginning away from the others and going to both sides.
     Spot free_spot(std::size_t row) const {
+        const double first = away(row);
         for (int ring = 0; ring < rings; ++ring) {
             const double radius = first_ring + ring_step * ring;
             for (int at = 0; at < spots_of_ring; ++at) {
-                const double angle = 2.0 * std::numbers::pi * at / spots_of_ring;
+                const int side = at % 2 == 0 ? -at / 2 : (at + 1) / 2;
+                const double angle = first + 2.0 * std::numbers::pi * side / spots_of_ring;
                 const Spot spot{places_[row].x + radius * std::sin(angle),
                                 places_[row].y - radius * std::cos(angle)};
                 if (is_free(spot, row)) return spot;

@@ -24,9 +24,10 @@ inline constexpr double disc_radius = 8.0;
 inline constexpr double dot_radius = 4.0;
 
 /// Where to draw the marks of `places`, so that no disc lies on another one or hides the place of another
-/// mark. A disc with enough room stays at its place. The others take the nearest free spot round theirs, in
-/// the order of the list, and inside a picture of `size`; a disc for which even the farthest spots are taken
-/// stays. Equal places give equal spots. Time grows with the square of the number of places.
+/// mark. A disc with enough room stays at its place. The others take the nearest free spot round theirs,
+/// first on the side away from other marks, in the order of the list, and inside a picture of `size`; a disc
+/// for which even the farthest spots are taken stays. Equal places give equal spots. Time grows with the
+/// square of the number of places.
 std::vector<Spot> spread(const std::vector<Spot>& places, const std::vector<Mark>& marks, Spot size);
 
 }  // namespace clearway::core

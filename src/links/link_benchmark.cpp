@@ -59,7 +59,7 @@ void read_scenario(const toml::table& table, core::TomlReading& reading, LinkBen
     reader.text_or_empty("policy", entry.policy);
     scenario::Options options;
     scenario::read_overrides(reader, options);
-    reader.text("configuration", configuration);
+    reader.text_or_empty("configuration", configuration);
     reader.finish();
     if (!entry.policy.empty())
         check_name(reader, "policy", "policy", entry.policy, policy::policies().names());
@@ -68,7 +68,11 @@ void read_scenario(const toml::table& table, core::TomlReading& reading, LinkBen
         if (entry.label.empty()) entry.label = config.name;
         check_label(reader, entry.label, benchmark);
         const std::string hash = scenario::configuration_hash(config);
-        if (hash != configuration) {
+        if (configuration.empty()) {
+            reader.problem("configuration", "is not given: it freezes the scenario",
+                           fmt::format("the hash of its configuration as it is now, {}", hash),
+                           fmt::format("Add configuration = \"{}\"", hash));
+        } else if (hash != configuration) {
             reader.problem("configuration",
                            fmt::format("scenario {} has changed since the benchmark was frozen: its "
                                        "configuration has the hash {}",

@@ -1,7 +1,6 @@
 #include "report/equipment.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -121,18 +120,16 @@ bool shows_any(const EquipmentFacts& facts) {
            });
 }
 
-/// How many seeds would show the gain of all ranks, if it and its spread are what they look like: the width
-/// of an interval falls with the root of their number.
+/// How many seeds would show the gain of all ranks, if it and its spread are what they look like.
 std::string seeds_sentence(const EquipmentFacts& facts) {
     const analysis::MaybeEstimate& gain = facts.ranked.back().so_far;
-    const analysis::Interval* const interval = analysis::shown_interval(gain);
-    if (interval == nullptr || is_shown(gain)) return "";
+    if (analysis::shown_interval(gain) == nullptr || is_shown(gain)) return "";
     if (gain->mean <= 0.0) return "Their mean is no gain.";
-    constexpr double most = 1000.0;  // --seeds
-    const double ratio = interval->half_width() / gain->mean;
-    const double seeds = std::ceil(static_cast<double>(gain->n) * ratio * ratio);
-    if (seeds > most) return fmt::format("More than {:.0f} seeds would show so small a gain of all.", most);
-    return fmt::format("About {:.0f} seeds would show the gain of all, if it is as it looks.", seeds);
+    constexpr std::size_t most = 1000;  // --seeds
+    const std::size_t seeds = analysis::required_replications(gain->deviation, gain->mean);
+    if (seeds > most)
+        return fmt::format("It would take more than {} seeds to show so small a gain of all.", most);
+    return fmt::format("About {} seeds would show the gain of all, if it is as it looks.", seeds);
 }
 
 std::string not_shown_sentence(const EquipmentFacts& facts) {

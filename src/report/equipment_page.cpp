@@ -36,6 +36,7 @@ void draw_ranks(detail::MapCanvas& canvas, const EquipmentFacts& facts) {
     std::set<std::string> open;
     for (const EquipCandidateFacts& one : facts.candidates)
         open.insert(one.signal);
+    const std::set<std::string> today(facts.equipped_today.begin(), facts.equipped_today.end());
     std::vector<core::Spot> places;
     std::vector<core::Mark> marks;
     for (const MapSignal& signal : facts.roads->signals) {
@@ -43,7 +44,9 @@ void draw_ranks(detail::MapCanvas& canvas, const EquipmentFacts& facts) {
         places.push_back({x, y});
         marks.push_back(ranks.contains(signal.id) ? core::Mark::disc : core::Mark::dot);
         const bool is_open = open.contains(signal.id);
-        if (marks.back() == core::Mark::dot)
+        if (today.contains(signal.id))
+            canvas.circle(x, y, core::dot_radius, "dot better");
+        else if (marks.back() == core::Mark::dot)
             canvas.circle(x, y, is_open ? core::dot_radius : 2.0, is_open ? "held" : "tick");
     }
     const std::vector<core::Spot> spots = core::spread(places, marks, {canvas.width, canvas.height()});
@@ -65,7 +68,8 @@ std::vector<detail::LegendEntry> map_entries(const EquipmentFacts& facts) {
     if (static_cast<std::size_t>(shown) < chosen)
         entries.push_back({disc({20.0, 5.0}, "n", false), "chosen, gain not shown"});
     if (facts.candidates.size() > chosen) entries.push_back(detail::dot_entry("held", "other candidate"));
-    if (facts.signals > facts.candidates.size())
+    if (!facts.equipped_today.empty()) entries.push_back(detail::dot_entry("dot better", "equipped today"));
+    if (facts.signals > facts.candidates.size() + facts.equipped_today.size())
         entries.push_back({"<circle class=\"tick\" cx=\"20\" cy=\"5\" r=\"2\"/>", "left out"});
     return entries;
 }

@@ -63,12 +63,28 @@ class FileWriter : public detail::Writer {
         core::write_output(file, text);
         return file;
     }
-    /// A caption that can stand alone, with what is drawn, of which scenario and compared with what.
-    std::string full(const std::string& caption, const std::string& name) const {
-        return with_scenario(caption, name) + reference_note();
+    /// With the name of what conditions are compared with in place of `the baseline`.
+    std::string named(std::string text, const std::string& reference) const {
+        constexpr std::string_view usual = "the baseline";
+        if (study_.reference.empty()) return text;
+        for (std::size_t at = text.find(usual); at != std::string::npos;
+             at = text.find(usual, at + reference.size()))
+            text.replace(at, usual.size(), reference);
+        return text;
     }
-    std::string reference_note() const {
-        return study_.reference.empty() ? "" : fmt::format(" (baseline: {})", study_.reference);
+    /// Two exports of a study may stand in one paper.
+    std::string label(const std::string& name) const {
+        return study_.reference.empty() ? name : name + "-against";
+    }
+    std::string caption(const std::string& text) const {
+        const std::string words = named(text, study_.reference);
+        return study_.reference.empty() || words != text
+                   ? words
+                   : fmt::format("{} (against {})", text, study_.reference);
+    }
+    /// A caption that can stand alone, with what is drawn, of which scenario and compared with what.
+    std::string full(const std::string& text, const std::string& name) const {
+        return caption(with_scenario(text, name));
     }
     std::string with_scenario(const std::string& caption, const std::string& name) const {
         for (const ScenarioFacts& scenario : study_.scenarios) {
@@ -80,18 +96,21 @@ class FileWriter : public detail::Writer {
         return caption;
     }
     void put(const Figure& figure) override {
-        files_.drawings.push_back(write(figure.name, ".svg", detail::standalone(figure.drawing)));
+        const std::string drawing = named(figure.drawing, escaped(study_.reference));
+        files_.drawings.push_back(write(figure.name, ".svg", detail::standalone(drawing)));
         if (!figure.data.rows.empty())
             files_.tables.push_back(write(figure.name, ".csv", detail::to_csv(figure.data)));
-        files_.entries.push_back({section_, figure.name, full(figure.caption, figure.name), figure.note, true,
-                                  !figure.data.rows.empty()});
+        files_.entries.push_back({section_, figure.name, label(figure.name),
+                                  full(figure.caption, figure.name), named(figure.note, study_.reference),
+                                  true, !figure.data.rows.empty()});
     }
     void put(const Table& table) override {
         files_.tables.push_back(write(table.name, ".csv", detail::to_csv(table.data)));
         Table typeset = table;
-        typeset.caption += reference_note();
+        typeset.caption = caption(table.caption);
+        typeset.name = label(table.name);
         files_.typeset.push_back(write(table.name, ".tex", detail::to_latex(typeset)));
-        files_.entries.push_back({section_, table.name, typeset.caption, "", false, true});
+        files_.entries.push_back({section_, table.name, typeset.name, typeset.caption, "", false, true});
     }
 
     std::filesystem::path folder_;
@@ -123,10 +142,10 @@ std::string entry_markup(const FigureEntry& entry, const std::vector<std::string
             "<a href=\"{0}.svg\"><img src=\"{0}.svg\" alt=\"{1}\"></a>\n<p class=\"note\">{2}</p>\n"
             "<details><summary>LaTeX</summary><pre>{3}</pre></details>\n",
             entry.name, escaped(entry.caption), escaped(entry.note),
-            escaped(
-                fmt::format("\\begin{{figure}}\n\\centering\n\\includegraphics[width=\\linewidth]{{{0}{1}}}\n"
-                            "\\caption{{{2}}}\n\\label{{fig:{0}}}\n\\end{{figure}}",
-                            entry.name, has_pdf ? ".pdf" : "", detail::latex_escaped(entry.caption))));
+            escaped(fmt::format(
+                "\\begin{{figure}}\n\\centering\n\\includegraphics[width=\\linewidth]{{{0}{1}}}\n"
+                "\\caption{{{2}}}\n\\label{{fig:{3}}}\n\\end{{figure}}",
+                entry.name, has_pdf ? ".pdf" : "", detail::latex_escaped(entry.caption), entry.label)));
     }
     return html + "</figure>\n";
 }

@@ -13,6 +13,7 @@ namespace clearway::report {
 struct FigureEntry {
     std::string section;  ///< Title of the section that it is from.
     std::string name;     ///< Of its files, without ending.
+    std::string label;    ///< In LaTeX; another one where conditions are not compared with their baselines.
     std::string caption, note;
     bool is_drawing = false;
     bool has_data = false;  ///< Whether there is a CSV file.

@@ -207,19 +207,23 @@ std::string sentence_of_parts(const char* what, const std::vector<analysis::Idle
 }
 
 /// The locks of a condition and of its baseline, before the effects that they may decide.
-std::string locks_of(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+std::string locks_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     const ConditionFacts* const baseline = scenario.baseline_of(condition);
     const std::string with = lock_words(condition);
     const std::string without = baseline == nullptr ? "" : lock_words(*baseline);
     if (with.empty() && without.empty()) return {};
-    std::string words = fmt::format("{} (baseline: {}); ", with.empty() ? "no lock" : with,
-                                    without.empty() ? "none" : without);
+    return fmt::format("{} (baseline: {}); ", with.empty() ? "no lock" : with,
+                       without.empty() ? "none" : without);
+}
+
+/// `; EV travel time, s: ...`, what locked pairs make of the effect, or empty without any.
+std::string locked_pairs_of(const ConditionFacts& condition, Script script) {
     const auto& comparison = condition.outcome(primary).comparison;
+    if (!comparison) return {};
     const double wanted_s =
         condition.least_relevant_s > 0.0 ? condition.least_relevant_s : usual_least_relevant_s;
-    const std::string pairs = comparison ? locked_pairs_words(*comparison, wanted_s, script) : "";
-    if (!pairs.empty()) words += fmt::format("EV travel time, s: {}; ", pairs);
-    return words;
+    const std::string pairs = locked_pairs_words(*comparison, wanted_s, script);
+    return pairs.empty() ? pairs : fmt::format("; EV travel time, s: {}", pairs);
 }
 
 /// `3 EVs came to a closed road (baseline: 12); `, or empty where none did in either.
@@ -265,12 +269,12 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     Verdict words = lead(scenario, condition, script);
     words.finding = absent + cut_off_of(condition) + words.finding;
     std::string& text = words.figures;
-    text.insert(0, locks_of(scenario, condition, script) + incidents_of(scenario, condition) +
-                       regrets_of(condition, script));
+    text.insert(
+        0, locks_of(scenario, condition) + incidents_of(scenario, condition) + regrets_of(condition, script));
     const std::string others = analysis::other_objections(condition.objections);
     if (!others.empty()) text += "; " + others;
     if (shown_interval(condition.difference(primary)) != nullptr) text += costs(scenario, condition, script);
-    text += ".";
+    text += locked_pairs_of(condition, script) + ".";
     text += sentence_of_parts("Never acted", condition.idle_parts, &analysis::IdlePart::idle_runs);
     text += sentence_of_parts("Only changed the EV's own lane", condition.idle_parts,
                               &analysis::IdlePart::own_runs);

@@ -126,6 +126,17 @@ std::string run_folders_in(const fs::path& folder) {
                              : fmt::format("It holds run folders: {} and {} more", first, found.size() - 1);
 }
 
+/// What to do with a folder that holds no runs itself.
+std::string cure_of_another(const fs::path& folder) {
+    if (folder.extension() == ".toml")
+        return fmt::format("clearway study {} runs a study file", folder.string());
+    std::error_code unknown;
+    const std::string runs = run_folders_in(folder);
+    if (!fs::exists(folder / "equip.json", unknown)) return runs;
+    return fmt::format("{} shows its answer{}{}", (folder / "report.html").string(), runs.empty() ? "" : ". ",
+                       runs);
+}
+
 /// `target`, with `.2`, `.3`, ... appended if it exists already.
 fs::path free_place(const fs::path& target) {
     fs::path place = target;
@@ -178,10 +189,7 @@ Store Store::open(const fs::path& folder) {
     const fs::path file = folder / manifest_name;
     if (!fs::exists(file))
         throw core::InputError({folder.string(), "is not a run folder: it has no manifest.json",
-                                "a folder written with --out",
-                                folder.extension() == ".toml"
-                                    ? fmt::format("clearway study {} runs a study file", folder.string())
-                                    : run_folders_in(folder)});
+                                "a folder written with --out", cure_of_another(folder)});
     return {folder, manifest_from_json(core::read_file(file), file.string())};
 }
 

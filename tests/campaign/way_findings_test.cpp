@@ -1,5 +1,7 @@
 #include "campaign/detail/way_findings.hpp"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 
 #include "scenario/network.hpp"
@@ -49,6 +51,22 @@ TEST_F(WayFindings, count_those_who_can_choose) {
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].text,
               "1 of 2 EVs can choose: two ways or more within 20 % of the fastest at free flow");
+}
+
+TEST(SiteFindings, name_the_road_of_coordinates) {
+    scenario::ScenarioConfig config = scenario::load("city");
+    scenario::EmergencySite& site = config.emergency_sites.emplace_back();
+    site.kind = scenario::SiteKind::fire_station;
+    site.name = "New post";
+    site.longitude = 13.53;
+    site.latitude = 52.431;
+    const support::TemporaryFolder folder;
+    const scenario::BuiltNetwork built = scenario::build_network(config, folder.path());
+    const auto found = way_findings(config, built.network, "id,edges\n");
+    const auto sites = std::ranges::find(found, "sites", &Finding::name);
+    ASSERT_NE(sites, found.end());
+    EXPECT_THAT(sites->text,
+                testing::MatchesRegex("by coordinates: fire_station \"New post\" on .*\\(?edge [^ ]+\\)?"));
 }
 
 TEST_F(WayFindings, name_those_whom_an_incident_cuts_off) {

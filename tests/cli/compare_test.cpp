@@ -80,6 +80,41 @@ TEST_F(CompareTest, compares_with_a_condition_that_is_named) {
     EXPECT_THAT(rows.err, HasSubstr("--publish: writes differences from baselines"));
 }
 
+TEST_F(CompareTest, compares_with_the_same_at_another_level_of_a_factor) {
+    write("my.toml",
+          "name = \"mine\"\nreplications = 5\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n"
+          "[[condition]]\nname = \"own\"\npolicy = [\"corridor\"]\n[factors]\n"
+          "condition.policy = [\"corridor\", \"geocast\"]\ncondition.failure = [\"perfect\", \"B10\"]\n");
+    ASSERT_EQ(clearway({"study", "my.toml"}).code, 0);
+    const auto tables = nlohmann::json::parse(
+        clearway({"compare", "runs/mine", "--against", "policy=geocast", "--json"}).out);
+    ASSERT_EQ(tables.at("comparisons").size(), 2U);
+    for (const auto& pair : tables["comparisons"]) {
+        const std::string condition = pair["condition"];
+        const std::size_t policy = condition.find("corridor");
+        ASSERT_NE(policy, std::string::npos) << condition;
+        EXPECT_EQ(pair["compared_with"],
+                  condition.substr(0, policy) + "geocast" + condition.substr(policy + 8));
+    }
+    const Ended figures = clearway({"export", "figures", "runs/mine", "--out", "figures", "--svg-only",
+                                    "--against", "condition.policy=geocast"});
+    ASSERT_EQ(figures.code, 0) << figures.err;
+    EXPECT_THAT(read("figures/factors-emergency-grid.tex"),
+                AllOf(HasSubstr("difference to the same with policy geocast, s"),
+                      HasSubstr("\\label{tab:factors-emergency-grid-against}")));
+    EXPECT_THAT(
+        read("figures/differences-line.svg"),
+        AllOf(HasSubstr("difference to the same with policy geocast, s"), Not(HasSubstr("the baseline"))));
+    const auto refused = [&](const char* against, const char* said) {
+        const Ended ended = clearway({"compare", "runs/mine", "--against", against});
+        EXPECT_EQ(ended.code, 3);
+        EXPECT_THAT(ended.err, HasSubstr(said));
+    };
+    refused("policy=geocats", "--against: level of condition.policy: `geocats` is unknown");
+    refused("condition.polcy=geocast", "Did you mean 'condition.policy'?");
+    refused("nobody", "or a factor and its level, as condition.failure=perfect");
+}
+
 TEST_F(CompareTest, two_that_publish_at_once_lose_no_row) {
     ASSERT_EQ(clearway(two_conditions("one", 2)).code, 0);
     const auto publish = [&](const char* metric) {

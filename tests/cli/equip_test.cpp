@@ -194,6 +194,10 @@ TEST_F(EquipTest, starts_from_what_is_equipped_today) {
     const auto manifest = nlohmann::json::parse(read("out/round-01/manifest.json"));
     for (const auto& condition : manifest.at("conditions"))
         sets.insert(condition.value("settings", nlohmann::json::object()).value("actuation.equipped", ""));
+    EXPECT_THAT(read("out/map.svg"), HasSubstr("equipped today"));
+    const Ended report = clearway({"report", "out"});
+    EXPECT_EQ(report.code, 3);
+    EXPECT_THAT(report.err, HasSubstr("out/report.html shows its answer"));
     EXPECT_THAT(sets, testing::UnorderedElementsAre("", "A", "A,B")) << "the first is the baseline";
 }
 
@@ -215,8 +219,9 @@ TEST_F(EquipTest, refuses_what_has_no_answer_and_leaves_nothing_behind) {
             "has no policy that requests green from signals");
     refused({"equip", "./crossings", "--budget", "1", "--condition", "baseline"}, 3,
             "has no policy that requests green from signals");
-    refused({"equip", "./crossings", "--budget", "1", "--set", "actuation.equipped=all"}, 3,
-            "says that every signal is equipped today");
+    for (const char* const all : {"actuation.equipped=all", "actuation.equipped=A,B"})
+        refused({"equip", "./crossings", "--budget", "1", "--set", all}, 3,
+                "says that every signal is equipped today");
     refused({"equip", "./crossings", "--budget", "1", "--set", "actuation.equipped=C"}, 3, "no signal \"C\"");
     write_line_scenario();
     refused({"equip", "line", "--budget", "1"}, 3, "has no signals");

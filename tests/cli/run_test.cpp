@@ -474,6 +474,30 @@ TEST_F(RunTest, a_study_file_runs_and_its_plan_can_be_seen_before) {
     EXPECT_THAT(clearway({"study", "status", "runs/mine"}).out, HasSubstr("b20 (!)"));
 }
 
+TEST_F(RunTest, a_dry_run_refuses_the_folder_that_the_study_would_refuse) {
+    const auto study = [](int seed) {
+        return "name = \"mine\"\nreplications = 1\nseed = " + std::to_string(seed) +
+               "\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n";
+    };
+    write("my.toml", study(1));
+    ASSERT_EQ(clearway({"study", "my.toml"}).code, 0);
+    write("my.toml", study(2));
+    const Ended dry = clearway({"study", "my.toml", "--dry-run"});
+    EXPECT_EQ(dry.code, 3);
+    EXPECT_THAT(dry.err, HasSubstr("runs/mine: holds another study"));
+    EXPECT_EQ(dry.err, clearway({"study", "my.toml"}).err);
+    write("theirs/letter.txt", "mine");
+    const Ended foreign = clearway({"study", "my.toml", "--dry-run", "--out", "theirs"});
+    EXPECT_EQ(foreign.code, 3);
+    EXPECT_THAT(foreign.err, HasSubstr("theirs holds something else"));
+}
+
+TEST_F(RunTest, few_seeds_are_told_before_they_run) {
+    EXPECT_THAT(clearway(two_conditions("few", 4)).err,
+                HasSubstr("8 runs into few; fewer than 5 seeds give no interval\n"));
+    EXPECT_THAT(clearway(two_conditions("enough", 5)).err, HasSubstr("10 runs into enough\n"));
+}
+
 TEST_F(RunTest, report_prints_the_tables_of_a_run_folder_again) {
     const Ended ended = clearway(two_conditions("out", 2));
     ASSERT_EQ(ended.code, 0) << ended.err;

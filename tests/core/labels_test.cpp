@@ -1,5 +1,6 @@
 #include "core/labels.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -38,6 +39,14 @@ TEST(Labels, OfPlacesNearEachOtherLieBesideEachOtherAndHideNoPlace) {
         }
     }
     EXPECT_EQ(discs(places), spots) << "every time the same";
+}
+
+TEST(Labels, KeepTheirSides) {
+    const std::vector<Spot> places = {{300, 310}, {302, 300}, {500, 200}, {490, 203}, {495, 190}};
+    const std::vector<Spot> spots = discs(places);
+    EXPECT_GT(spots[0].y, spots[1].y + disc_radius) << "the southern one is the southern disc";
+    EXPECT_GT(spots[2].x, spots[3].x + disc_radius);
+    EXPECT_LT(spots[4].y, std::min(spots[2].y, spots[3].y) - disc_radius);
 }
 
 TEST(Labels, GiveWayToADotThatStays) {

@@ -208,6 +208,7 @@ TEST(Settings, TakeTheSignalsThatAreEquippedAsIdsSeparatedByCommas) {
     EXPECT_THAT(problems_of("actuation.equipped", "A,,B"), HasSubstr("\"A,,B\" has an empty id"));
     EXPECT_THAT(problems_of("actuation.equipped", ""), HasSubstr("has an empty id"));
     EXPECT_THAT(problems_of("actuation.equipped", "A,B,A"), HasSubstr("names signal \"A\" twice"));
+    EXPECT_THAT(problems_of("actuation.equiped", "A"), HasSubstr("Did you mean 'equipped'?"));
     ConditionSpec condition = corridor();
     set(condition, "actuation.equipped", "A");
     set(condition, "actuation.hold_cap_s", "30");

@@ -86,7 +86,7 @@ class StudentTest(FolderCase):
                              "each row has as many cells")
             self.assertIn("Ours", rows[0])
             self.assertEqual("corridor" in rows[0], name.startswith("figures"), "it is not compared with itself")
-        self.assertIn("(baseline: the same with condition.policy corridor)", table)
+        self.assertIn("difference to the same with policy corridor, s", table)
         if shutil.which("pdflatex"):
             self.write("paper.tex", latex)
             ended = subprocess.run(["pdflatex", "-halt-on-error", "paper.tex"], capture_output=True, text=True, check=False)

@@ -166,6 +166,7 @@ TEST_F(LinkBenchmarkFile, refuses_a_scenario_that_is_not_what_it_was) {
         refusal("variant = \"dense\"", "variant = \"standard\""),
         AllOf(HasSubstr("merge has changed since the benchmark was frozen"), HasSubstr("mine.toml:16")));
     EXPECT_THAT(refusal("name = \"merge\"", "name = \"mergee\""), HasSubstr("Did you mean 'merge'?"));
+    EXPECT_THAT(refusal("configuration = ", "# "), HasSubstr("Add configuration = \""));
 }
 
 /// A variant of the intersection.

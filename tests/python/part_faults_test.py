@@ -247,7 +247,8 @@ class Rude:
     def act(self, belief):
         return self.answer
 class Fine(Rude):
-    pass
+    def act(self, belief):
+        return [{**GOOD, "vehicle": int(key)} for key in belief.vehicles.key[:1]]
 class NoList(Rude):
     answer = {"a": 1}
 class NoAction(Rude):
@@ -347,7 +348,7 @@ class FaultTest(FolderCase):
     def test_a_number_that_names_nothing_fails_with_what_is_allowed(self) -> None:
         says = {"Row": r"Row: a lease is for vehicle 12345, which was never in a belief \(allowed: belief.vehicles.key\[row\], ",
                 "NoSignal": r"a lease is for signal 77 \(allowed: 0 to 0\)", "NoLink": r"link 99 of signal 0 \(allowed: 0 to \d+\)",
-                "NoWay": r"a way over edge 99999 \(allowed: 0 to \d+\)"}
+                "NoWay": r"a way over edge 99 \(allowed: 0 to \d+\)"}
         with self.assertWarns(RuntimeWarning):
             results = clearway.run("intersection", [clearway.Condition(name, policy=f"bad.py:{name}") for name in says], seeds=1,
                                    out="runs")

@@ -265,6 +265,25 @@ class SourcesTest(FolderCase):
                                                     "kit/deep/low.py", "kit/last.py", "kit/side.py", "near.py"])
         self.assertEqual(self.files_of("kit/last.py"), ["kit/last.py"])
 
+    def test_finds_files_of_the_folder_that_texts_name(self) -> None:
+        self.write("mine.py", "import helper\nweights = 'nets/own.pth'\nnotes = 'plain'\nother = '../outside.txt'\nwords = 'not.there'\n")
+        self.write("helper.py", "from pathlib import Path\ntable = Path(__file__).parent / 'table.csv'\n")
+        (self.folder / "nets").mkdir()
+        for name in ("nets/own.pth", "table.csv", "plain", "unnamed.csv"):
+            self.write(name, "1")
+        self.assertEqual(self.files_of("mine.py"), ["mine.py", "helper.py", "nets/own.pth", "table.csv"])
+
+    def test_changed_weights_are_another_study(self) -> None:
+        self.write("mine.py", "from pathlib import Path\nclass Mine:\n    def __init__(self):\n"
+                              "        self.net = (Path(__file__).parent / 'net.txt').read_text()\n"
+                              "    def act(self, belief):\n        return []\n")
+        self.write("net.txt", "1")
+        arguments = ["run", "intersection", "--policy", "mine.py:Mine", "--seeds", "1", "--no-solo", "--out", "runs"]
+        program(*arguments)
+        program(*arguments)
+        self.write("net.txt", "2")
+        program(*arguments, code=3)
+
     def test_a_changed_import_is_another_study(self) -> None:
         self.write("mine.py", "import helper\nclass Mine:\n    def act(self, belief):\n        return helper.leases(belief)\n")
         self.write("helper.py", "def leases(belief):\n    return []\n")

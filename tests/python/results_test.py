@@ -15,7 +15,7 @@ from unittest import mock
 import clearway
 import clearway.recording as recording_module
 import numpy as np
-from clearway import _conditions
+from clearway import _conditions, _program
 from support import FolderCase, program, told_when
 
 T_975_4 = 2.7764451051977987  # Student's t, 4 degrees of freedom
@@ -534,6 +534,10 @@ class ConditionsTest(FolderCase):
         self.assertEqual([(one.condition, one.compared_with) for one in every],
                          [(self.name(policy, failure), self.name("corridor", failure)) for failure in ("perfect", "B10")
                           for policy in ("preempt_signals", "check_in_out")])
+        said = _program.call_json(["compare", str(self.results.folder.absolute()), "--metric", self.metric, "--against", "policy=corridor"])
+        self.assertEqual([one.holm_p for one in every], [row["metrics"][self.metric]["holm_p"] for row in said["comparisons"]])
+        ours = self.results.paired_difference(self.metric, self.name("preempt_signals", "B10"), against=against)
+        self.assertIn(ours, every)
 
     def test_what_chooses_no_condition_or_several_is_told(self) -> None:
         difference, policy, failure = self.results.paired_difference, "condition.policy", "condition.failure"

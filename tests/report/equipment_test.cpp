@@ -139,11 +139,12 @@ TEST(Equipment, NamesNoOrderWhereNothingIsShown) {
     facts.ranked[0].gain = facts.ranked[0].so_far = about(2.0, 3.0);
     facts.ranked[1].gain = about(1.0, 4.0);
     facts.ranked[1].so_far = about(3.0, 6.0);
+    facts.ranked[1].so_far->deviation = 9.0;
     EXPECT_THAT(flat_text(facts), AllOf(HasSubstr("No gain is shown yet; likely best: 1) Gate <Road> / High"),
                                         Not(HasSubstr("Equip first")),
-                                        HasSubstr("About 40 seeds would show the gain of all, if it is as")));
-    facts.ranked[1].so_far = about(0.1, 6.0);
-    EXPECT_THAT(flat_text(facts), HasSubstr("More than 1000 seeds would show so small a gain"));
+                                        HasSubstr("About 38 seeds would show the gain of all, if it is as")));
+    facts.ranked[1].so_far->mean = 0.1;
+    EXPECT_THAT(flat_text(facts), HasSubstr("It would take more than 1000 seeds to show so small a gain"));
     facts.ranked[1].so_far = about(-1.0, 6.0);
     EXPECT_THAT(flat_text(facts), HasSubstr("Their mean is no gain."));
 }

@@ -254,6 +254,14 @@ TEST(Verdict, says_in_how_many_runs_a_part_never_acted) {
         HasSubstr(
             ". Never acted: preempt_signals, clear_lane in 20 of 20 runs; recover_signals in 3 of 20 runs. "
             "Only changed the EV's own lane: recover_signals in 2 of 20 runs."));
+    using traffic::Refusal;
+    scenario.conditions[1].idle_parts = {
+        {"Rows", 20, 20, 0, 7407, {{Refusal::vehicle_gone, 7407}, {Refusal::lockout, 1}}},
+        {"Humans", 20, 20, 0, 90, {{Refusal::not_controllable, 60}}},
+        {"Late", 20, 20, 0, 1, {}}};
+    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(),
+                HasSubstr("Never acted: Rows (7,407 leases, all refused as vehicle_gone), Humans (90 leases, "
+                          "most refused as not_controllable), Late (1 lease, none carried out) in 20 of 20"));
 }
 
 TEST(Verdict, says_which_condition_has_the_same_runs) {

@@ -1,5 +1,6 @@
 // Files that cannot be imported: each gets a clear message and leaves nothing behind.
 #include <algorithm>
+#include <fstream>
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -27,6 +28,12 @@ TEST_F(BadMap, missing_and_empty_files) {
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     EXPECT_THAT(refusal(request({pipe})), HasSubstr("is neither a file nor a folder"));
     EXPECT_THAT(refused("empty.osm", ""), HasSubstr("is empty"));
+    std::filesystem::create_directory(folder() / "maps");
+    EXPECT_THAT(refusal(request({folder() / "maps"})), HasSubstr("maps: is a folder"));
+    for (const char* const name : {"b.osm.gz", "a.sumocfg", "readme.txt"})
+        std::ofstream(folder() / "maps" / name) << "x";
+    EXPECT_THAT(refusal(request({folder() / "maps"})),
+                HasSubstr("give one of its files: a.sumocfg, b.osm.gz"));
 }
 
 TEST_F(BadMap, plain_xml_of_netconvert) {

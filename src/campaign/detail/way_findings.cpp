@@ -111,6 +111,24 @@ Finding call_finding(roads::RouteSearch& search, const scenario::Calls& calls,
                         core::counted(calls.stations.size(), "station"), differing)};
 }
 
+/// Where sites lie that are given by coordinates.
+Finding site_finding(const scenario::ScenarioConfig& config, const roads::Network& network) {
+    std::vector<core::Problem> problems;
+    const std::vector<core::EdgeIndex> edges = scenario::site_edges(config, network, problems);
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+    std::vector<std::string> places;
+    for (std::size_t row = 0; row < edges.size(); ++row) {
+        const scenario::EmergencySite& site = config.emergency_sites[row];
+        if (!site.longitude) continue;
+        const roads::Edge& edge = network.edge(edges[row]);
+        places.push_back(fmt::format("{}{} on {}", core::name(site.kind),
+                                     site.name.empty() ? "" : fmt::format(" \"{}\"", site.name),
+                                     edge.name.empty() ? fmt::format("edge {}", edge.id)
+                                                       : fmt::format("{} (edge {})", edge.name, edge.id)));
+    }
+    return {"sites", Grade::ok, fmt::format("by coordinates: {}", core::listed(places))};
+}
+
 /// SUMO takes a vehicle past the jam in which it has stood for long.
 Finding teleport_finding(const scenario::ScenarioConfig& config,
                          const std::vector<scenario::PlacedIncident>& incidents) {
@@ -131,6 +149,11 @@ std::vector<Finding> way_findings(const scenario::ScenarioConfig& config, const 
     const std::vector<Trip> trips = trips_of(network, emergency_csv);
     roads::RouteSearch search(network, roads::Driver::emergency);
     std::vector<Finding> findings = {choice_finding(search, trips)};
+    const auto is_by_coordinates = [](const scenario::EmergencySite& site) {
+        return site.longitude.has_value();
+    };
+    if (std::ranges::any_of(config.emergency_sites, is_by_coordinates))
+        findings.push_back(site_finding(config, network));
     const std::vector<scenario::PlacedIncident> incidents = scenario::place_incidents(config, network);
     const scenario::Calls calls = scenario::place_calls(config, network, incidents);
     if (!calls.calls.empty()) findings.push_back(call_finding(search, calls, network));
