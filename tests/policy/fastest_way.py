@@ -44,4 +44,5 @@ class Told:
 
     def act(self, belief):
         assert len(belief.edge_times_s) == len(belief.network.edge_ids)
-        return [Lease.hold_lane(1, reason=repr(time_s)) for time_s in belief.edge_times_s.tolist()]
+        (ev,) = belief.emergency_vehicles
+        return [Lease.hold_lane(ev, reason=repr(time_s)) for time_s in belief.edge_times_s.tolist()]

@@ -33,7 +33,7 @@ TEST_F(BadMap, missing_and_empty_files) {
     for (const char* const name : {"b.osm.gz", "a.sumocfg", "readme.txt"})
         std::ofstream(folder() / "maps" / name) << "x";
     EXPECT_THAT(refusal(request({folder() / "maps"})),
-                HasSubstr("give one of its files: a.sumocfg, b.osm.gz"));
+                HasSubstr("Give one of its files: a.sumocfg, b.osm.gz"));
 }
 
 TEST_F(BadMap, plain_xml_of_netconvert) {
