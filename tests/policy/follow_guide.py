@@ -34,7 +34,11 @@ def main() -> None:
     registry = added(registry, include, '#include "policy/listing_5_5.hpp"', include)
     registry = added(registry, told(page, "entry<"), "entry<Listing55", "entry<KeepDistance")
     conformance = (source / "tests" / "policy" / "conformance.cpp").read_text()
-    conformance = added(conformance, told(page, "add("), 'add("h1"', 'add("a5"')
+    follower = told(page, 'add("').rstrip() + "\n"
+    conformance = added(conformance, follower, 'add("h1"', follower.strip())
+    vehicle = follower.split(",")[0].strip()
+    if conformance.count(vehicle) > 1:
+        sys.exit(f"follow_guide: the page adds {vehicle}...), and tests/policy/conformance.cpp has another vehicle of that name: rename it")
     own = source / "src" / "policy" / "keep_distance.hpp"
     header = own if own.exists() else example / "keep_distance.hpp"
     (out / "policy").mkdir(parents=True, exist_ok=True)
