@@ -75,12 +75,23 @@ void PolicyRun::act() {
     belief.signals.state = bench_.shown;
     std::vector<traffic::Lease> leases;
     policy_->act(belief, leases);
+    for (const traffic::Lease& lease : leases)
+        note_request(lease);
     leases = delivered(leases);
     for (const traffic::Lease& lease : leases) {
         expect_legal(lease);
         leases_.push_back(describe(lease));
     }
     bench_.actuator.accept(leases, bench_.now);
+}
+
+void PolicyRun::note_request(const traffic::Lease& lease) {
+    if (lease.beneficiary == core::VehicleKey{} || std::holds_alternative<core::SignalIndex>(lease.target))
+        return;
+    const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target);
+    if (vehicle != nullptr && *vehicle == lease.beneficiary) return;
+    const double lives_s = lease.expiry.value - bench_.now.value;
+    shortest_request_s_ = std::min(lives_s, shortest_request_s_.value_or(lives_s));
 }
 
 std::vector<traffic::Lease> PolicyRun::delivered(const std::vector<traffic::Lease>& leases) const {

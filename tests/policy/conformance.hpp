@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,9 +37,13 @@ class PolicyRun {
     /// One line a lease.
     const std::vector<std::string>& leases() const { return leases_; }
     const std::vector<traffic::Command>& commands() const { return commands_; }
+    /// Lifetime of the shortest request to a vehicle or to those on a stretch of road, s; nothing where there
+    /// was none. What an emergency vehicle does itself is no request, nor is what serves none.
+    std::optional<double> shortest_request_s() const { return shortest_request_s_; }
 
   private:
     void act();
+    void note_request(const traffic::Lease& lease);
     std::vector<traffic::Lease> delivered(const std::vector<traffic::Lease>& leases) const;
     void expect_legal(const traffic::Lease& lease);
 
@@ -46,6 +51,7 @@ class PolicyRun {
     ActuationBench& bench_;
     std::vector<std::string> leases_;
     std::vector<traffic::Command> commands_;
+    std::optional<double> shortest_request_s_;
 };
 
 /// Every vehicle and signal is as it was before the commands: whatever was set was given back.

@@ -2,8 +2,14 @@
 
 #include "policy/conformance.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
 #include <gmock/gmock.h>
 
+#include "core/settings.hpp"
+#include "core/units.hpp"
 #include "python/part_name.hpp"
 
 namespace clearway::testing {
@@ -11,18 +17,44 @@ namespace {
 
 using traffic::VehicleClass;
 
+/// What differs for a policy that the scenes do not fit, and why. Those that need a shoulder say so by their
+/// trait.
+struct Exception {
+    const char* policy = "";
+    const char* reason = "";
+    bool acts_in_helpful_scene = true;
+    double to_line_m = 120.0;
+    /// Its leases in the scene made against it have this reason; null where it must have none.
+    const char* needless_lease = nullptr;
+    bool ends_leases_within_60_s = true;
+};
+constexpr Exception exceptions[] = {
+    {.policy = "give_way", .reason = "no junction without a signal", .acts_in_helpful_scene = false},
+    {.policy = "navigate", .reason = "no other way", .acts_in_helpful_scene = false},
+    {.policy = "hold_cross", .reason = "acts only shortly before the arrival", .to_line_m = 50.0},
+    {.policy = "geocast",
+     .reason = "a message to a place goes out although nobody is there, and its sender goes there",
+     .needless_lease = "the lane that is cleared"},
+    {.policy = "listing_5_5", .reason = "releases no speed, as published", .ends_leases_within_60_s = false},
+};
+constexpr const char* enter_exception =
+    "; or, if the policy is not for this scene, enter it with the reason in `exceptions` "
+    "(tests/policy/conformance_test.cpp)";
+
 class EveryPolicy : public ::testing::TestWithParam<std::string> {
   protected:
     static std::unique_ptr<policy::Policy> make() {
         return policy::make_policy(GetParam(), policy::PolicyContext{two_crossings()});
     }
-    /// hold_cross acts only shortly before the arrival.
-    static double to_line_m() { return GetParam() == "hold_cross" ? 50.0 : 120.0; }
-    /// Whether the crossings lack what the policy is for: a shoulder, a junction without a signal, or another
-    /// way.
+    static Exception exception() {
+        const auto* const found = std::ranges::find(exceptions, GetParam(), &Exception::policy);
+        return found == std::end(exceptions) ? Exception{} : *found;
+    }
+    static double to_line_m() { return exception().to_line_m; }
+    /// Whether the crossings lack what the policy is for.
     static bool is_out_of_place() {
-        if (GetParam() == "give_way" || GetParam() == "navigate") return true;
-        return policy::policies().is(GetParam(), traffic::Trait::shoulder);
+        return !exception().acts_in_helpful_scene ||
+               policy::policies().is(GetParam(), traffic::Trait::shoulder);
     }
     /// Whether it acts for the emergency vehicle of the helpful scene.
     static bool acts_for_one() {
@@ -41,8 +73,14 @@ TEST_P(EveryPolicy, knows_its_name) {
 }
 
 TEST_P(EveryPolicy, acts_in_a_scene_made_for_it) {
-    EXPECT_EQ(acts_for_one(), !is_out_of_place())
-        << "add what your policy acts on to add_helpful_scene (tests/policy/conformance.cpp)";
+    if (is_out_of_place()) {
+        EXPECT_FALSE(acts_for_one()) << "it acts, so remove its line in `exceptions` (" << exception().reason
+                                     << ") or Trait::shoulder";
+    } else {
+        EXPECT_TRUE(acts_for_one())
+            << "add what your policy acts on to add_helpful_scene (tests/policy/conformance.cpp)"
+            << enter_exception;
+    }
 }
 
 /// Its reports are lost, as under --failure B10. A policy that reads links cannot serve it: the graph has
@@ -68,13 +106,49 @@ TEST_P(EveryPolicy, does_nothing_in_a_scene_made_against_it) {
     add_needless_scene(bench);
     PolicyRun run(make(), bench);
     run.run_for(5.0);
-    // A message to a place goes out although nobody is there, and its sender goes there.
-    if (GetParam() == "geocast") {
-        EXPECT_THAT(run.leases(), ::testing::Each(::testing::HasSubstr("the lane that is cleared")));
+    if (exception().needless_lease != nullptr) {
+        EXPECT_THAT(run.leases(), ::testing::Each(::testing::HasSubstr(exception().needless_lease)));
     } else {
         EXPECT_EQ(run.leases(), std::vector<std::string>{})
-            << "nothing of add_needless_scene (tests/policy/conformance.cpp) is in an EV's way";
+            << "nothing of add_needless_scene (tests/policy/conformance.cpp) is in an EV's way"
+            << enter_exception;
     }
+}
+
+/// The shortest `lease_s` of the parts of a policy that renew their requests, s; nothing if none does.
+std::optional<double> promised_lease_s(const policy::PolicyEntry& entry) {
+    std::optional<double> shortest_s;
+    for (const std::string& name : entry.components) {
+        const policy::PolicyEntry& part = policy::policies().at(name);
+        if (!part.is(traffic::Trait::renews_requests)) continue;
+        const auto row = std::ranges::find(part.table.rows, "lease_s", &core::SettingInfo::name);
+        const double lease_s =
+            row == part.table.rows.end() ? 0.0 : core::number_from(row->preset).value_or(0.0);
+        shortest_s = std::min(lease_s, shortest_s.value_or(lease_s));
+    }
+    return shortest_s;
+}
+
+/// Checks of a run compare the latency of requests with what policies with the trait promise, and only these.
+TEST_P(EveryPolicy, says_how_long_its_requests_to_vehicles_live) {
+    const policy::PolicyEntry* const entry = policy::policies().find(GetParam());
+    if (entry == nullptr) GTEST_SKIP() << "code in Python has no traits";
+    ActuationBench bench;
+    add_helpful_scene(bench, to_line_m());
+    PolicyRun run(make(), bench);
+    run.run_for(5.0);
+    const std::optional<double> lives_s = run.shortest_request_s();
+    if (!lives_s) GTEST_SKIP() << "it asks no vehicle here";
+    const std::optional<double> promised_s = promised_lease_s(*entry);
+    ASSERT_TRUE(promised_s)
+        << "its requests to vehicles live " << *lives_s
+        << " s, so one that takes longer (request_latency_s) is lost, and no check of a "
+           "run tells. Add Trait::renews_requests to its entry in "
+           "src/policy/registry.cpp, `double lease_s = 2.0;` and its Field "
+           "(`detail::lifetime_field<C>()`, policy/detail/cooperation.hpp) to its config, "
+           "and pass config_.lease_s to LeaseWriter";
+    EXPECT_GE(*lives_s, *promised_s - core::clock_tolerance_s)
+        << "its requests end before lease_s: pass config_.lease_s to LeaseWriter";
 }
 
 TEST_P(EveryPolicy, gives_the_same_leases_for_the_same_belief) {
@@ -164,7 +238,7 @@ TEST_P(EveryPolicy, leaves_nothing_behind_when_the_emergency_vehicle_vanishes) {
     std::vector<traffic::Command> commands = run.commands();
     const std::size_t before = commands.size();
     bench.actuator.restore_all(commands);
-    if (GetParam() != "listing_5_5") {
+    if (exception().ends_leases_within_60_s) {
         EXPECT_EQ(commands.size(), before) << "all leases had ended already: let them expire within seconds";
     }
     // The vehicle that vanished took its own settings with it.
@@ -178,6 +252,12 @@ TEST_P(EveryPolicy, leaves_nothing_behind_when_the_emergency_vehicle_vanishes) {
     });
     expect_all_given_back(commands);
     EXPECT_EQ(bench.actuator.active(), 0U);
+}
+
+TEST(PolicyExceptions, are_of_registered_policies) {
+    for (const Exception& exception : exceptions)
+        EXPECT_NE(policy::policies().find(exception.policy), nullptr)
+            << exception.policy << ": remove its line";
 }
 
 std::vector<std::string> policy_names() {
