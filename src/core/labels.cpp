@@ -70,11 +70,11 @@ class Spreader {
     /// The direction away from the other marks near it, clockwise from above: so discs keep their sides.
     double away(std::size_t row) const {
         Spot sum;
-        for (std::size_t other = 0; other < places_.size(); ++other) {
-            const double apart = distance(places_[row], places_[other]);
+        for (const Spot& other : places_) {
+            const double apart = distance(places_[row], other);
             if (apart == 0.0 || apart > near) continue;
-            sum.x += (places_[row].x - places_[other].x) / apart;
-            sum.y += (places_[row].y - places_[other].y) / apart;
+            sum.x += (places_[row].x - other.x) / apart;
+            sum.y += (places_[row].y - other.y) / apart;
         }
         return sum == Spot{} ? 0.0 : std::atan2(sum.x, -sum.y);
     }
