@@ -36,9 +36,9 @@ std::vector<core::EdgeIndex> trip_edges(const roads::Network& network, const Tri
 SiteRoads::SiteRoads(const roads::Network& network, const Trips& trips, std::span<const SiteKind> kinds)
     : network_(network), lanes_(network), stations_(trip_edges(network, trips)), hospitals_(stations_) {
     if (trips.ends == TripEnds::connected) return;
-    const roads::Reach reach(network);
+    const roads::Reach ends(network);
     const auto erase_ends = [&](std::vector<core::EdgeIndex>& edges, roads::Way way) {
-        std::erase_if(edges, [&](core::EdgeIndex edge) { return reach.is_end(edge, way); });
+        std::erase_if(edges, [&](core::EdgeIndex edge) { return ends.is_end(edge, way); });
     };
     erase_ends(stations_, roads::Way::onward);
     if (std::ranges::none_of(kinds, is_hospital)) erase_ends(stations_, roads::Way::back);
