@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "policy/detail/agent_sheet.hpp"
-#include "support/crossing_scene.hpp"
+#include "policy/way_test.hpp"
 
 namespace clearway::testing {
 namespace {
@@ -15,26 +15,15 @@ namespace {
 using traffic::VehicleClass;
 
 /// An agent that is offered ways, and an environment that has answered before it is asked.
-class AgentWays : public ::testing::Test {
+class AgentWays : public WayTest {
   protected:
     struct Way {
         float time_s, length_m, common_share;
     };
 
-    static core::EdgeIndex edge(const char* id) { return short_square().find_edge(id).value(); }
-    static std::vector<core::EdgeIndex> edges(std::initializer_list<const char*> ids) {
-        std::vector<core::EdgeIndex> found;
-        for (const char* id : ids)
-            found.push_back(edge(id));
-        return found;
-    }
     static float length_m(const char* id) { return short_square().edge(edge(id)).length_m; }
 
-    void SetUp() override {
-        score.any_departed = true;
-        ev =
-            scene.add({"e", VehicleClass::emergency, {"left0A0", "A0B0", "B0B1", "B1right1"}, 0, 20.0, 10.0});
-    }
+    void SetUp() override { score.any_departed = true; }
     policy::Agent make(std::uint32_t ways) {
         offered = ways;
         return policy::Agent(
@@ -50,12 +39,7 @@ class AgentWays : public ::testing::Test {
         answer.put(0, actions);
         const char bell = static_cast<char>(python::Bell::answer);
         EXPECT_EQ(::write(channel.theirs().write, &bell, 1), 1);
-        std::vector<traffic::Lease> leases;
-        traffic::BelievedGraph& belief = scene.belief();
-        now_s += 0.5;
-        belief.time = core::Seconds(now_s);
-        agent.act(belief, leases);
-        return leases;
+        return WayTest::act(agent);
     }
     template <class Value>
     std::vector<Value> asked(std::string_view name) {
@@ -87,12 +71,9 @@ class AgentWays : public ::testing::Test {
                               : std::get<traffic::TakeRoute>(leases.front().action).edges;
     }
 
-    CrossingScene scene{100.0, short_square()};
-    core::VehicleKey ev;
     python::Channel channel;
     policy::AgentScore score;
     std::uint32_t offered = 0;
-    double now_s = 100.0;
 };
 
 TEST_F(AgentWays, are_the_fastest_with_time_length_and_what_they_share) {
@@ -129,8 +110,7 @@ TEST_F(AgentWays, make_a_lease_for_the_one_that_is_chosen) {
 }
 
 TEST_F(AgentWays, lead_round_a_queue_that_is_seen_and_round_a_closed_road) {
-    for (int i = 0; i < 12; ++i)
-        scene.add({"q" + std::to_string(i), VehicleClass::human, {"A0B0", "B0B1"}, 0, 94.0 - 7.5 * i, 0.0});
+    add_queue();
     policy::Agent agent = make(2);
     for (int decision = 0; decision < 60; ++decision)
         act(agent);

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
-#include "support/crossing_scene.hpp"
+#include "policy/way_test.hpp"
 
 namespace clearway::testing {
 namespace {
@@ -11,47 +11,19 @@ namespace {
 using policy::NavigateConfig;
 using traffic::VehicleClass;
 
-core::EdgeIndex edge(const char* id) {
-    return short_square().find_edge(id).value();
-}
-std::vector<core::EdgeIndex> edges(std::initializer_list<const char*> ids) {
-    std::vector<core::EdgeIndex> found;
-    for (const char* id : ids)
-        found.push_back(edge(id));
-    return found;
-}
-
-/// An emergency vehicle on its way over B0; over A1 it is as far.
-class Navigation : public ::testing::Test {
+class Navigation : public WayTest {
   protected:
-    void SetUp() override {
-        ev =
-            scene.add({"e", VehicleClass::emergency, {"left0A0", "A0B0", "B0B1", "B1right1"}, 0, 20.0, 10.0});
-    }
-    /// A queue on A0B0 that nobody leaves.
-    void add_queue(int vehicles = 12) {
-        for (int i = 0; i < vehicles; ++i)
-            scene.add(
-                {"q" + std::to_string(i), VehicleClass::human, {"A0B0", "B0B1"}, 0, 94.0 - 7.5 * i, 0.0});
-    }
     /// Decisions every 0.5 s; the leases of all.
     std::vector<traffic::Lease> act_for(policy::Navigate& navigate, double duration_s) {
         std::vector<traffic::Lease> leases;
-        traffic::BelievedGraph& belief = scene.belief();
-        for (double at_s = 0.0; at_s < duration_s - 1e-9; at_s += 0.5) {
-            now_s += 0.5;
-            belief.time = core::Seconds(now_s);
-            navigate.act(belief, leases);
-        }
+        for (double at_s = 0.0; at_s < duration_s - 1e-9; at_s += 0.5)
+            for (traffic::Lease& lease : act(navigate))
+                leases.push_back(std::move(lease));
         return leases;
     }
     static policy::Navigate make(const NavigateConfig& config = {}) {
         return policy::Navigate({short_square()}, config);
     }
-
-    CrossingScene scene{100.0, short_square()};
-    core::VehicleKey ev;
-    double now_s = 100.0;
 };
 
 TEST_F(Navigation, stays_on_its_way_while_none_is_faster) {

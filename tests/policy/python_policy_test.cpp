@@ -6,42 +6,18 @@
 #include <gmock/gmock.h>
 
 #include "policy/navigate.hpp"
-#include "support/crossing_scene.hpp"
+#include "policy/way_test.hpp"
 
 namespace clearway::testing {
 namespace {
 
-using traffic::VehicleClass;
-
-core::EdgeIndex edge(const char* id) {
-    return short_square().find_edge(id).value();
-}
-
-/// An emergency vehicle on its way over B0, as in navigate_test.cpp; each decision 0.5 s after the last one.
-class PythonWays : public ::testing::Test {
+class PythonWays : public WayTest {
   protected:
     static constexpr const char* file = CLEARWAY_SOURCE_DIR "/tests/policy/fastest_way.py";
 
-    void SetUp() override {
-        ::setenv("CLEARWAY_PACKAGE", CLEARWAY_SOURCE_DIR "/python", 1);
-        scene.add({"e", VehicleClass::emergency, {"left0A0", "A0B0", "B0B1", "B1right1"}, 0, 20.0, 10.0});
-    }
-    /// A queue on A0B0 that nobody leaves.
-    void add_queue() {
-        for (int i = 0; i < 12; ++i)
-            scene.add(
-                {"q" + std::to_string(i), VehicleClass::human, {"A0B0", "B0B1"}, 0, 94.0 - 7.5 * i, 0.0});
-    }
+    void SetUp() override { ::setenv("CLEARWAY_PACKAGE", CLEARWAY_SOURCE_DIR "/python", 1); }
     static policy::PythonPolicy make(const char* object) {
         return policy::PythonPolicy({short_square()}, std::string(file) + ":" + object, {});
-    }
-    std::vector<traffic::Lease> act(policy::Policy& policy) {
-        std::vector<traffic::Lease> leases;
-        traffic::BelievedGraph& belief = scene.belief();
-        now_s += 0.5;
-        belief.time = core::Seconds(now_s);
-        policy.act(belief, leases);
-        return leases;
     }
     /// The first way that a policy asks for within a minute; empty for none.
     std::vector<core::EdgeIndex> first_way(policy::Policy& policy) {
@@ -61,9 +37,6 @@ class PythonWays : public ::testing::Test {
         const roads::Lane& lane = short_square().lane(short_square().lane_of(edge(id), 0));
         return static_cast<double>(lane.length_m) / static_cast<double>(lane.speed_limit_mps);
     }
-
-    CrossingScene scene{100.0, short_square()};
-    double now_s = 100.0;
 };
 
 TEST_F(PythonWays, keeps_its_way_while_none_is_faster) {

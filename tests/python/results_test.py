@@ -15,7 +15,6 @@ from unittest import mock
 import clearway
 import clearway.recording as recording_module
 import numpy as np
-from clearway import _conditions, _program
 from support import FolderCase, program, told_when
 
 T_975_4 = 2.7764451051977987  # Student's t, 4 degrees of freedom
@@ -448,125 +447,6 @@ class ResultsTest(FolderCase):
                            (lambda: self.results.paired_difference("a\0", "corridor"), null),
                            (lambda: clearway.env("a\0"), null)):
             self.assertIn(says, self.message_of(clearway.InputError, call))
-
-
-STUDY = """replications = 2
-scenarios = ["intersection"]
-conditions = ["baseline"]
-[[condition]]
-name = "policy"
-policy = ["corridor"]
-[factors]
-condition.policy = ["corridor", "preempt_signals", "check_in_out"]
-condition.failure = ["perfect", "B10"]
-[titles]
-preempt_signals = "Ours"
-"""
-
-
-class ConditionsTest(FolderCase):
-    """A condition is given by its name, by its title, or by factors."""
-
-    @classmethod
-    def setUpClass(cls) -> None:
-        cls.holder = tempfile.TemporaryDirectory(prefix="clearway-test-")
-        cls.addClassCleanup(cls.holder.cleanup)
-        file = os.path.join(cls.holder.name, "study.toml")
-        with open(file, "w", encoding="utf-8") as stream:
-            stream.write(STUDY)
-        cls.results = clearway.study(file, out=os.path.join(cls.holder.name, "runs"))
-        cls.metric = "emergency_travel_time_s"
-
-    def name(self, policy: str, failure: str) -> str:
-        return f"policy+failure={failure}+policy={policy}"
-
-    def mean(self, left: str, right: str) -> float:
-        runs = self.results.runs
-        return float((runs.where(condition=left)[self.metric] - runs.where(condition=right)[self.metric]).mean())
-
-    def test_titles_are_those_of_the_report(self) -> None:
-        before = (self.results.folder / "report.html").stat()
-        found = clearway.open(self.results.folder)._conditions.titles
-        self.assertEqual((self.results.folder / "report.html").stat(), before, "the folder stays as it is")
-        said = json.loads(program("report", str(self.results.folder), "--json"))["scenarios"][0]["conditions"]
-        self.assertEqual(found, {one["title"]: {one["name"]} for one in said})
-        self.assertEqual(found["Ours, B10"], {self.name("preempt_signals", "B10")})
-
-    def test_a_title_is_taken_where_a_name_is(self) -> None:
-        ours, other = self.name("preempt_signals", "B10"), self.name("corridor", "perfect")
-        difference = self.results.paired_difference
-        for given in (ours, "Ours, B10", "Ours, B10 (!)", {"condition.policy": "preempt_signals", "condition.failure": "B10"}):
-            self.assertEqual(difference(self.metric, given), difference(self.metric, ours))
-            found = difference(self.metric, given, against="corridor, perfect sensors")
-            self.assertEqual((found.condition, found.compared_with), (ours, other))
-            self.assertAlmostEqual(found.difference, self.mean(ours, other), places=9)
-        self.assertEqual(self.results.paired_differences(self.metric, "Ours, B10"), self.results.paired_differences(self.metric, ours))
-        self.assertEqual(set(self.results.runs.where(condition="Ours, B10")["condition"]), {ours})
-        self.assertEqual(self.results.vehicles.where(condition="Ours, B10").row_count, self.results.vehicles.where(condition=ours).row_count)
-        self.assertIn(f"intersection/{ours}/00000.h5: cannot be read",
-                      self.message_of(clearway.InputError, lambda: self.results.recording("intersection", "Ours, B10")))
-
-    def test_an_incomplete_folder_has_titles(self) -> None:
-        place = self.folder / "part"
-        place.mkdir()
-        for name in ("manifest.json", "titles.json"):
-            shutil.copy(self.results.folder / name, place)
-        part = clearway.open(place)
-        self.assertEqual(part._conditions.titles, self.results._conditions.titles)
-        self.assertEqual(part.runs.where(condition="Ours, B10").row_count, 0)
-
-    def test_a_title_of_two_is_refused(self) -> None:
-        opened = clearway.open(self.results.folder)
-        opened._conditions.titles = {"Ours": {"a", "b"}}
-        self.assertIn("several conditions have the title 'Ours': a, b. Give the name of one",
-                      self.message_of(clearway.InputError, lambda: opened.runs.where(condition="Ours")))
-
-    def test_factors_that_are_left_out_are_those_of_the_other_condition(self) -> None:
-        against = {"condition.policy": "corridor"}
-        for failure in ("perfect", "B10"):
-            ours = {"condition.policy": "preempt_signals", "condition.failure": failure}
-            names = self.name("preempt_signals", failure), self.name("corridor", failure)
-            for given in (ours, names[0]):
-                found = self.results.paired_difference(self.metric, given, against=against)
-                self.assertEqual((found.condition, found.compared_with), names)
-                self.assertAlmostEqual(found.difference, self.mean(*names), places=9)
-        every = self.results.paired_differences(self.metric, against=against)
-        self.assertEqual([(one.condition, one.compared_with) for one in every],
-                         [(self.name(policy, failure), self.name("corridor", failure)) for failure in ("perfect", "B10")
-                          for policy in ("preempt_signals", "check_in_out")])
-        said = _program.call_json(["compare", str(self.results.folder.absolute()), "--metric", self.metric, "--against", "policy=corridor"])
-        self.assertEqual([one.holm_p for one in every], [row["metrics"][self.metric]["holm_p"] for row in said["comparisons"]])
-        ours = self.results.paired_difference(self.metric, self.name("preempt_signals", "B10"), against=against)
-        self.assertIn(ours, every)
-
-    def test_what_chooses_no_condition_or_several_is_told(self) -> None:
-        difference, policy, failure = self.results.paired_difference, "condition.policy", "condition.failure"
-        for given, says in (("Our, B10", "no condition 'Our, B10'. Did you mean 'Ours, B10'"), ("B10", "no condition 'B10'. Did you mean"),
-                            ("xyzzy", "no condition 'xyzzy'. It has baseline, "),
-                            ({policy: "corridor"}, "chooses 2 conditions: policy+failure=perfect+policy=corridor, policy+failure=B10"),
-                            ({policy: "coridor"}, "no condition.policy 'coridor'; it has corridor, preempt_signals, check_in_out. Did you mean"),
-                            ({policy: 3}, "no condition.policy 3"), ({"policy": "corridor"}, "no factor 'policy'; it has condition.failure, "),
-                            ({}, "chooses 7 conditions: ")):
-            message = self.message_of(clearway.InputError, lambda: difference(self.metric, given))
-            self.assertIn(says, message)
-            self.assertLess(len(message), 400)
-        for against, says in (({failure: "B1O"}, "no condition.failure 'B1O'; it has perfect, B10"),
-                              ({failure: "B10", policy: "corridor", "a.b": 1}, "no factor 'a.b'")):
-            self.assertIn(says, self.message_of(clearway.InputError, lambda: self.results.paired_differences(self.metric, against)))
-
-    def test_numbers_and_factors_of_scenarios_choose_too(self) -> None:
-        conditions = _conditions.Conditions(self.folder)
-        levels = [("8", "true"), ("12.5", "true"), ("8", "false")]
-        spec = [{"name": f"{stem}+{lead}+{on}", "factors": {"a.lead_s": lead, "a.on": on}} for stem in ("x", "y") for lead, on in levels]
-        scenarios = [{"name": f"city+{friction}", "factors": {"scenario.friction": friction}} for friction in ("1", "0.4")]
-        self.write("manifest.json", json.dumps({"scenarios": scenarios, "conditions": [{"name": "baseline"}, *spec]}))
-        self.assertEqual(conditions.name_of({"a.lead_s": 12.5}, like="y+8+true"), "y+12.5+true")
-        self.assertEqual(conditions.name_of({"a.on": False}, like="x+8+true"), "x+8+false")
-        self.assertEqual(conditions.compared({"a.on": True}), {"x+8+true": ["x+8+false"], "y+8+true": ["y+8+false"]})
-        self.assertEqual(conditions.scenario_with({"scenario.friction": 0.4, "a.on": True}), "city+0.4")
-        self.assertEqual((conditions.scenario_with({"a.on": True}), conditions.scenario_with("x")), (None, None))
-        self.assertIn("chooses 2 conditions: x+12.5+true, y+12.5+true",
-                      self.message_of(clearway.InputError, lambda: conditions.name_of({"a.lead_s": 12.5})))
 
 
 if __name__ == "__main__":

@@ -65,3 +65,17 @@ def python(code: str, executable: str = sys.executable, **environment: str) -> s
     """Runs code in a Python of its own."""
     return subprocess.run([executable, "-c", code], capture_output=True, text=True, check=False,
                           env={**os.environ, **environment})
+
+
+def hosts_of(folder: Path) -> list[int]:
+    """Processes of parts or workers that were started for this folder."""
+    found = []
+    for process in Path("/proc").glob("[0-9]*"):
+        try:
+            words = (process / "cmdline").read_bytes()
+            place = os.readlink(process / "cwd")
+        except OSError:
+            continue
+        if any(word in words for word in (b"clearway._host", b"clearway._nursery", b"bin/clearway")) and place == str(folder):
+            found.append(int(process.name))
+    return found
