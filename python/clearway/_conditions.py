@@ -91,24 +91,14 @@ class Conditions:
         found = [name for name, factors in self._factors["scenario"].items() if _have(factors, chosen)]
         return self._only(found, "scenario", chosen)
 
-    def compared(self, against: Mapping[str, Any]) -> dict[str, list[str]]:
-        """For each condition with these factors: those that differ from it in nothing else."""
-        pairs: dict[str, list[str]] = {}
-        keys = set(against)
-        for name, factors in self._factors["condition"].items():
-            if keys <= set(factors) and not _have(factors, against):
-                pairs.setdefault(self._with_factors(against, name), []).append(name)
-        if not pairs:
-            self._with_factors(against, None)  # tells what is not known
-            raise _program.InputError(f"against is {dict(against)!r}, from which no condition differs")
-        return pairs
-
     def levels(self, against: Mapping[str, Any]) -> str:
-        """What ``clearway compare --against`` takes for these factors; for some condition there is another one with them."""
-        own = self._factors["condition"][next(iter(self.compared(against)))]
-        return ",".join(f"{factor}={own[factor]}" for factor in against if factor in own)
+        """What ``clearway compare --against`` takes for these factors."""
+        known = self._known("condition")
+        return ",".join(f"{name}={next(level for level in known[name] if _is(level, value))}"
+                        for name, value in self._checked(against).items())
 
-    def _with_factors(self, given: Mapping[str, Any], like: str | None) -> str:
+    def _checked(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Those factors that are of conditions. Raises for factors and levels that the study does not have."""
         known = self._known("condition")
         for name in given:
             if name not in known and name not in self._known("scenario"):
@@ -116,9 +106,13 @@ class Conditions:
                 raise _program.InputError(f"the conditions of this study have no factor {name!r}{there}")
         given = {name: value for name, value in given.items() if name in known}
         for name, value in given.items():
-            if not any(_have(factors, {name: value}) for factors in self._factors["condition"].values()):
+            if not any(_is(level, value) for level in known[name]):
                 there = _program.there_are(value, known[name], "level", f"set(results.runs[{name!r}])")
                 raise _program.InputError(f"the study has no {name} {value!r}{there}")
+        return given
+
+    def _with_factors(self, given: Mapping[str, Any], like: str | None) -> str:
+        given = self._checked(given)
         conditions = self._factors["condition"]
         found = [name for name, factors in conditions.items() if _have(factors, given)]
         if like is not None:

@@ -98,7 +98,7 @@ double EdgeTimes::at(core::EdgeIndex edge, double entered_s, double pace) const 
     const double length_m = std::max(length_m_[edge.value], 0.1);
     const double prior_s = limit_s + usual_delay_s_[edge.value];
     const Seen& seen = seen_[edge.value];
-    const double share = fading(now_s_ - seen.at_s);
+    const double share = seen.time_s > 0.0 ? fading(now_s_ - seen.at_s) : 0.0;
     const double speed_mps = (seen.distance_m * share + config_.prior_s * length_m / prior_s) /
                              (seen.time_s * share + config_.prior_s);
     const double seen_delay_s = std::max(0.0, length_m / std::max(speed_mps, least_mps) - limit_s);

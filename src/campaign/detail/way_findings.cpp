@@ -54,14 +54,17 @@ Finding choice_finding(roads::RouteSearch& search, const std::vector<Trip>& trip
                         choosing, core::counted(trips.size(), "EV"))};
 }
 
-/// `Avenue de la Costa (edge 12#3, all lanes)`.
+/// `Avenue de la Costa (edge 12#3)`, with more words behind the id.
+std::string road_words(const roads::Edge& edge, const std::string& more = "") {
+    const std::string place = fmt::format("edge {}{}", edge.id, more);
+    return edge.name.empty() ? place : fmt::format("{} ({})", edge.name, place);
+}
+
 std::string place_words(const roads::Network& network, const traffic::Incident& incident) {
     const roads::Edge& edge = network.edge(incident.edge);
-    const std::string lanes = incident.lanes.size() < edge.lane_count
-                                  ? fmt::format("lane {}", fmt::join(incident.lanes, ", "))
-                                  : "all lanes";
-    const std::string place = fmt::format("edge {}, {}", edge.id, lanes);
-    return edge.name.empty() ? place : fmt::format("{} ({})", edge.name, place);
+    return road_words(edge, incident.lanes.size() < edge.lane_count
+                                ? fmt::format(", lane {}", fmt::join(incident.lanes, ", "))
+                                : ", all lanes");
 }
 
 Finding incident_finding(roads::RouteSearch& search, const std::vector<Trip>& trips,
@@ -120,11 +123,9 @@ Finding site_finding(const scenario::ScenarioConfig& config, const roads::Networ
     for (std::size_t row = 0; row < edges.size(); ++row) {
         const scenario::EmergencySite& site = config.emergency_sites[row];
         if (!site.longitude) continue;
-        const roads::Edge& edge = network.edge(edges[row]);
         places.push_back(fmt::format("{}{} on {}", core::name(site.kind),
                                      site.name.empty() ? "" : fmt::format(" \"{}\"", site.name),
-                                     edge.name.empty() ? fmt::format("edge {}", edge.id)
-                                                       : fmt::format("{} (edge {})", edge.name, edge.id)));
+                                     road_words(network.edge(edges[row]))));
     }
     return {"sites", Grade::ok, fmt::format("by coordinates: {}", core::listed(places))};
 }
