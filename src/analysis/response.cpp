@@ -98,25 +98,28 @@ MaybeEstimate resampled(std::size_t replications, double level, const Statistic&
 
 }  // namespace
 
-std::vector<double> response_times_s(const results::RunRecord& run) {
-    std::vector<double> times;
-    std::size_t lost = 0;
+std::optional<double> horizon_s(const results::RunRecord& run) {
+    double lost = 0.0;
+    double all = 0.0;
     double sum_s = 0.0;
     for (const metrics::VehicleRow& vehicle : run.vehicles) {
         if (vehicle.vehicle_class != traffic::VehicleClass::emergency) continue;
-        if (!arrived(vehicle)) {
-            ++lost;
-            continue;
-        }
-        times.push_back(*vehicle.travel_time_s);
-        sum_s += *vehicle.travel_time_s;
+        all += 1.0;
+        if (arrived(vehicle))
+            sum_s += *vehicle.travel_time_s;
+        else
+            lost += 1.0;
     }
-    if (lost == 0) return times;
-    // The restricted mean counts each lost vehicle with the horizon, which a record does not state itself.
-    const double restricted_s = run.metrics.emergency_restricted_travel_time_s.value();
-    const auto all = static_cast<double>(times.size() + lost);
-    const double horizon_s = (restricted_s * all - sum_s) / static_cast<double>(lost);
-    times.insert(times.end(), lost, horizon_s);
+    if (lost == 0.0) return std::nullopt;
+    return (run.metrics.emergency_restricted_travel_time_s.value() * all - sum_s) / lost;
+}
+
+std::vector<double> response_times_s(const results::RunRecord& run) {
+    std::vector<double> times;
+    const std::optional<double> lost_s = horizon_s(run);
+    for (const metrics::VehicleRow& vehicle : run.vehicles)
+        if (vehicle.vehicle_class == traffic::VehicleClass::emergency)
+            times.push_back(arrived(vehicle) ? *vehicle.travel_time_s : lost_s.value());
     return times;
 }
 

@@ -31,6 +31,9 @@ struct ResponseTime {
     MaybeEstimate in_time_difference;
 };
 
+/// The time with which the restricted mean counts an emergency vehicle that did not arrive, s; a record does
+/// not state it. Nothing if all of a run arrived.
+std::optional<double> horizon_s(const results::RunRecord& run);
 /// Travel times of the emergency vehicles of a run, s, those that did not arrive with the horizon.
 std::vector<double> response_times_s(const results::RunRecord& run);
 

@@ -386,6 +386,7 @@ ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEn
         summary.response = response_of(runs, baseline_runs, threshold_s, resamples.level());
         if (baseline == nullptr) continue;
         summary.baseline = baseline->name;
+        summary.met_incident = met_incident(runs, baseline_runs, resamples.level());
         detail::compare_conditions(runs, baseline_runs, *scenario.find(baseline->name), resamples, summary);
         if (solo == conditions.end() || !choices.reference.is_baseline()) continue;
         close_gap(runs, baseline_runs, index.runs(entry.name, solo->name), resamples, summary);

@@ -11,6 +11,7 @@
 #include "analysis/bootstrap.hpp"
 #include "analysis/condition_difference.hpp"
 #include "analysis/estimate.hpp"
+#include "analysis/met_incident.hpp"
 #include "analysis/objections.hpp"
 #include "analysis/response.hpp"
 #include "analysis/traffic.hpp"
@@ -119,6 +120,7 @@ struct ConditionSummary {
     std::vector<IdlePart> idle_parts;       ///< In the order of the policies.
     TravelTimeTail travel_time;
     ResponseTime response;                 ///< Compared with the baseline where there is one.
+    MetIncident met_incident;              ///< Likewise; nobody for baselines.
     std::vector<MetricSummary> metrics;    ///< In the order of `all_metrics()`.
     std::vector<ApproachCost> approaches;  ///< Against the baseline; empty for baselines.
     std::optional<Recovery> recovery;      ///< Likewise.

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "campaign/detail/abort_cure.hpp"
+#include "campaign/detail/run_cost.hpp"
 #include "campaign/detail/way_findings.hpp"
 #include "campaign/printout.hpp"
 #include "core/counted.hpp"
@@ -170,7 +171,7 @@ Printout printout_of(const std::string& scenario, const std::vector<Finding>& fi
     return {.tables = {table}, .text = "\n" + core::wrapped(conclusion_of(scenario, findings), 0) + "\n"};
 }
 
-/// Removes the run folder, and `runs` where nothing else is in it.
+/// Removes the run folder, and the folder of run folders where nothing else is in it.
 void remove_runs(const std::filesystem::path& folder) {
     std::error_code not_empty;
     std::filesystem::remove_all(folder);
@@ -334,6 +335,9 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double a
                                         record->metrics.simulated_s / wall_s)});
         const results::RunTiming timing = store.read_timing(key).value_or(results::RunTiming{});
         findings.push_back({"memory", Grade::ok, fmt::format("{} MiB", timing.peak_kib / 1024)});
+        const std::string& hash = plan.manifest.scenarios.front().configuration_hash;
+        note_cost(options.folder.parent_path(), hash,
+                  CostBook(options.folder).of(scenario, hash, experiment::TrafficModel::standard));
         remove_runs(options.folder);
         if (lock_trials > 0) {
             fmt::print(stderr, "clearway: {} more to look for locks\n",

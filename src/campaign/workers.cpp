@@ -57,18 +57,20 @@ constexpr double usual_run_s = 10.0;
 
 /// Expected wall time of a run in each cell: scenarios in the order of the manifest, with all conditions
 /// each.
-std::vector<double> expected_costs(const study::Plan& plan) {
-    std::vector<double> expected_s;
+std::vector<study::WorkEstimate::Expected> expected_costs(const study::Plan& plan, const CostBook& book) {
+    std::vector<study::WorkEstimate::Expected> expected;
     for (std::size_t row = 0; row < plan.manifest.scenarios.size(); ++row) {
         std::map<experiment::TrafficModel, double> run_s;  // Measured demand is read once, not per condition.
         for (const experiment::ConditionSpec& condition : plan.manifest.conditions) {
             const auto [cost, is_new] = run_s.try_emplace(condition.traffic_model, usual_run_s);
             if (is_new && row < plan.scenarios.size())
-                cost->second = rough_cost(plan.scenarios[row], cost->first).wall_s.value_or(usual_run_s);
-            expected_s.push_back(cost->second);
+                cost->second =
+                    book.of(plan.scenarios[row], plan.manifest.scenarios[row].configuration_hash, cost->first)
+                        .wall_s.value_or(usual_run_s);
+            expected.push_back({cost->second, static_cast<std::size_t>(cost->first)});
         }
     }
-    return expected_s;
+    return expected;
 }
 
 /// The state of one call of `run_units`.
@@ -81,7 +83,7 @@ class Workers : private core::TaskList {
           options_(options),
           on_progress_(on_progress),
           lock_(store.folder()),
-          work_(expected_costs(plan)) {
+          work_(expected_costs(plan, CostBook(store.folder()))) {
         if (options_.worker_program.empty())
             options_.worker_program = core::program_folder() / "clearway-run";
         core::make_folder(store.unit_file("").parent_path());

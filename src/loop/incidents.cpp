@@ -62,7 +62,7 @@ void Incidents::step(sumo::Session& session) {
 }
 
 metrics::IncidentCounts Incidents::counts() const {
-    metrics::IncidentCounts counts{.emergency_met = met_.size(),
+    metrics::IncidentCounts counts{.emergency_met_s = met_s_,
                                    .emergency_turned = turned_.size(),
                                    .emergency_cut_off = cut_off_.size(),
                                    .others_rerouted = rerouted_.size()};
@@ -175,7 +175,8 @@ void Incidents::look_ahead(std::size_t row, core::VehicleIndex vehicle, sumo::Se
     if (route.back() == incident.edge && expected_.contains(key)) return;
     const std::size_t next = snapshot.route_edge[vehicle] + 1;
     const float position_m = snapshot.lane_position_m[vehicle];
-    if (lane.edge == incident.edge && position_m <= incident.position_m) met_.insert(key);
+    if (lane.edge == incident.edge && position_m <= incident.position_m)
+        met_s_.try_emplace(key, snapshot.time.value);
     if (next >= route.size() || route[next - 1] != lane.edge || lane.length_m - position_m > crew_sight_m)
         return;
     const auto ahead = route.begin() + static_cast<std::ptrdiff_t>(next);
@@ -189,7 +190,7 @@ void Incidents::look_ahead(std::size_t row, core::VehicleIndex vehicle, sumo::Se
     if (block != ahead &&
         round_s(row, roads::Driver::emergency, {*ahead, route.back()}, later) != roads::no_way_s)
         return;  // it can turn at a later junction
-    met_.insert(key);
+    met_s_.try_emplace(key, snapshot.time.value);
     if (waiting_.contains(key)) return;
     if (send_round(row, vehicle, session)) {
         turned_.insert(key);

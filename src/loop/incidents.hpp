@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -79,7 +80,8 @@ class Incidents {
     std::vector<State> states_;
     roads::RouteSearch cars_, emergency_;
     double others_looked_at_s_ = -1.0;
-    std::set<core::VehicleKey> met_, turned_, cut_off_, rerouted_, expected_;
+    std::map<core::VehicleKey, double> met_s_;  ///< When they first came to a block.
+    std::set<core::VehicleKey> turned_, cut_off_, rerouted_, expected_;
     std::set<core::VehicleKey> waiting_;  ///< Those cut off who look again when an incident is over.
     std::uint32_t searches_ = 0;
 };

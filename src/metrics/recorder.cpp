@@ -91,6 +91,12 @@ class RowTable {
         }
     }
 
+    void set_met(const std::map<core::VehicleKey, double>& met_s) {
+        for (const auto& [vehicle, time_s] : met_s)
+            if (const auto found = row_of_.find(vehicle); found != row_of_.end())
+                rows_[found->second].incident_met_s = time_s;
+    }
+
     /// SUMO leaves planned stops out of both measures. A stop that a policy commanded is time lost.
     void add_stops(const std::unordered_map<core::VehicleKey, double>& stopped_s) {
         for (const auto& [vehicle, seconds] : stopped_s) {
@@ -383,6 +389,7 @@ RunSummary Recorder::finish(const RunEnd& end) const {
         table.read(file);
     table.set_teleports(state_->teleports);
     table.add_stops(state_->stopped_s);
+    table.set_met(end.incidents.emergency_met_s);
 
     RunSummary summary;
     summary.vehicles = table.take_rows();
@@ -417,7 +424,7 @@ RunSummary Recorder::finish(const RunEnd& end) const {
     metrics.leases_expired = end.leases.expired;
     metrics.commands_skipped = end.leases.commands_skipped;
     metrics.commands_refused = end.leases.commands_refused;
-    metrics.emergency_met_incident = end.incidents.emergency_met;
+    metrics.emergency_met_incident = end.incidents.emergency_met_s.size();
     metrics.emergency_turned_round = end.incidents.emergency_turned;
     metrics.emergency_cut_off = end.incidents.emergency_cut_off;
     metrics.others_rerouted = end.incidents.others_rerouted;

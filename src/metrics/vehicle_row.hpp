@@ -47,6 +47,7 @@ struct VehicleRow {
     std::optional<double> waiting_time_s;
     std::optional<std::uint32_t> waiting_count;
     std::optional<double> route_length_m;
+    std::optional<double> incident_met_s;
 
     bool operator==(const VehicleRow&) const = default;
 
@@ -73,7 +74,10 @@ struct VehicleRow {
                   "tripinfo waitingCount"},
             Field{"route_length_m", "m", &R::route_length_m, 0.0, 1e9, "Distance driven",
                   "tripinfo routeLength"},
-            Field{"teleports", "1", &R::teleports, 0.0, 1e9, "Teleports of this vehicle", "events"});
+            Field{"teleports", "1", &R::teleports, 0.0, 1e9, "Teleports of this vehicle", "events"},
+            Field{"incident_met_s", "s", &R::incident_met_s, 0.0, 1e9,
+                  "When an emergency vehicle first came to a road that an incident closed to it",
+                  "incidents of the scenario"});
     }
 };
 

@@ -159,6 +159,20 @@ Tile time_tile(const TileWords& words, const ConditionFacts& condition, Measure 
     return tile;
 }
 
+std::string asked_words(std::size_t replications) {
+    return replications > most_replications_asked ? fmt::format("more than {}", most_replications_asked)
+                                                  : fmt::format("about {}", replications);
+}
+
+/// `about 24 would show the 5.2 s that are seen, `; empty where these are less than what counts.
+std::string what_shows_the_seen(const analysis::Estimate& difference, double counts_s, Script script) {
+    const double seen_s = std::abs(difference.mean);
+    if (seen_s <= (counts_s > 0.0 ? counts_s : usual_least_relevant_s)) return "";
+    return fmt::format("{} would show the {} s seen, ",
+                       asked_words(analysis::advised_replications(difference.deviation, seen_s)),
+                       number(seen_s, {1, script}));
+}
+
 /// The compared condition with the largest shown gain, else as `featured_condition` says.
 const ConditionFacts* largest_gain(const StudyFacts& study, const ScenarioFacts& scenario) {
     const ConditionFacts* best = nullptr;
@@ -272,6 +286,22 @@ Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& conditi
     return tile;
 }
 
+Tile incident_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+    const analysis::MetIncident& met = condition.met_incident;
+    const MaybeEstimate& difference = met.difference_s;
+    const Effect effect = effect_of(difference, Better::lower, condition.least_relevant(primary));
+    Tile tile{"Those that met the incident",
+              difference ? signed_seconds(difference->mean, script) : missing(script),
+              words_of(effect, "faster trips", "slower trips"), tone_of(effect)};
+    tile.meaning = joined(std::move(tile.meaning), interval_words(difference, script));
+    const ConditionFacts* const baseline = scenario.baseline_of(condition);
+    tile.meaning += fmt::format("; they are {} of {} in {}", grouped(met.vehicles),
+                                counted(condition.emergency.total(), "EV"),
+                                baseline == nullptr ? condition.baseline : baseline->title);
+    tile.meaning += fmt::format("; {} of them meet it with this condition", grouped(met.still));
+    return tile;
+}
+
 Tile others_tile(const ScenarioFacts& /*scenario*/, const ConditionFacts& condition, Script script) {
     Tile tile = time_tile({"Other drivers: time loss", "lose less time each", "lose more time each"},
                           condition, Measure::other_time_loss, script);
@@ -325,11 +355,9 @@ Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, S
             if (needed <= count)
                 return {Badge::Runs::enough,
                         fmt::format("Enough runs: {} would have shown {} s", pairs, least)};
-            const std::string wanted = needed > most_replications_asked
-                                           ? fmt::format("more than {}", most_replications_asked)
-                                           : fmt::format("about {}", needed);
-            return {Badge::Runs::too_few,
-                    fmt::format("Not enough runs: {}; {} would show {} s", pairs, wanted, least)};
+            return {Badge::Runs::too_few, fmt::format("Not enough runs: {}; {}{} would show {} s", pairs,
+                                                      what_shows_the_seen(*difference, counts_s, script),
+                                                      asked_words(needed), least)};
         }
         case Effect::too_few:
             return {Badge::Runs::too_few, fmt::format("Not enough runs: {}, at least {} for any verdict",

@@ -226,13 +226,18 @@ std::string locked_pairs_of(const ConditionFacts& condition, Script script) {
     return pairs.empty() ? pairs : fmt::format("; EV travel time, s: {}", pairs);
 }
 
-/// `3 EVs came to a closed road (baseline: 12); `, or empty where none did in either.
-std::string incidents_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+/// `3 EVs came to a closed road (baseline: 12, whose trips take -9.0 s [-12.0, -6.0]); `, or empty where none
+/// did in either.
+std::string incidents_of(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     const ConditionFacts* const baseline = scenario.baseline_of(condition);
     const std::uint64_t met = condition.count("emergency_met_incident");
     const std::uint64_t met_before = baseline == nullptr ? 0 : baseline->count("emergency_met_incident");
     if (met + met_before == 0) return {};
-    return fmt::format("{} came to a closed road (baseline: {}); ", counted(met, "EV"), met_before);
+    const MaybeEstimate& difference = condition.met_incident.difference_s;
+    const std::string theirs =
+        difference ? fmt::format(", whose trips take {} s", estimate(difference, {1, script, Sign::always}))
+                   : "";
+    return fmt::format("{} came to a closed road (baseline: {}{}); ", counted(met, "EV"), met_before, theirs);
 }
 
 /// What trials of other units and other ways found, or empty without them.
@@ -269,8 +274,8 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     Verdict words = lead(scenario, condition, script);
     words.finding = absent + cut_off_of(condition) + words.finding;
     std::string& text = words.figures;
-    text.insert(
-        0, locks_of(scenario, condition) + incidents_of(scenario, condition) + regrets_of(condition, script));
+    text.insert(0, locks_of(scenario, condition) + incidents_of(scenario, condition, script) +
+                       regrets_of(condition, script));
     const std::string others = analysis::other_objections(condition.objections);
     if (!others.empty()) text += "; " + others;
     if (shown_interval(condition.difference(primary)) != nullptr) text += costs(scenario, condition, script);

@@ -58,7 +58,7 @@ std::optional<double> time_left_s(const results::Store& store, const StudyStatus
         note.started_unix_s;
     const std::size_t ended = status.complete + status.failed;
     if (ended <= note.ended_runs || elapsed_s <= 0.0) return std::nullopt;
-    WorkEstimate work(std::vector<double>(status.cells.size(), 1.0));
+    WorkEstimate work(std::vector<WorkEstimate::Expected>(status.cells.size()));
     for (std::size_t row = 0; row < status.cells.size(); ++row) {
         const CellStatus& cell = status.cells[row];
         const std::optional<double> each_s = run_s(store, cell);

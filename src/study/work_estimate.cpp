@@ -2,26 +2,33 @@
 
 namespace clearway::study {
 
-WorkEstimate::WorkEstimate(std::vector<double> expected_s) {
-    for (const double run_s : expected_s)
-        cells_.push_back({.expected_s = run_s});
+WorkEstimate::WorkEstimate(const std::vector<Expected>& cells) {
+    for (const Expected& expected : cells)
+        cells_.push_back({.expected = expected});
 }
 
 void WorkEstimate::end(std::size_t cell, double wall_s) {
-    ++cells_[cell].ended;
-    cells_[cell].measured_s += wall_s;
-    measured_s_ += wall_s;
-    expected_s_ += cells_[cell].expected_s;
+    Cell& own = cells_[cell];
+    ++own.ended;
+    own.measured_s += wall_s;
+    Ended& alike = ended_[own.expected.kind];
+    alike.measured_s += wall_s;
+    alike.expected_s += own.expected.run_s;
 }
 
 double WorkEstimate::run_s(std::size_t cell) const {
     const Cell& own = cells_[cell];
     if (own.ended > 0) return own.measured_s / static_cast<double>(own.ended);
-    return expected_s_ > 0.0 ? own.expected_s * measured_s_ / expected_s_ : own.expected_s;
+    const auto alike = ended_.find(own.expected.kind);
+    if (alike == ended_.end()) return own.expected.run_s;
+    return own.expected.run_s * alike->second.measured_s / alike->second.expected_s;
 }
 
 double WorkEstimate::done_s() const {
-    return measured_s_;
+    double sum_s = 0.0;
+    for (const auto& [kind, ended] : ended_)
+        sum_s += ended.measured_s;
+    return sum_s;
 }
 
 double WorkEstimate::total_s() const {

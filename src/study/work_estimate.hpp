@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <vector>
 
 namespace clearway::study {
@@ -8,11 +9,15 @@ namespace clearway::study {
 /// How much of the work of a study is done, in wall time of its runs, so that a study whose cheap runs come
 /// first does not promise too early an end. A cell is a scenario under a condition. A run costs what ended
 /// runs of its cell took on average; before that, what was expected of it, corrected by the ratio that ended
-/// runs of other cells have to what was expected of them.
+/// runs of other cells of its kind have to what was expected of them.
 class WorkEstimate {
   public:
-    /// One number for each cell: the expected wall time of a run, s, above 0.
-    explicit WorkEstimate(std::vector<double> expected_s);
+    /// What is expected of a cell.
+    struct Expected {
+        double run_s = 1.0;    ///< Wall time of a run, above 0.
+        std::size_t kind = 0;  ///< Runs of other kinds, such as an empty road's, say nothing about its own.
+    };
+    explicit WorkEstimate(const std::vector<Expected>& cells);
 
     /// A run is to be made.
     void add(std::size_t cell) { ++cells_[cell].runs; }
@@ -28,14 +33,17 @@ class WorkEstimate {
 
   private:
     struct Cell {
-        double expected_s = 0.0;
+        Expected expected;
         std::size_t runs = 0;
         std::size_t ended = 0;
         double measured_s = 0.0;  ///< Of all that have ended.
     };
+    struct Ended {
+        double measured_s = 0.0;
+        double expected_s = 0.0;  ///< Of the same runs.
+    };
     std::vector<Cell> cells_;
-    double measured_s_ = 0.0;
-    double expected_s_ = 0.0;  ///< Of the same runs.
+    std::map<std::size_t, Ended> ended_;  ///< By kind.
 };
 
 }  // namespace clearway::study

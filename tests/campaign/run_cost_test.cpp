@@ -29,5 +29,28 @@ TEST(RunCost, counts_the_departures_of_measured_demand_within_the_window) {
     EXPECT_FALSE(rough_cost(config, experiment::TrafficModel::standard).wall_s);
 }
 
+TEST(RunCost, that_was_noted_is_used_beside_it_for_runs_in_traffic) {
+    const support::TemporaryFolder folder;
+    const scenario::ScenarioConfig config;
+    using experiment::TrafficModel;
+    const auto cost = [&](const std::string& hash, TrafficModel model) {
+        return CostBook(folder.path() / "mine").of(config, hash, model);
+    };
+    note_cost(folder.path(), "a", {.wall_s = 4.5, .disk_bytes = 7.0});
+    note_cost(folder.path(), "b", {.wall_s = 90.0, .disk_bytes = 8.0});
+    note_cost(folder.path(), "b", {.wall_s = 9.0, .disk_bytes = 8.0});
+    EXPECT_EQ(cost("a", TrafficModel::standard).wall_s, 4.5);
+    EXPECT_EQ(cost("b", TrafficModel::sublane).wall_s, 9.0);
+    EXPECT_TRUE(cost("b", TrafficModel::standard).measured);
+    EXPECT_FALSE(cost("b", TrafficModel::free_flow).measured);
+    EXPECT_FALSE(cost("c", TrafficModel::standard).measured);
+    for (const char* const damaged : {"[", "[]", R"({"a": 3})", R"({"a": ["x", 1]})"}) {
+        folder.write("run-costs.json", damaged);
+        EXPECT_FALSE(cost("a", TrafficModel::standard).measured) << damaged;
+    }
+    note_cost(folder.path(), "a", {.wall_s = 1.5, .disk_bytes = 7.0});
+    EXPECT_EQ(cost("a", TrafficModel::standard).wall_s, 1.5);
+}
+
 }  // namespace
 }  // namespace clearway::campaign

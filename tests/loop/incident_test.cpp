@@ -82,6 +82,11 @@ Outcome outcome_of(const test::StudyFolder& folder, const std::string& condition
     return outcome;
 }
 
+bool met_while_it_lasted(const metrics::VehicleRow& vehicle) {
+    return vehicle.vehicle_class == traffic::VehicleClass::emergency &&
+           vehicle.incident_met_s.value_or(0.0) >= from_s && *vehicle.incident_met_s <= to_s;
+}
+
 TEST(IncidentRun, blocks_the_road_until_it_is_over_alike_in_two_conditions) {
     const std::vector<experiment::ConditionSpec> conditions = {
         experiment::built_in_condition("baseline", "test"),
@@ -107,6 +112,9 @@ TEST(IncidentRun, blocks_the_road_until_it_is_over_alike_in_two_conditions) {
         EXPECT_GT(without.farthest_m, outcome.farthest_m + 50.0F);  // nobody gets past the middle
         EXPECT_GE(metrics.emergency_turned_round, 1U);
         EXPECT_GE(metrics.emergency_met_incident, metrics.emergency_turned_round);
+        EXPECT_EQ(
+            static_cast<std::uint64_t>(std::ranges::count_if(outcome.record.vehicles, &met_while_it_lasted)),
+            metrics.emergency_met_incident);
         EXPECT_EQ(metrics.emergency_cut_off, 0U);
         EXPECT_EQ(metrics.emergency_arrived, metrics.emergency_count);
         EXPECT_GE(metrics.others_rerouted, 1U);

@@ -123,6 +123,16 @@ TEST_F(Overview, CountsCollisionsAgainstTheBaseline) {
     EXPECT_THAT(headline(), HasSubstr("more collisions than the baseline"));
 }
 
+TEST_F(Overview, tells_those_apart_that_met_an_incident) {
+    corridor().met_incident = {34, 6, around(-48.0, 12.0)};
+    const Tile tile = incident_tile(scenario_, corridor(), Script::plain);
+    EXPECT_EQ(tile.tone, Tile::Tone::better);
+    EXPECT_EQ(tile.figure, "-48 s");
+    EXPECT_EQ(tile.meaning,
+              "faster trips; 95 % interval -60 to -36 s; they are 34 of 60 EVs in baseline; 6 of "
+              "them meet it with this condition");
+}
+
 TEST_F(Overview, NamesFailedAndMissingRuns) {
     corridor().failed = {{3, "killed"}};
     corridor().missing_runs = 1;
@@ -132,8 +142,13 @@ TEST_F(Overview, NamesFailedAndMissingRuns) {
 TEST_F(Overview, SaysWhetherThereAreEnoughRuns) {
     EXPECT_EQ(badge().runs, Badge::Runs::enough);
     tests::compare(corridor(), around(-2.0, 3.0), around(0.4, 1.0));
+    tests::difference(corridor(), primary)->deviation = 6.4;
     corridor().precision = Precision{{}, 6.4, 160};
     EXPECT_EQ(badge().runs, Badge::Runs::too_few);
+    EXPECT_EQ(
+        badge().words,
+        "Not enough runs: 20 pairs of runs; about 28 would show the 2.0 s seen, about 160 would show 1.0 s");
+    tests::compare(corridor(), around(-0.9, 3.0), around(0.4, 1.0));
     EXPECT_EQ(badge().words, "Not enough runs: 20 pairs of runs; about 160 would show 1.0 s");
     corridor().precision->needed = 20;
     EXPECT_EQ(badge().words, "Enough runs: 20 pairs of runs would have shown 1.0 s");

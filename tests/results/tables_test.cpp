@@ -67,11 +67,12 @@ TEST(Tables, QuoteNamesAndLeaveCellsEmptyForWhatThereIsNot) {
     ASSERT_EQ(lines.size(), 1U + 4U * 3U);
     EXPECT_EQ(lines[0],
               "scenario,condition,replication,id,class,kind,outcome,planned_depart_s,depart_s,depart_delay_s,"
-              "arrival_s,travel_time_s,time_loss_s,waiting_time_s,waiting_count,route_length_m,teleports");
+              "arrival_s,travel_time_s,time_loss_s,waiting_time_s,waiting_count,route_length_m,teleports,"
+              "incident_met_s");
     EXPECT_EQ(lines[1],
               "alpha,baseline,0,\"e,\"\"1\"\"\",emergency,car,arrived,1.25,1.5,0.25,51.6,50.1,"
-              "5.010000000000001,0,3,1234.5,0");
-    EXPECT_EQ(lines[3], "alpha,baseline,0,h2,human,other,not_inserted,0,,,,,,,,,0");
+              "5.010000000000001,0,3,1234.5,0,");
+    EXPECT_EQ(lines[3], "alpha,baseline,0,h2,human,other,not_inserted,0,,,,,,,,,0,");
 }
 
 TEST(Tables, DoNotDependOnTheOrderInWhichRunsEnded) {

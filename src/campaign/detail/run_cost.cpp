@@ -78,6 +78,29 @@ std::optional<double> measured_vehicles(const scenario::ScenarioConfig& config) 
     return count;
 }
 
+fs::path notes_in(const fs::path& runs) {
+    return runs / "run-costs.json";
+}
+
+/// By the hash of a scenario; empty where there are none or where they cannot be read: they are a help alone.
+core::Json read_notes(const fs::path& runs) {
+    const fs::path file = notes_in(runs);
+    if (!fs::exists(file)) return core::Json::object();
+    try {
+        return core::parse_object(core::read_file(file), file.string());
+    } catch (const core::Error&) {
+        return core::Json::object();
+    }
+}
+
+std::optional<RunCost> noted_cost(const core::Json& notes, const std::string& hash) {
+    const auto found = notes.find(hash);
+    if (found == notes.end() || !found->is_array() || found->size() != 2 || !found->front().is_number() ||
+        !found->back().is_number())
+        return std::nullopt;
+    return RunCost{found->front().get<double>(), found->back().get<double>(), true};
+}
+
 bool holds_runs(const fs::path& folder) {
     std::error_code unknown;  // such as a link that leads to itself
     return fs::exists(folder / "manifest.json", unknown) && fs::exists(folder / "runs", unknown);
@@ -102,7 +125,13 @@ RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::TrafficMo
     return cost;
 }
 
-CostBook::CostBook(const fs::path& folder) {
+void note_cost(const fs::path& runs, const std::string& hash, const RunCost& cost) {
+    core::Json notes = read_notes(runs);
+    notes[hash] = {cost.wall_s.value(), cost.disk_bytes};
+    core::write_atomically(notes_in(runs), core::to_text(notes));
+}
+
+CostBook::CostBook(const fs::path& folder) : noted_(read_notes(fs::absolute(folder).parent_path())) {
     std::vector<fs::path> folders;
     std::error_code none;
     for (auto entry = fs::directory_iterator(fs::absolute(folder).parent_path(), none);
@@ -137,6 +166,8 @@ RunCost CostBook::of(const scenario::ScenarioConfig& config, const std::string& 
         const auto runs = static_cast<double>(count);
         return {.wall_s = *sum.wall_s / runs, .disk_bytes = sum.disk_bytes / runs, .measured = true};
     }
+    if (traffic_model != experiment::TrafficModel::free_flow)
+        if (const auto noted = noted_cost(noted_, hash)) return *noted;
     return rough_cost(config, traffic_model);
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/json.hpp"
 #include "experiment/condition.hpp"
 #include "results/store.hpp"
 #include "scenario/config.hpp"
@@ -26,6 +27,10 @@ inline constexpr const char* rough_words =
 /// disk 12 KiB plus 160 bytes per vehicle.
 RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::TrafficModel traffic_model);
 
+/// Notes in a folder of run folders what a run of a scenario in traffic cost, so that forecasts of studies
+/// beside it need not guess. The run itself need not stay: its seed would count as used.
+void note_cost(const std::filesystem::path& runs, const std::string& hash, const RunCost& cost);
+
 /// Costs of runs, estimated from those in a run folder and its neighbours.
 class CostBook {
   public:
@@ -33,12 +38,13 @@ class CostBook {
     explicit CostBook(const std::filesystem::path& folder);
 
     /// Mean over the first ten runs of this scenario (by its hash in the manifest) with this traffic model.
-    /// Without such runs, `rough_cost`.
+    /// Without such runs, what `note_cost` noted; without that, `rough_cost`.
     RunCost of(const scenario::ScenarioConfig& config, const std::string& hash,
                experiment::TrafficModel traffic_model) const;
 
   private:
     std::vector<results::Store> stores_;
+    core::Json noted_;
 };
 
 }  // namespace clearway::campaign
