@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "analysis/met_incident.hpp"
 #include "results/synthetic.hpp"
 
 namespace clearway::analysis {
