@@ -6,11 +6,12 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "roads/signal_name.hpp"
 
 namespace clearway::experiment {
 namespace {
 
-constexpr const char* allowed = "ids of signals separated by commas, all or none";
+constexpr const char* allowed = "ids or numbers (#7) of signals separated by commas, all or none";
 
 std::vector<std::string> ids_in(const std::string& text) {
     std::vector<std::string> ids;
@@ -45,16 +46,10 @@ std::vector<bool> equipped_signals(const ConditionSpec& condition, const roads::
     if (set->second == none_equipped) return equipped;
     const std::string where = fmt::format("condition {}: {}", condition.name, equipped_setting);
     std::vector<core::Problem> problems = check_equipped(set->second, where);
-    const std::vector<std::string> known = core::texts_of(network.signals(), &roads::Signal::id);
-    for (const std::string& id : ids_in(set->second)) {
-        if (id.empty()) continue;
-        if (const auto signal = network.find_signal(id)) {
+    for (const std::string& name : ids_in(set->second)) {
+        if (name.empty()) continue;
+        if (const auto signal = roads::named_signal(network, name, where, problems))
             equipped[signal->value] = true;
-            continue;
-        }
-        problems.push_back(
-            {where, fmt::format("the network has no signal \"{}\"", id), allowed,
-             core::did_you_mean(id, known, "`clearway scenario signals SCENARIO` lists them")});
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
     return equipped;

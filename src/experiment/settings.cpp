@@ -41,15 +41,16 @@ constexpr const char* equipped_field = "equipped";
 /// The numbers of actuation, and the text that says which signals take part.
 core::SettingsTable actuation_table() {
     core::SettingsTable table = core::settings_table<actuation::ActuatorConfig>();
-    table.rows.push_back({equipped_field,
-                          "",
-                          0.0,
-                          0.0,
-                          {},
-                          all_equipped,
-                          "Signals that take part in policies: their ids separated by commas, `all` or "
-                          "`none`. The others receive no request and keep their programs",
-                          "all: as in all results that do not name it"});
+    table.rows.push_back(
+        {equipped_field,
+         "",
+         0.0,
+         0.0,
+         {},
+         all_equipped,
+         "Signals that take part in policies: ids or numbers (#7), comma-separated, `all` or "
+         "`none`. The others receive no request and keep their programs",
+         "all: as in all results that do not name it"});
     table.check = [](const core::Settings& settings, const std::string& where) {
         core::Settings numbers = settings;
         std::vector<core::Problem> problems;

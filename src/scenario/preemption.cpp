@@ -1,6 +1,7 @@
 #include "scenario/preemption.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "core/files.hpp"
 #include "core/number.hpp"
 #include "roads/own_clearance.hpp"
+#include "roads/signal_name.hpp"
 #include "traffic/signal.hpp"
 
 namespace clearway::scenario {
@@ -234,17 +236,17 @@ PreemptionRows read_preemption_rows(const std::filesystem::path& file, std::vect
 std::vector<Preemption> preemption_of(const PreemptionRows& rows, const std::filesystem::path& file,
                                       const roads::Network& network) {
     std::vector<Problem> problems;
-    const std::vector<std::string> known = core::texts_of(network.signals(), &roads::Signal::id);
     std::vector<Preemption> signals(network.signals().size());
+    std::map<std::size_t, std::size_t> lines;  // by signal
     for (const auto& [id, row] : rows) {
         const std::string where = fmt::format("{}:{}", file.string(), row.line);
-        const auto signal = network.find_signal(id);
-        if (!signal) {
+        const auto signal =
+            roads::named_signal(network, id, fmt::format("{}: {}", where, name_column), problems);
+        if (!signal) continue;
+        if (const auto [other, is_new] = lines.try_emplace(signal->value, row.line); !is_new)
             problems.push_back({fmt::format("{}: {}", where, name_column),
-                                fmt::format("the network has no signal '{}'", id), "ids of its signals",
-                                core::did_you_mean(id, known)});
-            continue;
-        }
+                                fmt::format("'{}' is the signal of line {}", id, other->second),
+                                "one row for each signal", "remove one of the rows"});
         check(row.values, where, network.signal(*signal), problems);
         signals[signal->value] = row.values;
     }

@@ -16,7 +16,7 @@ struct PreemptionRow {
     traffic::Preemption values;
     std::size_t line = 0;  ///< In the file, from 1.
 };
-/// By id of the signal.
+/// By the name of the signal in the file (roads::named_signal).
 using PreemptionRows = std::map<std::string, PreemptionRow>;
 
 /// Reads a CSV with one row for each signal: `signal` and the fields of traffic::Preemption, all of them, in

@@ -1,5 +1,6 @@
 #include "pipeline/decision_chain.hpp"
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
+#include "experiment/equipped_signals.hpp"
 #include "prediction/predictor.hpp"
 #include "support/ascii_scene.hpp"
 
@@ -127,6 +129,16 @@ TEST_P(EquippedSignals, AloneTakePartInPolicies) {
 
 INSTANTIATE_TEST_SUITE_P(Policies, EquippedSignals,
                          ::testing::Values("recover_signals", "preempt_signals", "green_wave", "corridor"));
+
+TEST(EquippedSignalsOfACondition, CanBeNamedByTheirNumbers) {
+    experiment::ConditionSpec condition;
+    condition.settings["actuation.equipped"] = "#1";
+    const support::Scene scene(before_red);
+    const std::vector<bool> equipped = experiment::equipped_signals(condition, scene.network());
+    ASSERT_FALSE(equipped.empty());
+    EXPECT_TRUE(equipped[0]);
+    EXPECT_EQ(std::ranges::count(equipped, true), 1);
+}
 
 TEST(EquippedSignalsOfACondition, MustBeInTheNetwork) {
     experiment::ConditionSpec condition;

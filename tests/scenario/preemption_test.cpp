@@ -66,6 +66,11 @@ TEST_F(PreemptionFile, that_is_written_reads_back_the_same) {
     EXPECT_EQ(read(preemption_csv(crossings(), signals)), signals);
 }
 
+TEST_F(PreemptionFile, may_name_signals_by_their_numbers_but_each_once) {
+    EXPECT_EQ(read(std::string(header) + "#2,,,,,,,12,,,,\n")[1], (traffic::Preemption{.dwell_s = 12.0}));
+    EXPECT_THAT(refusal("#2,,,,,,,,,,,\nB,,,,,,,,,,,\n"), HasSubstr("is the signal of line"));
+}
+
 TEST_F(PreemptionFile, for_a_signal_that_does_not_exist_names_the_nearest) {
     const auto file = write("preemption.csv", std::string(header) + "A,,,,,,,,,,,\nBB,,,,,,,,,,,\n");
     const std::string text = refusal("A,,,,,,,,,,,\nBB,,,,,,,,,,,\n");
