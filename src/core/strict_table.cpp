@@ -1,5 +1,8 @@
 #include "core/strict_table.hpp"
 
+#include <regex>
+#include <sstream>
+
 #include <fmt/format.h>
 
 #include "core/toml_levels.hpp"
@@ -23,6 +26,31 @@ const char* type_word(const toml::node& node) {
         default:
             return "another type";
     }
+}
+
+/// What to do about an error at this line, of which `what` is the parser's word.
+std::string cure_of_line(const std::string& line, const std::string& what) {
+    constexpr const char* usual = "Correct this line; texts stand in quotes";
+    constexpr std::size_t longest = 200;  // std::regex recurses for each letter
+    if (line.size() > longest) return usual;
+    static const std::regex comma(R"(=\s*([+-]?\d+),(\d+)\s*(#.*)?$)");
+    static const std::regex table(R"(^\s*\[\s*([\w.-]+)\s*\])");
+    std::smatch found;
+    if (std::regex_search(line, found, comma))
+        return fmt::format("Write {}.{}: decimals have a point", found.str(1), found.str(2));
+    if (what.find("redefine") != std::string::npos && std::regex_search(line, found, table))
+        return fmt::format("Write [[{}]], with two brackets, if there may be several; else join the two",
+                           found.str(1));
+    return usual;
+}
+
+std::string line_of(const std::string& text, std::size_t number) {
+    std::istringstream lines(text);
+    std::string line;
+    for (std::size_t at = 0; at < number && std::getline(lines, line); ++at) {
+    }
+    if (line.ends_with('\r')) line.pop_back();
+    return line;
 }
 
 }  // namespace
@@ -157,7 +185,12 @@ std::vector<const toml::table*> StrictTable::tables(const std::string& key) {
     if (node == nullptr) return result;
     const toml::array* array = node->as_array();
     if (array == nullptr || !array->is_array_of_tables()) {
-        wrong_type(*node, key, "an array of tables, [[...]]");
+        const char* const wanted = "an array of tables, [[...]]";
+        if (node->is_table())
+            problem(key, "is a table", wanted,
+                    fmt::format("Write [[{}]], with two brackets, before each", full(key)));
+        else
+            wrong_type(*node, key, wanted);
         return result;
     }
     for (const toml::node& element : *array)
@@ -190,9 +223,9 @@ toml::table parse_toml(const std::string& text, const std::string& file) {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
         const toml::source_position place = error.source().begin;
-        throw InputError({fmt::format("{}:{}:{}", file, place.line, place.column),
-                          std::string(error.description()), "a TOML file",
-                          "Correct this line; texts stand in quotes"});
+        const std::string what(error.description());
+        throw InputError({fmt::format("{}:{}:{}", file, place.line, place.column), what, "a TOML file",
+                          cure_of_line(line_of(text, place.line), what)});
     }
 }
 

@@ -1,0 +1,38 @@
+#include <gmock/gmock.h>
+
+#include "core/strict_table.hpp"
+#include "support/message_of.hpp"
+
+namespace clearway::core {
+namespace {
+
+using support::message_of;
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string refusal(const std::string& text) {
+    return message_of([&] { parse_toml(text, "city.toml"); });
+}
+
+TEST(TomlErrors, TellHowToWriteADecimalComma) {
+    EXPECT_THAT(refusal("name = \"x\"\nlatitude = 43,7\n"),
+                AllOf(HasSubstr("city.toml:2:"), HasSubstr("Write 43.7: decimals have a point")));
+    EXPECT_THAT(refusal("x = -0,25  # west\r\n"), HasSubstr("Write -0.25"));
+    EXPECT_THAT(refusal("x = y\n"), HasSubstr("texts stand in quotes"));
+}
+
+TEST(TomlErrors, TellThatRowsHaveTwoBrackets) {
+    EXPECT_THAT(refusal("[incident]\nedge = \"a\"\n[incident]\nedge = \"b\"\n"),
+                HasSubstr("Write [[incident]], with two brackets"));
+    TomlReading reading;
+    reading.file = "city.toml";
+    const toml::table table = parse_toml("[emergency_site]\nkind = \"hospital\"\n", "city.toml");
+    StrictTable root(table, "", reading);
+    EXPECT_TRUE(root.rows("emergency_site").empty());
+    ASSERT_EQ(reading.problems.size(), 1U);
+    EXPECT_THAT(format_problem(reading.problems.front()),
+                AllOf(HasSubstr("is a table"), HasSubstr("Write [[emergency_site]], with two brackets")));
+}
+
+}  // namespace
+}  // namespace clearway::core
