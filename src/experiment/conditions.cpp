@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "failures/failure_config.hpp"
+#include "policy/policy.hpp"
+#include "prediction/predictor.hpp"
 
 namespace clearway::experiment {
 namespace {
@@ -55,6 +58,22 @@ std::vector<BuiltInCondition> make_conditions() {
     };
 }
 
+/// `--policy navigate`, or as a study file has it, for a part of a condition; empty for what is none.
+std::string part_words(const std::string& name, bool on_command_line) {
+    const auto words = [&](const char* option, const char* in_file) {
+        return on_command_line ? fmt::format("--{} {}", option, name)
+                               : fmt::format(fmt::runtime(in_file), name);
+    };
+    if (policy::policies().find(name) != nullptr)
+        return words("policy", "[[condition]] with policies = [\"{}\"]");
+    if (prediction::predictors().find(name) != nullptr)
+        return words("predictor", "[[condition]] with predictor = \"{}\"");
+    const auto presets = failures::failure_presets();
+    if (std::ranges::find(presets, name, &failures::FailurePreset::name) != presets.end())
+        return words("failure", "[[condition]] with failure = \"{}\"");
+    return "";
+}
+
 }  // namespace
 
 const std::vector<BuiltInCondition>& built_in_conditions() {
@@ -74,6 +93,9 @@ ConditionSpec built_in_condition(const std::string& name, const std::string& whe
         if (known.condition.name == name) return known.condition;
         names.push_back(known.condition.name);
     }
+    if (const std::string words = part_words(name, where == "--condition"); !words.empty())
+        throw core::InputError({where, fmt::format("'{}' is a part of conditions, and no condition", name),
+                                core::listed(names), "Use " + words});
     throw core::InputError(
         {where, fmt::format("'{}' is not a built-in condition", name), core::listed(names),
          core::did_you_mean(

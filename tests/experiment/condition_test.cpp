@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
 #include "experiment/condition_json.hpp"
+#include "experiment/conditions.hpp"
+#include "support/message_of.hpp"
 
 namespace clearway::experiment {
 namespace {
@@ -19,6 +21,19 @@ TEST(ConditionSpec, is_stored_with_its_settings_where_it_has_any) {
     std::vector<core::Problem> problems;
     EXPECT_EQ(condition_from(to_json(condition), "here", problems), condition);
     EXPECT_TRUE(problems.empty());
+}
+
+TEST(BuiltInConditions, AreNotTheirPartsWhoseOptionIsNamed) {
+    const auto refusal = [](const std::string& name, const std::string& where) {
+        return support::message_of([&] { built_in_condition(name, where); });
+    };
+    using ::testing::HasSubstr;
+    EXPECT_THAT(refusal("navigate", "--condition"), HasSubstr("Use --policy navigate"));
+    EXPECT_THAT(refusal("dead_reckoning", "--condition"), HasSubstr("Use --predictor dead_reckoning"));
+    EXPECT_THAT(refusal("B10", "--condition"), HasSubstr("Use --failure B10"));
+    EXPECT_THAT(refusal("navigate", "my.toml: conditions"),
+                HasSubstr("Use [[condition]] with policies = [\"navigate\"]"));
+    EXPECT_THAT(refusal("corridr", "--condition"), HasSubstr("Did you mean 'corridor'?"));
 }
 
 }  // namespace
