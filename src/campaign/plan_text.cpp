@@ -175,6 +175,16 @@ Printout plan_printout(const study::Plan& plan, const std::filesystem::path& fol
             text};
 }
 
+core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, RunOptions options) {
+    config.replications = replications_so_far(config, options.folder);
+    study::Plan plan = plan_for(config, options);
+    study::check_roads(plan);
+    study::keep_shard(plan, shard);
+    results::Store::require_fits(options.folder, plan.manifest);
+    print(plan_printout(plan, options.folder, options.workers), options.publish.printing);
+    return core::ExitCode::ok;
+}
+
 std::optional<double> estimated_time_left_s(const study::Plan& plan, const std::filesystem::path& folder,
                                             unsigned workers) {
     return rest_of(cells_of(plan, folder), workers).wall_s;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "campaign/plan_text.hpp"
 #include "campaign/shown_run.hpp"
 #include "campaign/study_run.hpp"
 #include "cli/detail/app.hpp"
@@ -32,7 +33,8 @@ struct Arguments {
     campaign::RunOptions run;
     scenario::Options options;
     bool is_shown = false;
-    double delay_ms = 50.0;  ///< With steps of 0.25 s: five times real time.
+    bool is_planned = false;  ///< Only.
+    double delay_ms = 50.0;   ///< With steps of 0.25 s: five times real time.
     std::string window_settings;
 };
 
@@ -78,6 +80,7 @@ core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
         return study;
     };
     const std::vector<experiment::ConditionSpec> chosen = chosen_conditions(arguments.conditions);
+    if (arguments.is_planned) return campaign::print_plan(study_of(chosen), {}, options);
     if (!arguments.is_shown) return campaign::run_study(study_of(chosen), options);
     const experiment::ConditionSpec shown = shown_condition(chosen, "--gui");
     const experiment::WindowSpec window{.delay_s = arguments.delay_ms / 1000.0,
@@ -88,9 +91,10 @@ core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
 
 void add_window_options(App& app, const std::shared_ptr<Arguments>& arguments) {
     const OptionGroup group(app, "A window");
-    const Option gui = app.add_flag(
-        "--gui", arguments->is_shown,
-        fmt::format("Show the first seed of one condition [{}] in sumo-gui", experiment::usual_condition));
+    const Option gui = app.add_flag("--gui", arguments->is_shown,
+                                    fmt::format("Show the first seed of one condition [{}] in sumo-gui",
+                                                experiment::usual_condition))
+                           .excludes("--dry-run");
     constexpr double longest_delay_ms = 60000.0;
     app.add_option("--gui-delay", arguments->delay_ms,
                    "Minimum wall time per step, from a minute before the first emergency vehicle, ms")
@@ -117,6 +121,8 @@ Action configure_run(App& app) {
     app.add_option("--out", arguments->run.folder,
                    "Run folder; a study that was interrupted there is continued")
         .option_text("DIR [runs/SCENARIO-xxxxxx, a hash of what is run]");
+    app.add_flag("--dry-run", arguments->is_planned,
+                 "Print cells, runs, estimated time and disk, and run nothing [off]");
     add_jobs_option(app, arguments->run.workers);
     add_record_option(app, arguments->run.recording);
     add_limit_options(app, arguments->run.limits);

@@ -25,16 +25,6 @@ struct Arguments {
     campaign::RunOptions run;
 };
 
-core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, campaign::RunOptions run) {
-    config.replications = campaign::replications_so_far(config, run.folder);
-    study::Plan plan = campaign::plan_for(config, run);
-    study::check_roads(plan);
-    study::keep_shard(plan, shard);
-    results::Store::require_fits(run.folder, plan.manifest);
-    campaign::print(campaign::plan_printout(plan, run.folder, run.workers), run.publish.printing);
-    return core::ExitCode::ok;
-}
-
 core::ExitCode run_study(const Arguments& arguments, const Invocation& invocation) {
     study::Shard shard;
     if (!arguments.shard.empty()) shard = study::shard_from(arguments.shard, "--shard");
@@ -44,7 +34,7 @@ core::ExitCode run_study(const Arguments& arguments, const Invocation& invocatio
     run.command = invocation.command;
     if (run.folder.empty()) run.folder = "runs/" + config.name;
     campaign::check_seed(config, arguments.file, run.folder);
-    if (arguments.mode == Mode::dry_run) return print_plan(config, shard, run);
+    if (arguments.mode == Mode::dry_run) return campaign::print_plan(config, shard, run);
     if (!shard.whole()) return campaign::run_shard(config, shard, run);
     study::claim(run.folder, shard);
     return campaign::run_study(config, run);

@@ -452,6 +452,16 @@ TEST_F(RunTest, terminated_it_exits_with_143_and_continues_to_the_same_result) {
     interrupt_and_resume(SIGTERM, 143);
 }
 
+TEST_F(RunTest, its_plan_can_be_seen_before) {
+    const Ended plan = clearway({"run", "./line", "--seeds", "2", "--dry-run", "--json"});
+    ASSERT_EQ(plan.code, 0) << plan.err;
+    const auto json = nlohmann::json::parse(plan.out);
+    EXPECT_EQ(json.at("runs"), 6) << "baseline, corridor and solo";
+    EXPECT_GT(json.at("estimated_time_left_s"), 0.0);
+    EXPECT_FALSE(std::filesystem::exists(folder() / "runs"));
+    EXPECT_NE(clearway({"run", "./line", "--dry-run", "--gui"}).code, 0);
+}
+
 TEST_F(RunTest, a_study_file_runs_and_its_plan_can_be_seen_before) {
     write("my.toml",
           "name = \"mine\"\nreplications = 2\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n"
