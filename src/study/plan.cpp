@@ -27,10 +27,10 @@ constexpr const char* network_name = "network";
 constexpr const char* scenario_file_name = "scenario.toml";
 
 void check_name(const std::string& what, const std::string& name, std::set<std::string>& seen,
-                std::vector<core::Problem>& problems) {
+                std::vector<core::Problem>& problems, const char* cure = "Rename one") {
     core::check_folder_name(what, name, problems);
     if (!seen.insert(name).second)
-        problems.push_back({what, fmt::format("\"{}\" is used twice", name), "each name once", "Rename one"});
+        problems.push_back({what, fmt::format("\"{}\" is used twice", name), "each name once", cure});
 }
 
 void check_condition_name(const experiment::ConditionSpec& condition, std::set<std::string>& seen,
@@ -79,7 +79,9 @@ void check(const StudyConfig& config) {
     if (!is_of_scenario) check_name("study", config.name, studies, problems);
     std::set<std::string> scenarios;
     for (const scenario::ScenarioConfig& scenario : config.scenarios)
-        check_name("scenario", scenario.name, scenarios, problems);
+        check_name("scenario", scenario.name, scenarios, problems,
+                   "Change `name` in the scenario.toml of one (a copied folder keeps `name`), or name one in "
+                   "[[scenario]]");
     std::set<std::string> conditions;
     for (const experiment::ConditionSpec& condition : config.conditions)
         check_condition_name(condition, conditions, problems);

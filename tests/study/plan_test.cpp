@@ -82,6 +82,7 @@ TEST(Plan, RefusesNamesThatAreTwiceOrNoFolders) {
     config.scenarios[1].name = "alpha";
     config.conditions[1].name = "../up";
     EXPECT_THAT(problems_of(config), testing::AllOf(testing::HasSubstr("\"alpha\" is used twice"),
+                                                    testing::HasSubstr("a copied folder keeps `name`"),
                                                     testing::HasSubstr("\"../up\" cannot be the name")));
 }
 
