@@ -25,12 +25,14 @@ double share(std::uint64_t part, std::uint64_t whole) {
     return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// `--density 0.45`, which multiplies the scenario's own. Measured demand cannot grow.
+/// `--density 0.45`, and how to keep it, which multiplies the scenario's own. Measured demand cannot grow.
 std::string density_advice(const Checked& checked, double factor) {
     if (checked.config.measured && checked.config.demand.density * factor > 1.0)
         return "measured demand cannot be made denser";
     const double density = checked.asked_density * factor;
-    return fmt::format("--density {:.{}f}", density, density < 1.0 ? 2 : 1);
+    return fmt::format(
+        "--density {:.{}f} (to keep it, multiply demand.density in scenario.toml, or else 1, by it)", density,
+        density < 1.0 ? 2 : 1);
 }
 
 Finding insertion_finding(const metrics::RunMetrics& run, const std::string& less) {
