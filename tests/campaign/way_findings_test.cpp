@@ -66,7 +66,8 @@ TEST(SiteFindings, name_the_road_of_coordinates) {
     const auto sites = std::ranges::find(found, "sites", &Finding::name);
     ASSERT_NE(sites, found.end());
     EXPECT_THAT(sites->text,
-                testing::MatchesRegex("by coordinates: fire_station \"New post\" on .*\\(?edge [^ ]+\\)?"));
+                testing::MatchesRegex("by coordinates: fire_station \"New post\" on .*\\(?edge [^ ]+\\)?, "
+                                      "[0-9]+ m from the coordinates"));
 }
 
 TEST_F(WayFindings, name_those_whom_an_incident_cuts_off) {

@@ -9,8 +9,11 @@
 #include "core/counted.hpp"
 #include "core/error.hpp"
 #include "roads/closure.hpp"
+#include "roads/geography.hpp"
+#include "roads/lane_grid.hpp"
 #include "roads/route_search.hpp"
 #include "scenario/fleet.hpp"
+#include "scenario/site.hpp"
 
 namespace clearway::campaign::detail {
 namespace {
@@ -114,20 +117,39 @@ Finding call_finding(roads::RouteSearch& search, const scenario::Calls& calls,
                         core::counted(calls.stations.size(), "station"), differing)};
 }
 
+/// From the coordinates of a site to its edge.
+double distance_m(const scenario::EmergencySite& site, core::EdgeIndex edge, const roads::Network& network,
+                  const roads::LaneGrid& lanes) {
+    const auto geography = roads::Geography::of(network.location());
+    std::vector<roads::LanePlace> places;
+    lanes.near(geography.value().point({*site.longitude, *site.latitude}), scenario::SiteRoads::reach,
+               places);
+    std::erase_if(places, [&](const auto& each) { return network.lane(each.lane).edge != edge; });
+    return std::ranges::min(places, {}, &roads::LanePlace::distance_m).distance_m;
+}
+
 /// Where sites lie that are given by coordinates.
 Finding site_finding(const scenario::ScenarioConfig& config, const roads::Network& network) {
     std::vector<core::Problem> problems;
     const std::vector<core::EdgeIndex> edges = scenario::site_edges(config, network, problems);
     if (!problems.empty()) throw core::InputError(std::move(problems));
+    constexpr double far_m = 100.0;  // Assumed: the width of a large site and its yard.
+    const roads::LaneGrid lanes(network);
+    Grade grade = Grade::ok;
     std::vector<std::string> places;
     for (std::size_t row = 0; row < edges.size(); ++row) {
         const scenario::EmergencySite& site = config.emergency_sites[row];
         if (!site.longitude) continue;
-        places.push_back(fmt::format("{}{} on {}", core::name(site.kind),
+        const double away_m = distance_m(site, edges[row], network, lanes);
+        if (away_m > far_m) grade = Grade::note;
+        places.push_back(fmt::format("{}{} on {}, {:.0f} m from the coordinates", core::name(site.kind),
                                      site.name.empty() ? "" : fmt::format(" \"{}\"", site.name),
-                                     road_words(network.edge(edges[row]))));
+                                     road_words(network.edge(edges[row])), away_m));
     }
-    return {"sites", Grade::ok, fmt::format("by coordinates: {}", core::listed(places))};
+    return {"sites", grade, fmt::format("by coordinates: {}", fmt::join(places, "; ")),
+            grade == Grade::ok ? ""
+                               : "one is more than 100 m from its road: check its coordinates, or give its "
+                                 "edge"};
 }
 
 /// SUMO takes a vehicle past the jam in which it has stood for long.
