@@ -157,6 +157,7 @@ std::vector<LegendEntry> entries_of(const RoadMap& roads, const ScenarioMap& map
     if (!roads.incidents.empty()) entries.push_back({no_entry(20.0, 5.0), "road blocked for a while"});
     if (!roads.calls.empty())
         entries.push_back({"<circle class=\"call\" cx=\"20\" cy=\"6\" r=\"5\"/>", "EVs are called here"});
+    if (!roads.stations.empty()) entries.push_back({station_sign, "station"});
     if (losing)
         entries.push_back({"<path class=\"losing\" d=\"M20 10l5 -9h-10z\"/>", "others lose time here"});
     return entries;
@@ -177,6 +178,7 @@ Figure gain_map_figure(const ScenarioFacts& scenario) {
     draw_locks(canvas, roads, map);
     draw_incidents(canvas, roads);
     draw_calls(canvas, roads);
+    canvas.stations(roads);
     const std::vector<const analysis::ApproachCost*> losing = losing_approaches(condition);
     for (std::size_t row = 0; row < std::min(losing.size(), drawn_losses); ++row) {
         if (const auto edge = roads.find_edge(losing[row]->edge)) draw_loss(canvas, roads.edges[*edge]);

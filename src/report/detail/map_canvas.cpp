@@ -92,6 +92,20 @@ void MapCanvas::scale_bar() {
          Anchor::start, "tick");
 }
 
+void MapCanvas::stations(const RoadMap& map) {
+    constexpr std::size_t letters = 24;
+    for (const MapStation& station : map.stations) {
+        const auto edge = map.find_edge(station.edge);
+        if (!edge || map.edges[*edge].shape.empty()) continue;
+        const auto [x, y] = place(map.edges[*edge].shape.front());
+        add(fmt::format("<path class=\"station\" d=\"M{:.1f} {:.1f}l6 6l-6 6l-6 -6z\"/>\n", x, y - 6.0));
+        const bool is_left = x < 0.6 * width;
+        if (!station.name.empty())
+            text(is_left ? x + 9.0 : x - 9.0, y + 4.0, shortened(station.name, letters),
+                 is_left ? Anchor::start : Anchor::end, "rank");
+    }
+}
+
 void MapCanvas::credit(const std::string& words) {
     const auto line = [&](double above, const std::string& part) {
         text(width - margin, frame_.height - 6.0 - above, part, Anchor::end, "tick");

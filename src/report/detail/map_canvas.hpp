@@ -21,6 +21,8 @@ class MapCanvas : public Canvas {
     /// In figure units.
     std::pair<double, double> place(const MapPlace& place) const;
     void scale_bar();
+    /// A diamond at the start of the edge of each station, with its name.
+    void stations(const RoadMap& map);
     /// What the map's data requires, below the scale bar; nothing where it is empty.
     void credit(const std::string& words);
     /// Of the drawing, scale bar included, in figure units.
@@ -40,6 +42,9 @@ class MapCanvas : public Canvas {
 
     Frame frame_;
 };
+
+/// The sign of a station in a legend.
+inline constexpr const char* station_sign = "<path class=\"station\" d=\"M20 -1l6 6l-6 6l-6 -6z\"/>";
 
 /// Whether there is something to draw.
 bool is_drawable(const RoadMap& map);

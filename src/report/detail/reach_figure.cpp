@@ -73,13 +73,9 @@ Figure reach_figure(const ScenarioFacts& scenario) {
     canvas.edges(reached.both, "way reached");
     canvas.edges(reached.lost, "way worse much");
     canvas.edges(reached.gained, "way better much");
-    for (const std::size_t start : reach.starts) {
-        const auto [x, y] = canvas.place(roads.edges[start].shape.front());
-        canvas.add(
-            fmt::format("<path class=\"station\" d=\"M{:.1f} {:.1f}l6 6l-6 6l-6 -6z\"/>\n", x, y - 6.0));
-    }
+    canvas.stations(roads);
     canvas.scale_bar();
-    std::vector<LegendEntry> entries = {{"<path class=\"station\" d=\"M20 -1l6 6l-6 6l-6 -6z\"/>", "station"},
+    std::vector<LegendEntry> entries = {{station_sign, "station"},
                                         stripe_entry("way reached", "reached without and with"),
                                         stripe_entry("way better much", "reached only with it")};
     if (!reached.lost.empty()) entries.push_back(stripe_entry("way worse much", "reached only without it"));
