@@ -17,6 +17,7 @@
 #include "campaign/names.hpp"
 #include "campaign/printout.hpp"
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/leftovers.hpp"
 #include "core/own_output.hpp"
 #include "core/progress.hpp"
@@ -201,6 +202,7 @@ report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipReq
     facts.replications = config.replications;
     facts.budget = request.budget;
     facts.signals = signals.built.network.signals().size();
+    facts.met = signals.candidates.met;
     facts.not_passed = signals.candidates.not_passed;
     facts.switched_off = signals.candidates.switched_off;
     facts.equipped_today = signals.ids_of_today();
@@ -349,14 +351,18 @@ core::ExitCode equip_dry_run(EquipRequest request) {
                                 ? fmt::format(" The budget is {}, and {} could gain.", request.budget,
                                               report::counted(candidates, "signal"))
                                 : "";
+    const report::SignalsMet& met = search.signals.candidates.met;
     print({{{"folder", request.run.folder.string()},
+            {"share_of_trips_with_signals", core::to_json_value(met.share())},
+            {"signals_per_trip", core::to_json_value(met.mean())},
             {"candidates", candidates},
             {"runs", runs.likely()},
             {"most_runs", runs.most()},
             {"estimated_time_s", seconds(runs.likely())},
             {"estimate_measured", cost.measured}},
            {table},
-           core::wrapped(size + few, 0) + "\n" + core::wrapped(time, 0) + "\n"},
+           core::wrapped(size + few, 0) + "\n" + core::wrapped(time, 0) + "\n",
+           core::wrapped(met.words(), 0) + "\n\n"},
           request.run.publish.printing);
     return core::ExitCode::ok;
 }

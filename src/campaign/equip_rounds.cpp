@@ -142,6 +142,7 @@ std::size_t count_of(const std::map<analysis::SignalSet, std::set<std::uint32_t>
 EquipCandidates equip_candidates(const study::StudyConfig& config, const scenario::BuiltNetwork& built,
                                  const std::vector<bool>& today, std::size_t most) {
     const Crossings crossings = crossings_of(built.network);
+    EquipCandidates candidates;
     std::map<core::SignalIndex, std::size_t> trips;  // of emergency vehicles that pass
     std::vector<std::set<core::SignalIndex>> passed(config.replications);
     std::vector<std::vector<core::SignalIndex>> ways;
@@ -153,11 +154,11 @@ EquipCandidates equip_candidates(const study::StudyConfig& config, const scenari
         for (const traffic::EmergencyDeparture& departure : prepared.emergency) {
             const std::vector<core::SignalIndex>& way = ways.emplace_back(passed_by(departure, crossings));
             passed[replication].insert(way.begin(), way.end());
+            candidates.met.add(way.size());
             for (const core::SignalIndex signal : way)
                 ++trips[signal];
         }
     }
-    EquipCandidates candidates;
     candidates.not_passed = built.network.signals().size() - trips.size();
     candidates.switched_off = std::erase_if(trips, [&](const auto& one) {
         return !built.preemption.empty() && built.preemption[one.first.value].enabled.value_or(1) == 0;

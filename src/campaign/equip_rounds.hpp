@@ -14,6 +14,7 @@
 #include "campaign/study_run.hpp"
 #include "core/progress.hpp"
 #include "experiment/condition.hpp"
+#include "report/equipment.hpp"
 #include "results/store.hpp"
 #include "roads/network.hpp"
 #include "scenario/network.hpp"
@@ -29,6 +30,7 @@ struct EquipCandidates {
     std::vector<double> trips;  ///< By candidate: share of the emergency vehicles that pass it.
     /// Candidates that follow each other on ways, the most driven first, six at most.
     std::vector<std::array<std::size_t, 2>> neighbours;
+    report::SignalsMet met;
     std::size_t not_passed = 0;     ///< No emergency vehicle passes them.
     std::size_t equipped = 0;       ///< Passed, but equipped today.
     std::size_t switched_off = 0;   ///< Passed, but their preemption parameters have `enabled` 0.

@@ -85,6 +85,7 @@ std::string text_of(const Table& table) {
 
 void print(const Printout& printout, Printing printing) {
     if (printing == Printing::text) {
+        fmt::print("{}", printout.head);
         for (const Table& table : printout.tables)
             if (!table.rows.empty()) fmt::print("{}", text_of(table));
         fmt::print("{}", printout.text);

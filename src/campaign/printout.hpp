@@ -30,11 +30,12 @@ struct Table {
 
 std::string text_of(const Table& table);
 
-/// What a verb prints: as text the tables, then `text`; as JSON the facts, then the tables.
+/// What a verb prints: as text `head`, the tables, then `text`; as JSON the facts, then the tables.
 struct Printout {
     core::Json facts = core::Json::object();
     std::vector<Table> tables = {};
     std::string text = {};
+    std::string head = {};
 };
 
 /// Prints on standard output.

@@ -9,6 +9,7 @@
 
 #include "core/terminal.hpp"
 #include "report/detail/equipment_sheets.hpp"
+#include "report/detail/json.hpp"
 #include "report/detail/side_files.hpp"
 #include "report/text.hpp"
 
@@ -312,6 +313,28 @@ std::string ranked_legend(const EquipmentFacts& facts) {
 
 }  // namespace detail
 
+void SignalsMet::add(std::size_t signals_of_trip) {
+    ++trips;
+    trips_with_signals += signals_of_trip > 0 ? 1 : 0;
+    signals += signals_of_trip;
+}
+
+std::optional<double> SignalsMet::share() const {
+    if (trips == 0) return std::nullopt;
+    return static_cast<double>(trips_with_signals) / static_cast<double>(trips);
+}
+
+std::optional<double> SignalsMet::mean() const {
+    if (trips == 0) return std::nullopt;
+    return static_cast<double>(signals) / static_cast<double>(trips);
+}
+
+std::string SignalsMet::words() const {
+    if (trips == 0) return "No EV has a trip in these seeds.";
+    return fmt::format("{:.0f} % of the EVs' trips pass at least one signal; a trip meets {:.1f} on average.",
+                       100.0 * *share(), *mean());
+}
+
 std::optional<RoadMap> road_map(const results::Store& store, const std::string& scenario) {
     return detail::roads_in(store.scenario_folder(scenario) / "roads.json");
 }
@@ -337,7 +360,8 @@ std::optional<std::size_t> rank_with_share(const EquipmentFacts& facts, double s
 std::string equipment_text(const EquipmentFacts& facts) {
     std::string text =
         paragraph({fmt::format("{}: which signals to equip first, {}, {}", printable(facts.title),
-                               facts.condition, counted(facts.replications, "replication"))});
+                               facts.condition, counted(facts.replications, "replication"))}) +
+        paragraph({facts.met.words()});
     if (!facts.candidates.empty())
         text += "\n" + detail::text_of(detail::candidate_sheet(facts)) +
                 paragraph({detail::candidate_legend(facts)});
@@ -358,6 +382,8 @@ std::string equipment_json(const EquipmentFacts& facts) {
                        {"seed", facts.seed},
                        {"fresh_seed", facts.fresh_seed},
                        {"replications", facts.replications},
+                       {"share_of_trips_with_signals", detail::json_of(facts.met.share())},
+                       {"signals_per_trip", detail::json_of(facts.met.mean())},
                        {"budget", facts.budget},
                        {"signals", facts.signals},
                        {"not_passed", facts.not_passed},

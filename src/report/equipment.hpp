@@ -48,6 +48,20 @@ struct EquipPairFacts {
     analysis::MaybeEstimate both_gain = {};  ///< Fresh: of both over the ranks before. Nothing if not chosen.
 };
 
+/// The signals on the ways of emergency vehicles: what no trip passes cannot gain.
+struct SignalsMet {
+    std::size_t trips = 0;
+    std::size_t trips_with_signals = 0;
+    std::size_t signals = 0;  ///< Sum over the trips of the different signals of each.
+
+    void add(std::size_t signals_of_trip);
+    /// Of the trips that pass a signal; nothing without trips.
+    std::optional<double> share() const;
+    /// Of signals over all trips; nothing without trips.
+    std::optional<double> mean() const;
+    std::string words() const;
+};
+
 /// Which signals to equip first, and what that is worth. Gains are restricted mean travel times of emergency
 /// vehicles, paired by replication.
 struct EquipmentFacts {
@@ -60,6 +74,7 @@ struct EquipmentFacts {
     std::uint64_t fresh_seed = 0;  ///< Of those that estimate.
     std::uint32_t replications = 0;
     std::size_t budget = 0;
+    SignalsMet met = {};
     std::size_t signals = 0;     ///< Of the network.
     std::size_t not_passed = 0;  ///< Of them, no emergency vehicle passes in these replications.
     std::vector<std::string> equipped_today = {};  ///< Ids; texts from a file. Gains count from there.

@@ -71,6 +71,7 @@ std::vector<detail::LegendEntry> map_entries(const EquipmentFacts& facts) {
     if (!facts.equipped_today.empty()) entries.push_back(detail::dot_entry("dot better", "equipped today"));
     if (facts.signals > facts.candidates.size() + facts.equipped_today.size())
         entries.push_back({"<circle class=\"tick\" cx=\"20\" cy=\"5\" r=\"2\"/>", "left out"});
+    if (!facts.roads->stations.empty()) entries.push_back({detail::station_sign, "station"});
     return entries;
 }
 
@@ -180,6 +181,7 @@ Figure equipment_map_figure(const EquipmentFacts& facts) {
         edges.push_back(&edge);
     canvas.edges(edges, "road");
     canvas.scale_bar();
+    canvas.stations(*facts.roads);
     draw_ranks(canvas, facts);
     canvas.credit(facts.attribution);
     canvas.legend(map_entries(facts));
@@ -222,8 +224,9 @@ void write_equipment_page(const EquipmentFacts& facts, std::ostream& page) {
                         paragraphs(detail::circumstances_of(facts), "") + "<pre><code>" +
                             escaped(facts.command) + "</code></pre>\n"});
     detail::write({facts.title + ": signals to equip first",
-                   fmt::format("{}, {}; seed {} decides, seed {} estimates.", facts.condition,
-                               counted(facts.replications, "replication"), facts.seed, facts.fresh_seed),
+                   fmt::format("{}, {}; seed {} decides, seed {} estimates. {}", facts.condition,
+                               counted(facts.replications, "replication"), facts.seed, facts.fresh_seed,
+                               facts.met.words()),
                    sections, "Means of replications with 95 % intervals. EV: emergency vehicle."},
                   page);
 }

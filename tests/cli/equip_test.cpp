@@ -104,6 +104,8 @@ TEST_F(EquipTest, says_before_it_runs_how_many_runs_it_makes) {
     EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
     const auto json = nlohmann::json::parse(dry.out);
     EXPECT_EQ(json.at("candidates"), 2);
+    EXPECT_DOUBLE_EQ(json.at("share_of_trips_with_signals").get<double>(), 1.0);
+    EXPECT_DOUBLE_EQ(json.at("signals_per_trip").get<double>(), 2.0);
     // None, each alone and both together on 5 seeds, once more at the second place; then baseline, none, all,
     // alone and two ranks.
     EXPECT_EQ(json.at("runs"), 20 + 5 + 30);
@@ -116,6 +118,7 @@ TEST_F(EquipTest, says_before_it_runs_how_many_runs_it_makes) {
         EXPECT_EQ(made.at("runs"), json.at("runs"));
     }
     const Ended text = equip({"--dry-run"});
+    EXPECT_THAT(text.out, testing::StartsWith("100 % of the EVs' trips pass at least one signal; a trip"));
     EXPECT_THAT(text.out,
                 AllOf(HasSubstr("55 runs likely, 55 at most"), HasSubstr("from runs of this scenario")));
     std::istringstream lines(text.out);

@@ -31,6 +31,7 @@ EquipmentFacts two_of_twelve() {
     facts.fresh_seed = 8;
     facts.replications = 10;
     facts.budget = 5;
+    facts.met = {8, 5, 15};
     facts.signals = 12;
     facts.not_passed = 2;
     facts.runs = 140;
@@ -147,6 +148,23 @@ TEST(Equipment, NamesNoOrderWhereNothingIsShown) {
     EXPECT_THAT(flat_text(facts), HasSubstr("It would take more than 1000 seeds to show so small a gain"));
     facts.ranked[1].so_far = about(-1.0, 6.0);
     EXPECT_THAT(flat_text(facts), HasSubstr("Their mean is no gain."));
+}
+
+TEST(Equipment, OpensWithHowManyTripsMeetSignals) {
+    EquipmentFacts facts = two_of_twelve();
+    const std::string sentence =
+        "62 % of the EVs' trips pass at least one signal; a trip meets 1.9 on average.";
+    const std::string text = flat_text(facts);
+    EXPECT_LT(text.find(sentence), text.find("Gain alone"));
+    std::ostringstream page;
+    write_equipment_page(facts, page);
+    EXPECT_LT(page.str().find("62 % of the EVs"), page.str().find("Equip first"));
+    const auto json = nlohmann::json::parse(equipment_json(facts));
+    EXPECT_DOUBLE_EQ(json.at("share_of_trips_with_signals").get<double>(), 0.625);
+    EXPECT_DOUBLE_EQ(json.at("signals_per_trip").get<double>(), 1.875);
+    facts.met = {};
+    EXPECT_THAT(flat_text(facts), HasSubstr("No EV has a trip in these seeds."));
+    EXPECT_TRUE(nlohmann::json::parse(equipment_json(facts)).at("signals_per_trip").is_null());
 }
 
 TEST(Equipment, SaysWhatIsEquippedToday) {
@@ -287,6 +305,9 @@ TEST(Equipment, IsMappedWithCandidatesAndChosenDrawnApart) {
     EXPECT_EQ(count_of(svg, "<circle class=\"dot better\""), 2U) << "north, and the legend";
     EXPECT_THAT(svg,
                 AllOf(HasSubstr("chosen, gain shown"), HasSubstr("other candidate"), HasSubstr("left out")));
+    facts.roads->stations = {{"a", "fire_station", "New <post>"}};
+    EXPECT_THAT(equipment_map(facts), AllOf(HasSubstr("New &lt;post&gt;"), HasSubstr(">station<")));
+    facts.roads->stations.clear();
     facts.ranked[0].gain = about(30.0, 31.0);
     EXPECT_EQ(count_of(equipment_map(facts), "<circle class=\"station\""), 2U) << "north is not shown";
 }
