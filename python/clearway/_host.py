@@ -15,6 +15,7 @@ import os
 import random
 import signal
 import sys
+import sysconfig
 import traceback
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from pathlib import Path
@@ -190,9 +191,15 @@ def report(channel: Channel, error: BaseException) -> None:
 
 
 def frames_of_part(frames: Iterable[traceback.FrameSummary]) -> list[traceback.FrameSummary]:
-    """These without those of this package and of what dataclasses generates, which tell nobody what to change."""
+    """These without those of this package and of what dataclasses generates, which tell nobody what to change. Where the part called a
+    library, its own frames are enough."""
     own = (str(Path(__file__).parent) + os.sep, "<frozen importlib", "<frozen runpy")
-    return [frame for frame in frames if not frame.filename.startswith(own) and (frame.filename, frame.name) != ("<string>", "__init__")]
+    others = [frame for frame in frames if not frame.filename.startswith(own) and (frame.filename, frame.name) != ("<string>", "__init__")]
+    return [frame for frame in others if not is_of_library(frame.filename)] or others
+
+
+def is_of_library(file: str) -> bool:
+    return file.startswith(sysconfig.get_path("stdlib") + os.sep) or any(f"/{name}/" in file for name in ("site-packages", "dist-packages"))
 
 
 def told(error: BaseException) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 import struct
 import subprocess
 import tempfile
@@ -83,7 +84,8 @@ class Worker:
     def _last_words(self) -> str:
         self._process.wait()
         self._log.seek(0)
-        said = self._log.read().decode("utf-8", "replace").strip().removeprefix("clearway: ")
+        log = self._log.read().decode("utf-8", "replace").strip()
+        said = re.split(r"^clearway: ", log, flags=re.MULTILINE)[-1]  # what SUMO warned of before is not the cause
         return said or f"the simulating process ended with {self._process.returncode}"
 
     def reset(self) -> bytes:

@@ -81,13 +81,14 @@ def policy_names(policy: Part | Sequence[Part]) -> list[str]:
 
 def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor",), seeds: int | range = 10, *, seed: int = 1,
         out: str | Path | None = None, jobs: int = 0, record: bool = False, baseline: bool = True, progress: bool = False,
-        **overrides: Any) -> Results:
+        run_time_limit: float | None = None, memory_limit: int | None = None, **overrides: Any) -> Results:
     """Runs a scenario under conditions over paired seeds and opens the results.
 
     ``conditions`` are names of ``clearway list`` or ``Condition``; ``baseline`` adds the one that they are compared with. ``seeds``
     is the number of replications, from 0 on: 10, or ``range(10)``. ``overrides`` are those of a study file: ``variant="dense"``,
     ``step_length_s=0.1``, ... ``out`` is the run folder; without it, one below ``runs/`` that follows from what is run. Runs that
-    are there already are not repeated. Runs that failed are a warning, and rows of ``results.errors``.
+    are there already are not repeated; one that takes longer than ``run_time_limit``, s, or more than ``memory_limit``, MiB, is ended
+    (None: as ``clearway run``). Runs that failed are a warning, and rows of ``results.errors``.
     """
     _program.require_first_load("clearway.run")
     if isinstance(conditions, (str, Condition)):
@@ -117,7 +118,8 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
         file = Path(folder) / "study.toml"
         file.write_text(text, encoding="utf-8")
         try:
-            return study(file, out=out, jobs=jobs, record=record, progress=progress)
+            return study(file, out=out, jobs=jobs, record=record, progress=progress, run_time_limit=run_time_limit,
+                         memory_limit=memory_limit)
         except _program.ClearwayError as error:
             # Nobody wrote that file, and it is gone: its name and lines tell nothing.
             said = re.sub(re.escape(str(file)) + r"(:\d+)*: ", "", str(error))
@@ -140,8 +142,8 @@ def _seed_count(seeds: Any) -> int:
 
 @_program.tells_keywords("clearway.study", cure="The file says what is run, and how often")
 def study(file: str | Path, *, out: str | Path | None = None, jobs: int = 0, record: bool = False, quick: bool = False,
-          progress: bool = False) -> Results:
-    """Runs a study file (docs/reference/study-file.md), or what of it is missing, and opens the results."""
+          progress: bool = False, run_time_limit: float | None = None, memory_limit: int | None = None) -> Results:
+    """Runs a study file (docs/reference/study-file.md), or what of it is missing, and opens the results. Limits are those of ``run``."""
     _program.require_first_load("clearway.study")
     file = _files.path_of("file", file)
     words = ["study", str(file), "--json"]
@@ -152,6 +154,8 @@ def study(file: str | Path, *, out: str | Path | None = None, jobs: int = 0, rec
     words += ["--jobs", str(jobs)] if jobs else []
     words += ["--record"] if record else []
     words += ["--quick"] if quick else []
+    words += [] if run_time_limit is None else ["--run-time-limit", str(run_time_limit)]
+    words += [] if memory_limit is None else ["--memory-limit", str(memory_limit)]
     code, _ = _program.call(words, progress=progress, accept=(_program.RUNS_FAILED,))
     results = Results(out)
     if code == _program.RUNS_FAILED:

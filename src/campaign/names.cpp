@@ -35,7 +35,10 @@ core::Problem unknown_part(const std::string& where, const std::string& name,
                            const std::vector<std::string>& known) {
     core::Problem problem = unknown_name(where, name, known);
     if (name.find(',') != std::string::npos)
-        problem.cure = "Separate several with spaces; in a study file they are a list";
+        problem.cure = where.ends_with("predictor")
+                           ? "A condition has one; a study file compares several, for instance by the factor "
+                             "condition.predictor"
+                           : "Separate several with spaces; in a study file they are a list";
     else if (name.find_first_of(":.") != std::string::npos)
         problem.cure = "A class in Python is FILE.py:CLASS";
     return problem;

@@ -106,8 +106,10 @@ void write_report(const report::StudyFacts& facts, const ReportReplays& replays,
     core::write_output(file, page.str());
 }
 
-/// `: the last line of a log`, or nothing, as where the message holds it.
+/// `: the last line of a log`, or nothing, as where the message holds it, or where what failed is not SUMO's:
+/// its warnings say nothing of a part in Python.
 std::string last_words(const results::RunError& error) {
+    if (error.cause == results::ErrorCause::python) return "";
     std::string log = error.log_tail;
     while (log.ends_with('\n')) {
         log.pop_back();

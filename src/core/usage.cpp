@@ -38,7 +38,10 @@ std::string wrapped_line(const std::string& line) {
 /// The parser says `--seeds: Value x not in range 1 to 100`, whether x is a number or not.
 std::string range_message(const std::string& text) {
     static const std::regex out_of_range("(.*): Value (.*) not in range (.*) to (.*)");
+    static const std::regex too_often("(.*): At Most 1 required but received (.*)");
     std::smatch part;
+    if (std::regex_match(text, part, too_often))
+        return fmt::format("{}: is given {} times (allowed: once)", part[1].str(), part[2].str());
     if (!std::regex_match(text, part, out_of_range)) return text;
     const bool is_number = part[2].str().find_first_not_of("0123456789-") == std::string::npos;
     return fmt::format("{}: {} is {} (allowed: {} to {})", part[1].str(), part[2].str(),

@@ -226,7 +226,7 @@ std::string locked_pairs_of(const ConditionFacts& condition, Script script) {
     return pairs.empty() ? pairs : fmt::format("; EV travel time, s: {}", pairs);
 }
 
-/// `3 EVs came to a closed road (baseline: 12, whose trips take -9.0 s [-12.0, -6.0]); `, or empty where none
+/// `3 EVs came to a closed road (baseline: 12, whose trips take -9.0 [-12.0, -6.0] s); `, or empty where none
 /// did in either.
 std::string incidents_of(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     const ConditionFacts* const baseline = scenario.baseline_of(condition);

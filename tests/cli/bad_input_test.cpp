@@ -117,6 +117,7 @@ TEST_F(BadInputTest, words_at_the_wrong_place_are_sent_to_the_right_one) {
     };
     told({"run", "line", "corridor"}, "Values follow their option: did you mean '--policy corridor'?");
     told({"run", "line", "--policy", "corridor,clear_lane"}, "Separate several with spaces");
+    told({"run", "line", "--predictor", "twin,graphsage"}, "a study file compares several");
     told({"run", "line", "--policy", "mine.Green"}, "A class in Python is FILE.py:CLASS");
     told({"run", "line", "--policy", "baseline"},
          "--policy: `baseline` is a condition and no policy. Say --condition baseline; a baseline is always");

@@ -158,6 +158,8 @@ TEST_F(HelpTest, options_of_other_programs_and_places_name_the_way_here) {
 TEST_F(HelpTest, a_word_that_should_be_a_number_is_told_from_a_number_out_of_range) {
     EXPECT_THAT(clearway({"run", "merge", "--seeds", "x"}).err,
                 HasSubstr("--seeds: x is no whole number (allowed: 1 to 100000)"));
+    EXPECT_THAT(clearway({"run", "merge", "--predictor", "gcn", "--predictor", "gat"}).err,
+                HasSubstr("--predictor: is given 2 times (allowed: once)"));
     for (const char* const seed : {"9223372036854775808", "18446744073709551616", "99999999999999999999"})
         EXPECT_THAT(clearway({"run", "merge", "--seed", seed}).err,
                     HasSubstr(std::string(seed) + " is out of range"));

@@ -1,5 +1,6 @@
 """What goes wrong in policies and predictors in Python is told, and ends."""
 import errno
+import json
 import os
 import re
 import selectors
@@ -324,6 +325,25 @@ class FaultTest(FolderCase):
             self.assertEqual(failed["cause"][0], "signal" if name == "Dies" else "python")
         self.assertEqual(list(results.runs["condition"]), ["baseline"])
         self.assertEqual(hosts_of(self.folder), [])
+
+    def test_neither_frames_of_libraries_nor_warnings_of_sumo_are_told(self) -> None:
+        (self.folder / "site-packages").mkdir()
+        library = self.write("site-packages/deep.py", "import json\ndef fall(word):\n    return json.loads(word)\n")
+        self.write("net.py", f"import sys\nsys.path.append({str(library.parent)!r})\nfrom clearway import Policy\nimport deep\n"
+                   "class Net(Policy):\n    def act(self, belief):\n        return deep.fall('{')\n")
+        self.write("my.toml", 'replications = 1\nscenarios = ["intersection"]\nconditions = ["baseline"]\n[[condition]]\nname = "net"\npolicy = ["net.py:Net"]\n')
+        study = [str(PROGRAMS / "clearway"), "study", "my.toml", "--out", "runs"]
+        first = subprocess.run(study, capture_output=True, text=True, check=False)
+        self.assertEqual(first.returncode, 1, first.stderr)
+        (found,) = clearway.open("runs").errors["message"]
+        self.assertRegex(found.splitlines()[0], r"JSONDecodeError: .* \(net.py, line 7\)$")
+        self.assertEqual(found.count("File "), 1, found)
+        self.assertEqual(found.splitlines()[-1].strip(), "return deep.fall('{')")
+        (file,) = [file for file in Path("runs").rglob("*.json") if "log_tail" in file.read_text()]
+        file.write_text(json.dumps({**json.loads(file.read_text()), "log_tail": "Warning: no connection"}))
+        ended = subprocess.run(study, capture_output=True, text=True, check=False)
+        self.assertIn("line 7", ended.stderr)
+        self.assertNotIn("no connection", ended.stderr)
 
     def test_what_a_part_prints_is_in_the_log_of_its_run(self) -> None:
         clearway.run("intersection", [clearway.Condition("Prints", policy="bad.py:Prints")], seeds=1, out="runs")
