@@ -7,12 +7,11 @@
 #include "core/error.hpp"
 
 namespace clearway::analysis {
-namespace {
 
 using experiment::ConditionSpec;
 
-std::map<std::string, std::string> values_of(const ConditionSpec& condition) {
-    std::map<std::string, std::string> values = condition.settings;
+core::Settings values_of(const ConditionSpec& condition) {
+    core::Settings values = condition.settings;
     values["failure"] = condition.failure;
     values["predictor"] = condition.predictor;
     values["policy"] = condition.policies.empty() ? "none" : core::listed(condition.policies);
@@ -26,17 +25,15 @@ std::map<std::string, std::string> values_of(const ConditionSpec& condition) {
     return values;
 }
 
-}  // namespace
-
 std::vector<ConditionDifference> condition_differences(const ConditionSpec& first,
                                                        const ConditionSpec& second) {
-    const std::map<std::string, std::string> before = values_of(first);
-    const std::map<std::string, std::string> after = values_of(second);
-    const auto value = [](const std::map<std::string, std::string>& values, const std::string& name) {
+    const core::Settings before = values_of(first);
+    const core::Settings after = values_of(second);
+    const auto value = [](const core::Settings& values, const std::string& name) {
         const auto found = values.find(name);
         return found == values.end() ? std::nullopt : std::optional(found->second);
     };
-    std::map<std::string, std::string> names = before;
+    core::Settings names = before;
     names.insert(after.begin(), after.end());
     std::vector<ConditionDifference> differences;
     for (const auto& entry : names) {

@@ -18,8 +18,11 @@ struct ConditionDifference {
     bool operator==(const ConditionDifference&) const = default;
 };
 
-/// Everything that decides runs and differs between two conditions: failure, predictor, policies, traffic
-/// model, safety checks, blue light, model, settings. Their names are not compared.
+/// Everything that decides the runs of a condition, by name: failure, predictor, policies, traffic model,
+/// safety checks, blue light, model, settings.
+core::Settings values_of(const experiment::ConditionSpec& condition);
+
+/// Everything that decides runs and differs between two conditions. Their names are not compared.
 std::vector<ConditionDifference> condition_differences(const experiment::ConditionSpec& first,
                                                        const experiment::ConditionSpec& second);
 

@@ -160,8 +160,10 @@ struct ConditionFacts : analysis::ConditionSummary {
     std::string recipe;      ///< Failure, predictor and policies, in words.
     core::Settings factors;  ///< Of the study, with those of the scenario: `failure.dark_share` -> `0.3`.
     core::Settings factor_titles = {};  ///< Of some of their values, for figures.
-    bool knows_truth = false;           ///< Its predictor is no repair: it is given the truth.
-    double least_relevant_s = 0.0;      ///< Smaller mean differences of EV times do not count.
+    /// All in which conditions can differ, in words: `policy` -> `Ours`, `failure` -> `B10`.
+    core::Settings aspects = {};
+    bool knows_truth = false;       ///< Its predictor is no repair: it is given the truth.
+    double least_relevant_s = 0.0;  ///< Smaller mean differences of EV times do not count.
     std::vector<FailedRun> failed;
     Distribution distribution;  ///< Of EV travel times.
     std::optional<WorstTrip> worst_trip;

@@ -195,6 +195,87 @@ TEST(TradeOff, moves_numbers_so_that_none_hides_another) {
         << "a line leads from each moved number to its point";
 }
 
+/// Policies under failures, by the aspects alone.
+StudyFacts crossed(std::size_t policies, std::size_t failures) {
+    StudyFacts study = crowd(policies * failures);
+    std::size_t number = 0;
+    for (std::size_t policy = 0; policy < policies; ++policy) {
+        for (std::size_t failure = 0; failure < failures; ++failure) {
+            ConditionFacts& condition = study.scenarios[0].conditions[++number];
+            condition.aspects = {{"failure", "loss " + std::to_string(failure)},
+                                 {"policy", "Policy " + std::to_string(policy)},
+                                 {"predictor", "no repair"}};
+            const double gain = 3.0 * static_cast<double>(policy) + 1.5 * static_cast<double>(failure);
+            tests::difference(condition, Measure::emergency_restricted_time) = tests::around(-gain, 2.0);
+            tests::difference(condition, Measure::other_time_loss) = tests::around(0.3 * gain, 0.4);
+        }
+    }
+    return study;
+}
+
+std::string drawing_of(const std::string& figure) {
+    return figure.substr(0, figure.find("<g transform"));
+}
+
+TEST(TradeOff, of_policies_under_failures_has_a_colour_for_each_policy_and_a_mark_for_each_failure) {
+    StudyFacts study = crossed(5, 2);
+    study.scenarios[0].conditions[3].objections.emergency.removed = 2;
+    const std::string figure = figure_of(tests::page_of(study), "tradeoff-merge");
+    const std::string drawing = drawing_of(figure);
+    for (int policy = 1; policy <= 5; ++policy) {
+        const std::string colour = "s" + std::to_string(policy);
+        EXPECT_EQ(count_of(drawing, "<path class=\"dot " + colour), 2u);
+        EXPECT_EQ(count_of(drawing, "class=\"bar thin " + colour + " d" + std::to_string(policy - 1)), 4u)
+            << "without colour, the dash says the policy";
+        EXPECT_THAT(figure, HasSubstr(">Policy " + std::to_string(policy - 1) + "</text>"));
+    }
+    EXPECT_EQ(count_of(drawing, "a5.5 5.5 0 1 0 -11.0 0"), 5u) << "discs of the first failure";
+    EXPECT_EQ(count_of(drawing, "h9.6v9.6h-9.6z"), 5u) << "squares of the second";
+    EXPECT_EQ(count_of(drawing, "class=\"leader"), 0u);
+    EXPECT_EQ(count_of(drawing, "onDot"), 0u) << "no numbers";
+    EXPECT_EQ(count_of(drawing, "class=\"ring "), 1u) << "the headline's";
+    EXPECT_EQ(count_of(drawing, "hollow\""), 1u);
+    for (const char* const words : {">policy:<", ">failure:<", ">loss 0<", ">loss 1<", ">hollow: lost EVs<"})
+        EXPECT_THAT(figure, HasSubstr(words));
+}
+
+TEST(TradeOff, has_marks_at_the_true_places_of_points) {
+    const StudyFacts study = crossed(5, 2);
+    const std::string drawing = drawing_of(figure_of(tests::page_of(study), "tradeoff-merge"));
+    const std::regex disc("<path class=\"dot s([1-5])\" d=\"M([0-9.]+) ([0-9.]+)m5.5 0a");
+    std::map<int, std::pair<double, double>> places;
+    for (std::sregex_iterator at(drawing.begin(), drawing.end(), disc); at != std::sregex_iterator(); ++at)
+        places[std::stoi((*at)[1])] = {std::stod((*at)[2]), std::stod((*at)[3])};
+    ASSERT_EQ(places.size(), 5u);
+    for (int policy = 2; policy <= 5; ++policy) {  // equal steps of gain and cost
+        EXPECT_NEAR(places[policy].first - places[policy - 1].first, places[2].first - places[1].first, 0.15);
+        EXPECT_NEAR(places[policy].second - places[policy - 1].second, places[2].second - places[1].second,
+                    0.15);
+    }
+}
+
+TEST(TradeOff, keeps_numbers_for_few_conditions_and_where_they_differ_in_more_than_two_things) {
+    const auto has_numbers = [](const StudyFacts& study) {
+        return count_of(figure_of(tests::page_of(study), "tradeoff-merge"), "onDot") > 0;
+    };
+    EXPECT_TRUE(has_numbers(crossed(2, 2)));
+    EXPECT_FALSE(has_numbers(crossed(3, 2)));
+    EXPECT_FALSE(has_numbers(crossed(6, 6)));
+    EXPECT_TRUE(has_numbers(crossed(7, 2))) << "more policies than colours";
+    StudyFacts study = crossed(3, 2);
+    study.scenarios[0].conditions[1].aspects["pull_aside.lease_s"] = "lease 10 s";
+    EXPECT_TRUE(has_numbers(study));
+}
+
+TEST(Looks, of_policies_under_failures_are_the_same_in_all_figures) {
+    const std::string figure = figure_of(tests::page_of(crossed(5, 2)), "travel-time-merge");
+    for (int policy = 1; policy <= 5; ++policy) {
+        const std::string style =
+            "<polyline class=\"line s" + std::to_string(policy) + " d" + std::to_string(policy - 1);
+        EXPECT_EQ(count_of(figure, style), 2u);
+    }
+}
+
 TEST(DataTables, become_lists_where_their_cells_need_more_room_than_there_is) {
     const DataTable narrow{{"Name", "a", "b"}, {{"one", "1.0", "2.0"}}};
     EXPECT_THAT(to_html(narrow), Not(HasSubstr("data-label")));

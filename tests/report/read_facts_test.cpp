@@ -142,6 +142,11 @@ TEST(Titles, of_conditions_made_by_factors_are_words_or_those_of_the_study_file)
         detail::ConditionTitles(given).give(conditions);
         const std::string of_part = given.empty() ? "Green" : "Ours";
         EXPECT_EQ(conditions[1].factor_titles, (core::Settings{{"condition.policy", of_part}}));
+        EXPECT_EQ(conditions[1].aspects.at("policy"), of_part);
+        EXPECT_EQ(conditions[2].aspects.at("failure"), given.empty() ? "B10" : "outages");
+        EXPECT_EQ(conditions[3].aspects.at("policy"), given.empty() ? "corridor" : "Corridor");
+        EXPECT_EQ(conditions[4].aspects.at("failure.dark_share"), "dark share 0.1");
+        EXPECT_EQ(conditions[4].aspects.at("failure"), "") << "the factor says it";
         return core::texts_of(conditions, &ConditionFacts::title);
     };
     const std::string net = "no repair";

@@ -20,29 +20,55 @@ constexpr std::size_t colours = 6;
 constexpr std::size_t dashes = 5;
 constexpr std::size_t marks = 4;
 
+/// Each counted from 1; 0: none.
+struct Look {
+    std::size_t colour = 0;
+    std::size_t dash = 0;
+    std::size_t mark = 0;
+};
+
+Look look_of(const Series& series) {
+    const auto cycled = [](std::size_t number, std::size_t kinds) {
+        return number == 0 ? 0 : (number - 1) % kinds + 1;
+    };
+    if (series.levels) {
+        const std::size_t colour = cycled(series.levels->colour, Series::most_levels);
+        return {colour, colour, cycled(series.levels->mark, Series::most_levels)};
+    }
+    return {cycled(series.number, colours), cycled(series.number, dashes), cycled(series.number, marks)};
+}
+
 }  // namespace
 
 std::string colour_of(const Series& series) {
-    return series.number == 0 ? "s0" : fmt::format("s{}", (series.number - 1) % colours + 1);
+    return fmt::format("s{}", look_of(series).colour);
 }
 
 std::string line_style(const Series& series) {
-    return fmt::format("line {}{}{}", colour_of(series),
-                       series.number == 0 ? "" : fmt::format(" d{}", (series.number - 1) % dashes),
+    const Look look = look_of(series);
+    return fmt::format("line s{}{}{}", look.colour, look.dash == 0 ? "" : fmt::format(" d{}", look.dash - 1),
                        series.weight == Series::Weight::lead ? " lead" : "");
 }
 
-std::string mark_of(const Series& series, double x, double y, double radius) {
-    if (series.number == 0) return {};
-    // Circle, square, triangle, diamond.
-    constexpr std::array<const char*, marks> shapes = {
+std::string mark_of(const Series& series, double x, double y, double radius, const std::string& more) {
+    const std::size_t mark = look_of(series).mark;
+    if (mark == 0) return {};
+    // Circle, square, triangle, diamond; for levels also a triangle on its tip and a cross.
+    constexpr std::array<const char*, Series::most_levels> shapes = {
         "m{0:.1f} 0a{1:.1f} {1:.1f} 0 1 0 -{2:.1f} 0a{1:.1f} {1:.1f} 0 1 0 {2:.1f} 0z",
-        "m-{1:.1f} -{1:.1f}h{2:.1f}v{2:.1f}h-{2:.1f}z", "m0 -{1:.1f}l{1:.1f} {2:.1f}h-{2:.1f}z",
-        "m0 -{1:.1f}l{1:.1f} {1:.1f}l-{1:.1f} {1:.1f}l-{1:.1f} -{1:.1f}z"};
-    const std::size_t shape = (series.number - 1) % marks;
+        "m-{1:.1f} -{1:.1f}h{2:.1f}v{2:.1f}h-{2:.1f}z",
+        "m0 -{1:.1f}l{1:.1f} {2:.1f}h-{2:.1f}z",
+        "m0 -{1:.1f}l{1:.1f} {1:.1f}l-{1:.1f} {1:.1f}l-{1:.1f} -{1:.1f}z",
+        "m0 {1:.1f}l{1:.1f} -{2:.1f}h-{2:.1f}z",
+        "m-{3:.1f} "
+        "-{1:.1f}h{4:.1f}v{5:.1f}h{5:.1f}v{4:.1f}h-{5:.1f}v{5:.1f}h-{4:.1f}v-{5:.1f}h-{5:.1f}v-{4:.1f}h{5:."
+        "1f}"
+        "z"};
+    const std::size_t shape = mark - 1;
     const double size = shape == 1 ? 0.87 * radius : shape == 3 ? 1.2 * radius : radius;
-    return fmt::format("<path class=\"dot {}\" d=\"M{:.1f} {:.1f}{}\"/>", colour_of(series), x, y,
-                       fmt::format(fmt::runtime(shapes[shape]), size, size, 2.0 * size));
+    return fmt::format(
+        "<path class=\"dot {}{}\" d=\"M{:.1f} {:.1f}{}\"/>", colour_of(series), more, x, y,
+        fmt::format(fmt::runtime(shapes[shape]), size, size, 2.0 * size, 0.3 * size, 0.6 * size, 0.7 * size));
 }
 
 std::string shortened(const std::string& text, std::size_t longest) {
@@ -57,6 +83,10 @@ LegendEntry line_entry(const Series& series, std::string words) {
     return {fmt::format("<path class=\"{}\" d=\"M1 5H27\"/>{}", line_style(series),
                         mark_of(series, 14.0, 5.0, 3.6)),
             std::move(words), series.weight};
+}
+
+LegendEntry mark_entry(const Series& series, std::string words, const std::string& more) {
+    return {mark_of(series, 20.0, 5.0, 5.0, more), std::move(words), series.weight};
 }
 
 LegendEntry stripe_entry(const char* style, std::string words) {
@@ -102,15 +132,16 @@ void Canvas::legend(const std::vector<LegendEntry>& entries) {
     height_ += legend_row;
     for (const LegendEntry& entry : entries) {
         const std::string words = shortened(entry.words, longest_entry);
+        const double indent = entry.mark.empty() ? 0.0 : legend_mark;
         const double entry_width =
-            legend_mark + letter_width * static_cast<double>(core::characters_in(words)) + 12.0;
+            indent + letter_width * static_cast<double>(core::characters_in(words)) + 12.0;
         if (x > 8.0 && x + entry_width > width) {
             x = 8.0;
             height_ += legend_row;
         }
         fmt::format_to(std::back_inserter(svg_), "<g transform=\"translate({:.1f} {:.1f})\">{}</g>", x,
                        height_ - 14.0, entry.mark);
-        text(x + legend_mark, height_ - 5.0, words, Anchor::start,
+        text(x + indent, height_ - 5.0, words, Anchor::start,
              entry.weight == Series::Weight::lead ? "legend lead" : "legend");
         x += entry_width;
     }

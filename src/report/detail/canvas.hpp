@@ -1,6 +1,7 @@
 #pragma once
 
 #include <iterator>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,12 +14,21 @@ namespace clearway::report::detail {
 struct Series {
     std::size_t number = 0;
     enum class Weight { usual, lead } weight = Weight::usual;  ///< One line leads: the headline's condition.
+    /// Where they are set, these and not the number give the looks: colour and dash one thing, the mark
+    /// another. From 1 to `most_levels`; 0 is the colour of the text, and no mark.
+    struct Levels {
+        std::size_t colour = 0;
+        std::size_t mark = 0;
+    };
+    std::optional<Levels> levels = {};
+    static constexpr std::size_t most_levels = 6;
 };
 
 /// The start of a long text, cut between characters, with an ellipsis.
 std::string shortened(const std::string& text, std::size_t longest);
 
-/// An entry of a legend: its mark, as markup in a box of 28 x 10 units, and what it stands for.
+/// An entry of a legend: its mark, as markup in a box of 28 x 10 units, and what it stands for. Without a
+/// mark it is a heading.
 struct LegendEntry {
     std::string mark;
     std::string words;
@@ -28,11 +38,13 @@ struct LegendEntry {
 std::string colour_of(const Series& series);
 /// CSS classes of the colour, dash and weight of a line.
 std::string line_style(const Series& series);
-/// The mark of a series around a place, as markup; empty for number 0.
-std::string mark_of(const Series& series, double x, double y, double radius);
+/// The mark of a series around a place, as markup; empty for number 0. `more` are further CSS classes.
+std::string mark_of(const Series& series, double x, double y, double radius, const std::string& more = "");
 
 /// A piece of line in the style of `series`.
 LegendEntry line_entry(const Series& series, std::string words);
+/// The mark of a series alone.
+LegendEntry mark_entry(const Series& series, std::string words, const std::string& more = "");
 /// A piece of line with the CSS class `style`.
 LegendEntry stripe_entry(const char* style, std::string words);
 /// A small circle with the CSS class `style`.

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/condition_difference.hpp"
 #include "experiment/code_parts.hpp"
 #include "prediction/predictor.hpp"
 
@@ -51,6 +52,7 @@ void ConditionTitles::give(std::vector<ConditionFacts>& conditions) const {
     std::map<std::string, int> uses;
     for (ConditionFacts& condition : conditions) {
         condition.title = of(condition.condition);
+        condition.aspects = aspects_of(condition.condition);
         for (const auto& [factor, value] : condition.condition.factors) {
             const auto own = given_.find(value);
             if (own != given_.end() && factor.starts_with("condition."))
@@ -75,18 +77,39 @@ std::string ConditionTitles::of(const experiment::ConditionSpec& condition) cons
 }
 
 std::string ConditionTitles::stem_of(const experiment::ConditionSpec& condition) const {
-    const auto policy = condition.factors.find(policy_factor);
-    if (policy != condition.factors.end()) {
-        if (const auto own = given_.find(policy->second); own != given_.end()) return own->second;
-        std::vector<std::string> words;
-        for (const std::string& word : condition.policies)
-            words.push_back(experiment::part_called(word).value_or(word));
-        return words.empty() ? "no policy" : fmt::format("{}", fmt::join(words, " + "));
-    }
+    if (condition.factors.contains(policy_factor)) return policy_text(condition);
     const std::string name =
         condition.factors.empty() ? condition.name : condition.name.substr(0, condition.name.find('+'));
     const auto own = given_.find(name);
     return own == given_.end() ? built_in_title(name, condition) : own->second;
+}
+
+std::string ConditionTitles::policy_text(const experiment::ConditionSpec& condition) const {
+    if (const auto policy = condition.factors.find(policy_factor); policy != condition.factors.end()) {
+        if (const auto own = given_.find(policy->second); own != given_.end()) return own->second;
+    } else if (!condition.factors.empty()) {
+        const auto own = given_.find(condition.name.substr(0, condition.name.find('+')));
+        if (own != given_.end()) return own->second;
+    }
+    std::vector<std::string> words;
+    for (const std::string& word : condition.policies)
+        words.push_back(experiment::part_called(word).value_or(word));
+    return words.empty() ? "no policy" : fmt::format("{}", fmt::join(words, " + "));
+}
+
+core::Settings ConditionTitles::aspects_of(const experiment::ConditionSpec& condition) const {
+    core::Settings aspects;
+    for (const auto& [name, value] : analysis::values_of(condition)) {
+        const bool is_word = name == "failure" || name == "predictor";
+        aspects[name] = is_word ? value_text("condition." + name, value) : setting_text(name, value);
+    }
+    for (const auto& [factor, value] : condition.factors) {
+        if (factor.starts_with("failure.")) aspects["failure"].clear();  // the factor says it
+    }
+    for (const auto& [factor, value] : condition.factors)
+        aspects[factor.starts_with("condition.") ? factor.substr(10) : factor] = value_text(factor, value);
+    aspects["policy"] = policy_text(condition);
+    return aspects;
 }
 
 std::string ConditionTitles::value_text(const std::string& factor, const std::string& value) const {

@@ -23,6 +23,10 @@ class ConditionTitles {
     std::string of(const experiment::ConditionSpec& condition) const;
     /// The policies or the name before the factors.
     std::string stem_of(const experiment::ConditionSpec& condition) const;
+    /// The policies, as a factor of the study or their parts call them.
+    std::string policy_text(const experiment::ConditionSpec& condition) const;
+    /// All that a condition has, in words: ConditionFacts::aspects.
+    core::Settings aspects_of(const experiment::ConditionSpec& condition) const;
     std::string value_text(const std::string& factor, const std::string& value) const;
 
     core::Settings given_;

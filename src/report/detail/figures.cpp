@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <map>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "report/detail/style.hpp"
 #include "report/overview.hpp"
+#include "report/verdict.hpp"
 
 namespace clearway::report::detail {
 namespace {
@@ -28,7 +32,61 @@ std::array<double, 4> view_box(const std::string& drawing) {
     return box;
 }
 
+/// What the conditions have that are compared, in their order; nothing if a setting was turned alone.
+std::vector<const ConditionFacts*> crossed_conditions(const StudyFacts& study,
+                                                      const ScenarioFacts& scenario) {
+    std::vector<const ConditionFacts*> crossed;
+    for (const ConditionFacts& condition : scenario.conditions) {
+        if (!condition.is_compared()) continue;
+        if (reference_of(study, scenario, condition) != nullptr) return {};
+        crossed.push_back(&condition);
+    }
+    return crossed;
+}
+
+const std::string& aspect_of(const ConditionFacts& condition, const std::string& name) {
+    static const std::string shipped = "as shipped";
+    const auto found = condition.aspects.find(name);
+    return found == condition.aspects.end() ? shipped : found->second;
+}
+
+/// Those with several levels, by name.
+std::vector<Crossing::Aspect> varied_aspects(const std::vector<const ConditionFacts*>& conditions) {
+    std::map<std::string, Crossing::Aspect> aspects;
+    for (const ConditionFacts* const condition : conditions)
+        for (const auto& aspect : condition->aspects)
+            aspects[aspect.first].name = aspect.first;
+    std::vector<Crossing::Aspect> varied;
+    for (auto& [name, aspect] : aspects) {
+        for (const ConditionFacts* const condition : conditions)
+            if (aspect.level_of(*condition) == 0) aspect.levels.push_back(aspect_of(*condition, name));
+        if (aspect.levels.size() > 1) varied.push_back(std::move(aspect));
+    }
+    return varied;
+}
+
 }  // namespace
+
+std::size_t Crossing::Aspect::level_of(const ConditionFacts& condition) const {
+    const auto found = std::ranges::find(levels, aspect_of(condition, name));
+    return found == levels.end() ? 0 : static_cast<std::size_t>(found - levels.begin()) + 1;
+}
+
+std::optional<Crossing> crossing_of(const StudyFacts& study, const ScenarioFacts& scenario) {
+    constexpr std::size_t fewest = 6;  // below, numbers seldom hide each other
+    const std::vector<const ConditionFacts*> conditions = crossed_conditions(study, scenario);
+    if (conditions.size() < fewest) return std::nullopt;
+    std::vector<Crossing::Aspect> varied = varied_aspects(conditions);
+    if (varied.size() != 2) return std::nullopt;
+    if (varied[1].name == "policy") std::swap(varied[0], varied[1]);
+    std::set<std::pair<std::size_t, std::size_t>> levels;
+    for (const ConditionFacts* const condition : conditions)
+        levels.emplace(varied[0].level_of(*condition), varied[1].level_of(*condition));
+    const bool told_apart = levels.size() == conditions.size() &&
+                            varied[0].levels.size() <= Series::most_levels &&
+                            varied[1].levels.size() <= Series::most_levels;
+    return told_apart ? std::optional(Crossing{varied[0], varied[1]}) : std::nullopt;
+}
 
 std::string standalone(const std::string& drawing) {
     const std::size_t inside = drawing.find('>');
@@ -47,10 +105,18 @@ std::string standalone(const std::string& drawing) {
 
 Looks looks_of(const StudyFacts& study, const ScenarioFacts& scenario) {
     const ConditionFacts* const featured = featured_condition(study, scenario);
+    const std::optional<Crossing> crossing = crossing_of(study, scenario);
+    std::size_t beside = 0;  // what is not compared, in the colour of the text with the marks left over
     Looks looks;
-    for (const ConditionFacts& condition : scenario.conditions)
-        looks.push_back(
-            {looks.size(), &condition == featured ? Series::Weight::lead : Series::Weight::usual});
+    for (const ConditionFacts& condition : scenario.conditions) {
+        Series& series = looks.emplace_back();
+        series.number = looks.size() - 1;
+        if (&condition == featured) series.weight = Series::Weight::lead;
+        if (!crossing || series.number == 0) continue;
+        series.levels = condition.is_compared() ? Series::Levels{crossing->colour.level_of(condition),
+                                                                 crossing->mark.level_of(condition)}
+                                                : Series::Levels{0, crossing->mark.levels.size() + ++beside};
+    }
     return looks;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,8 +49,24 @@ inline std::string estimate_or_nothing(const MaybeEstimate& difference, NumberSt
     return difference ? estimate(difference, style, factor) : std::string();
 }
 
-/// How each condition of a scenario looks, by its place: numbers are places, and the condition that the
-/// headline speaks of leads.
+/// The two things in which many conditions differ, if they differ in no other: colours and dashes show the
+/// levels of one (the policy, if it is one of them), marks those of the other.
+struct Crossing {
+    struct Aspect {
+        std::string name;                 ///< Of ConditionFacts::aspects.
+        std::vector<std::string> levels;  ///< In the order of the conditions.
+
+        /// Counted from 1; 0 for others.
+        std::size_t level_of(const ConditionFacts& condition) const;
+    };
+    Aspect colour;
+    Aspect mark;
+};
+/// Nothing where numbers are clearer: few conditions, more levels than looks, settings turned alone.
+std::optional<Crossing> crossing_of(const StudyFacts& study, const ScenarioFacts& scenario);
+
+/// How each condition of a scenario looks, by its place: numbers are places, the condition that the headline
+/// speaks of leads, and a crossing gives colours and marks.
 using Looks = std::vector<Series>;
 Looks looks_of(const StudyFacts& study, const ScenarioFacts& scenario);
 /// The places of conditions in the order in which they are drawn: what leads comes last, on top.

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "report/detail/axes.hpp"
 #include "report/detail/figures.hpp"
@@ -29,6 +32,7 @@ struct Point {
         return time;
     }
     const MaybeEstimate& lost() const { return condition->difference(cost); }
+    std::string objection() const { return analysis::emergency_objection_word(condition->objections); }
 };
 
 /// In the order in which they are drawn.
@@ -48,6 +52,13 @@ std::vector<Point> points_of(const StudyFacts& study, const ScenarioFacts& scena
 
 using Place = std::pair<double, double>;
 constexpr double badge_radius = 8.0;
+constexpr const char* hollow = " hollow";  ///< The mark of a condition that loses or hits more EVs.
+
+/// The dash tells colours apart without colour.
+std::string interval_style(const Series& series) {
+    return series.levels ? fmt::format("{} d{}", colour_of(series), series.levels->colour - 1)
+                         : colour_of(series);
+}
 
 double distance(const Place& a, const Place& b) {
     return std::hypot(a.first - b.first, a.second - b.second);
@@ -75,7 +86,7 @@ Place free_place(const Place& point, const std::vector<Place>& taken, const Plot
 }
 
 void draw_intervals(Plot& plot, const Point& point, const Place& place) {
-    const std::string style = "bar thin " + colour_of(point.series);
+    const std::string style = "bar thin " + interval_style(point.series);
     const auto [x, y] = place;
     if (const analysis::Interval* const across = shown_interval(point.lost()))
         plot.path({{plot.x().place(across->low), y}, {plot.x().place(across->high), y}}, style);
@@ -99,7 +110,16 @@ void draw_number(Plot& plot, const Point& point, const Place& at) {
     plot.text(at.first, at.second + 4.0, std::to_string(point.number), Plot::Anchor::middle, "onDot");
 }
 
-/// Intervals first, then dots and what leads to them, then numbers, none of which hides another.
+/// A mark at the point itself.
+void draw_mark(Plot& plot, const Point& point, const Place& at) {
+    constexpr double radius = 5.5;
+    if (point.series.weight == Series::Weight::lead)
+        plot.circle(at.first, at.second, radius + 4.0, "ring " + colour_of(point.series));
+    plot.add(mark_of(point.series, at.first, at.second, radius, point.objection().empty() ? "" : hollow));
+}
+
+/// Intervals first. Then marks at their places, or dots and what leads to them and numbers, none of which
+/// hides another.
 void draw(Plot& plot, const std::vector<Point>& points) {
     std::vector<Place> places;
     for (const Point& point : points) {
@@ -109,6 +129,11 @@ void draw(Plot& plot, const std::vector<Point>& points) {
                         "dot small " + colour_of(point.series));
         else
             draw_intervals(plot, point, places.back());
+    }
+    if (points.front().series.levels) {
+        for (std::size_t at = 0; at < points.size(); ++at)
+            draw_mark(plot, points[at], places[at]);
+        return;
     }
     std::vector<Place> taken;
     for (std::size_t at = points.size(); at-- > 0;) {  // The one that leads is placed first: at its point.
@@ -136,8 +161,7 @@ DataTable data_of(const std::vector<Point>& points) {
         const MaybeEstimate gained = point.gained();
         table.rows.push_back({point.condition->label(), std::to_string(point.number),
                               estimate(gained, typeset(2)), estimate(point.lost(), typeset(2)),
-                              grouped(gained->n),
-                              analysis::emergency_objection_word(point.condition->objections)});
+                              grouped(gained->n), point.objection()});
     }
     return table;
 }
@@ -146,11 +170,38 @@ std::vector<LegendEntry> entries_of(const std::vector<Point>& points) {
     std::vector<LegendEntry> entries;
     for (const Point& point : by_number(points)) {
         if (point.turned_alone) continue;
-        const std::string objection = analysis::emergency_objection_word(point.condition->objections);
+        const std::string objection = point.objection();
         entries.push_back(number_entry(
             point.series, point.condition->label() + (objection.empty() ? "" : " (" + objection + ")")));
     }
     return entries;
+}
+
+/// `policy: ...` in colours, `failure: ...` in marks, and what rings and hollow marks mean.
+void add_legends(Plot& plot, const Crossing& crossing, const std::vector<Point>& points) {
+    const auto named = [](const Crossing::Aspect& aspect, const auto& entry_of) {
+        std::vector<LegendEntry> entries = {{"", aspect.name.substr(aspect.name.rfind('.') + 1) + ":"}};
+        for (std::size_t level = 1; level <= aspect.levels.size(); ++level)
+            entries.push_back(entry_of(level, aspect.levels[level - 1]));
+        return entries;
+    };
+    plot.legend(named(crossing.colour, [](std::size_t level, const std::string& words) {
+        return line_entry({.levels = Series::Levels{level, 0}}, words);
+    }));
+    plot.legend(named(crossing.mark, [](std::size_t level, const std::string& words) {
+        return mark_entry({.levels = Series::Levels{0, level}}, words);
+    }));
+    std::vector<LegendEntry> entries;
+    std::set<std::string> objections;
+    for (const Point& point : points) {
+        if (point.series.weight == Series::Weight::lead)
+            entries.push_back(dot_entry("ring " + colour_of(point.series), point.condition->label()));
+        if (!point.objection().empty()) objections.insert(point.objection());
+    }
+    if (!objections.empty())
+        entries.push_back(mark_entry({.levels = Series::Levels{0, 1}},
+                                     fmt::format("hollow: {}", fmt::join(objections, " or ")), hollow));
+    plot.legend(entries);
 }
 
 }  // namespace
@@ -178,12 +229,16 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
     plot.horizontal(0.0);
     plot.vertical(0.0);
     draw(plot, points);
-    plot.legend(entries_of(points));
+    const std::optional<Crossing> crossing = crossing_of(study, scenario);
+    if (crossing)
+        add_legends(plot, *crossing, points);
+    else
+        plot.legend(entries_of(points));
     std::string note = fmt::format(
         "Up is better for emergency vehicles, left is better for the others. Bars are 95 % intervals. In the "
         "grey band a gain or loss is below {} s and does not count.",
         number(scenario.least_relevant_s, typeset(1)));
-    note += " A number that would hide another has a line to its dot.";
+    if (!crossing) note += " A number that would hide another has a line to its dot.";
     if (std::ranges::any_of(points, &Point::turned_alone)) note += " Small dots: one setting turned alone.";
     return {"tradeoff-" + scenario.name, "Gain and cost", plot.finish(), note, data_of(points)};
 }
