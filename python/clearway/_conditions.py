@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import functools
 import json
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Union
@@ -44,17 +43,10 @@ class Conditions:
 
     @functools.cached_property
     def titles(self) -> dict[str, set[str]]:
-        """Names by the titles that tables show. ``clearway report`` says them; it is given links to what is in the folder, so that the
-        report there stays as it is."""
+        """Names by the titles that tables show, as ``clearway compare`` says them."""
         titles: dict[str, set[str]] = {}
-        with tempfile.TemporaryDirectory(prefix="clearway-") as place:
-            for entry in _files.listed(self._folder.resolve()):
-                if entry.name != "report.html":
-                    (Path(place) / entry.name).symlink_to(entry)
-            _, said = _program.call(["report", place, "--json"], accept=(_program.RUNS_FAILED, _program.INCOMPLETE))
-            for scenario in json.loads(said)["scenarios"]:
-                for one in scenario["conditions"]:
-                    titles.setdefault(one["title"], set()).add(one["name"])
+        for one in _program.call_json(["compare", str(self._folder.absolute())])["conditions"]:
+            titles.setdefault(one["title"], set()).add(one["condition"])
         return titles
 
     def require_scenario(self, name: Any) -> None:

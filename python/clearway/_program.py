@@ -65,8 +65,8 @@ def require_first_load(call_name: str) -> None:
 
 
 _ERROR_OF = {2: InputError, 3: InputError, 4: EnvironmentFault}
-#: The study went on, and what failed is in its tables (1: runs failed, 5: incomplete).
-RUNS_FAILED, INCOMPLETE = 1, 5
+#: The study went on, and the runs that failed are in its tables.
+RUNS_FAILED = 1
 
 
 def require_whole(what: str, value: Any, least: int, most: int) -> None:

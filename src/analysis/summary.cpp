@@ -271,6 +271,31 @@ const ConditionSpec* compared_with(const ConditionSpec& condition, const std::ve
     return found == all.end() || found->name == condition.name ? nullptr : &*found;
 }
 
+/// Reference::Chosen::best for `condition`, by a summary against the baselines; nullptr where there is none.
+const ConditionSpec* best_other(const ConditionSpec& condition, const ScenarioSummary& usual) {
+    const auto circumstances = [](const ConditionSpec& one) {
+        core::Settings factors = one.factors;
+        factors.erase("condition.policy");
+        factors["failure"] = one.failure;
+        return factors;
+    };
+    const ConditionSpec* best = nullptr;
+    double least_s = 0.0;
+    for (const ConditionSummary& other : usual.conditions) {
+        const std::optional<double> mean_s = mean_of(other.metric(primary_metric).estimate);
+        if (!mean_s || !other.condition.acts() || other.objections.on_emergency() ||
+            other.condition.name == condition.name ||
+            !experiment::same_environment(other.condition, condition) ||
+            circumstances(other.condition) != circumstances(condition))
+            continue;
+        if (best == nullptr || *mean_s < least_s) {
+            best = &other.condition;
+            least_s = *mean_s;
+        }
+    }
+    return best;
+}
+
 }  // namespace
 
 namespace detail {
@@ -374,13 +399,18 @@ ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEn
                                    const Choices& choices) {
     const double threshold_s =
         detail::threshold_of(index, entry.name, conditions, choices.response_threshold_s);
+    std::optional<ScenarioSummary> usual;
+    if (choices.reference.is_best())
+        usual = summarise_scenario(index, entry, conditions, resamples, {choices.response_threshold_s, {}});
     ScenarioSummary scenario{entry.name, entry.title, {}};
     for (const ConditionSpec& condition : conditions)
         scenario.conditions.push_back(detail::describe_condition(index, entry.name, condition, resamples));
     find_same(index, scenario);
     const auto solo = std::ranges::find(conditions, TrafficModel::free_flow, &ConditionSpec::traffic_model);
     for (ConditionSummary& summary : scenario.conditions) {
-        const ConditionSpec* const baseline = compared_with(summary.condition, conditions, choices.reference);
+        const ConditionSpec* const baseline =
+            usual ? best_other(summary.condition, *usual)
+                  : compared_with(summary.condition, conditions, choices.reference);
         const Runs runs = index.runs(entry.name, summary.condition.name);
         const Runs baseline_runs = baseline == nullptr ? Runs{} : index.runs(entry.name, baseline->name);
         summary.response = response_of(runs, baseline_runs, threshold_s, resamples.level());
@@ -398,6 +428,7 @@ ScenarioSummary summarise_scenario(const Index& index, const results::ScenarioEn
 }  // namespace
 
 std::string to_text(const Reference& reference) {
+    if (reference.is_best()) return "the best other condition";
     if (reference.levels.empty()) return reference.name;
     std::vector<std::string> levels;
     for (const auto& [factor, level] : reference.levels)

@@ -170,15 +170,19 @@ Summary compare_studies(const results::Results& first, const results::Results& s
                         double level = usual_level, std::optional<double> response_threshold_s = {});
 
 /// What conditions are compared with: one condition of the study, by its name; or for each the one that has
-/// these levels of factors, `condition.policy` -> `corridor`, and is the same in all others; or its baseline,
-/// if neither is given.
+/// these levels of factors, `condition.policy` -> `corridor`, and is the same in all others; or for each the
+/// best of the others; or its baseline, if none of these is given. The best has the least mean of the primary
+/// metric among those that act, have the same failure and factors but for the policy, and no objection on
+/// emergency vehicles (analysis::Objections). Chosen by the runs that are then compared, it is favoured.
 struct Reference {
     std::string name = {};
     core::Settings levels = {};
+    enum class Chosen : std::uint8_t { as_named, best } chosen = Chosen::as_named;
 
-    bool is_baseline() const { return name.empty() && levels.empty(); }
+    bool is_best() const { return chosen == Chosen::best; }
+    bool is_baseline() const { return name.empty() && levels.empty() && !is_best(); }
 };
-/// `corridor`, or `the same with policy corridor`; empty for the baseline.
+/// `corridor`, `the same with policy corridor`, `the best other condition`; empty for the baseline.
 std::string to_text(const Reference& reference);
 
 /// A condition's baseline is the first condition of the same traffic model without policies; its solo times

@@ -97,6 +97,7 @@ analysis::Reference reference_from(const std::string& against,
     const char* const option = "--against";
     const std::vector<std::string> names = core::texts_of(conditions, &experiment::ConditionSpec::name);
     if (std::ranges::find(names, against) != names.end()) return {.name = against};
+    if (against == "best") return {.chosen = analysis::Reference::Chosen::best};
     const Levels levels = levels_of(conditions);
     if (levels.empty() || against.find('=') == std::string::npos || against.find('+') != std::string::npos) {
         core::Problem problem =

@@ -16,7 +16,10 @@
 #include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
 #include "core/error.hpp"
+#include "core/terminal.hpp"
 #include "report/comparison.hpp"
+#include "report/read_facts.hpp"
+#include "report/text.hpp"
 #include "results/store.hpp"
 
 namespace clearway::cli {
@@ -96,12 +99,13 @@ analysis::Reference reference_of(const Arguments& arguments, const results::Mani
     return campaign::reference_from(arguments.against, manifest.conditions, arguments.first);
 }
 
-analysis::Summary summary_of(const Arguments& arguments) {
+/// `reference` is set to what conditions are compared with.
+analysis::Summary summary_of(const Arguments& arguments, analysis::Reference& reference) {
     for (const std::string& folder : {arguments.first, arguments.second})
         if (!folder.empty()) campaign::renew_edited_tables(results::Store::open(folder));
     const results::Results first =
         results::read_results(results::Store::open(arguments.first), results::VehicleRows::emergency);
-    const analysis::Reference reference = reference_of(arguments, first.manifest);
+    reference = reference_of(arguments, first.manifest);
     if (!arguments.second.empty())
         return analysis::compare_studies(
             first,
@@ -113,13 +117,39 @@ analysis::Summary summary_of(const Arguments& arguments) {
         return std::ranges::any_of(scenario.conditions,
                                    [](const auto& condition) { return !condition.baseline.empty(); });
     });
-    if (!compared && arguments.publication.file.empty())
+    const bool only_tells = arguments.printing == Printing::json && arguments.tolerances.empty();
+    if (!compared && !only_tells && arguments.publication.file.empty())
         throw core::InputError({arguments.first,
                                 arguments.against.empty()
                                     ? "has no condition besides its baselines"
                                     : "has no other condition in the environment of " + arguments.against,
                                 "", "Name a second run folder to compare it with"});
     return summary;
+}
+
+/// Which conditions were the best, and what choosing them so means.
+std::string best_text(const analysis::Summary& summary, const report::ConditionTitleMap& titles) {
+    std::string text;
+    for (const analysis::ScenarioSummary& scenario : summary.scenarios) {
+        const auto title = [&](const std::string& name) {
+            return report::printable(titles.at({scenario.scenario, name}));
+        };
+        for (const analysis::ConditionSummary& condition : scenario.conditions)
+            if (!condition.baseline.empty())
+                text += core::wrapped(
+                            fmt::format("{}: {}: diff. is minus {}.", report::printable(scenario.scenario),
+                                        title(condition.condition.name), title(condition.baseline)),
+                            4) +
+                        "\n";
+    }
+    return text +
+           core::wrapped(
+               "Each is compared with the best other condition of the same failure and factors: the "
+               "least mean EV travel time, all, without lost or hit EVs. It was chosen by the same runs, "
+               "which favours it: the smallest of several means is usually a little too small. Repeat the "
+               "comparison with --against NAME on other seeds.",
+               0) +
+           "\n";
 }
 
 core::ExitCode compare(Arguments arguments) {
@@ -130,18 +160,23 @@ core::ExitCode compare(Arguments arguments) {
         throw core::InputError({"--publish", "writes differences from baselines, and there is --against", "",
                                 "Leave out one of them"});
     const std::vector<report::Tolerance> tolerances = check(arguments);
-    const analysis::Summary summary = summary_of(arguments);
+    analysis::Reference reference;
+    const analysis::Summary summary = summary_of(arguments, reference);
+    const report::Titles titles =
+        report::titles_of(results::Store::open(arguments.first), summary, reference);
     const std::vector<report::Shortfall> found = report::shortfalls(summary, tolerances);
     if (arguments.printing == Printing::json) {
-        fmt::print("{}", report::comparison_json(summary, arguments.metrics, found));
+        fmt::print("{}", report::comparison_json(summary, arguments.metrics, found, titles.conditions));
     } else {
-        fmt::print("{}", report::comparison_text(summary, arguments.metrics));
+        fmt::print("{}", report::comparison_text(summary, arguments.metrics, titles.conditions));
         if (!arguments.second.empty())
             fmt::print("diff.: {} minus {}, paired by scenario, condition and replication.\n",
                        arguments.second, arguments.first);
-        if (!arguments.against.empty())
+        if (reference.is_best())
+            fmt::print("{}", best_text(summary, titles.conditions));
+        else if (!arguments.against.empty())
             fmt::print("diff.: minus {} (here the baseline), paired by scenario and replication.\n",
-                       arguments.against);
+                       report::printable(titles.reference));
     }
     if (!arguments.publication.file.empty())
         campaign::publish_study(arguments.publication, results::Store::open(arguments.first), summary,
@@ -164,9 +199,9 @@ Action configure_compare(App& app) {
         .option_text("DIR [none]");
     app.add_option(
            "--against", arguments->against,
-           "Condition of the run folder that the others are compared with, or levels of factors: each "
-           "is compared with the one that is the same but for these")
-        .option_text("NAME|FACTOR=LEVEL,... [the baselines]");
+           "Condition of the run folder that the others are compared with; or levels of factors: each "
+           "is compared with the one that is the same but for these; or best: with the best other one")
+        .option_text("NAME|FACTOR=LEVEL,...|best [the baselines]");
     app.add_option("--metric", arguments->metrics, "Metric to compare, a column of runs.csv; may be repeated")
         .allow_extra_args(false)
         .option_text("NAME [EV and others' times, collisions, teleports]");

@@ -120,9 +120,9 @@ Action configure_figures(App& app) {
         .required()
         .option_text("DIR (required)");
     app.add_option("--against", arguments->against,
-                   "Condition that stands for the baseline, or levels of factors: each condition is compared "
-                   "with the one that is the same but for these")
-        .option_text("NAME|FACTOR=LEVEL,... [the baselines]");
+                   "Condition that stands for the baseline; or levels of factors: each condition is compared "
+                   "with the one that is the same but for these; or best: with the best other one")
+        .option_text("NAME|FACTOR=LEVEL,...|best [the baselines]");
     app.add_option("--least-difference", arguments->least_relevant_s,
                    "Smallest difference of an EV's time that counts as an effect, s; 0: any")
         .range(0.0, 1e6)

@@ -48,8 +48,12 @@ std::vector<bool> equipped_signals(const ConditionSpec& condition, const roads::
     std::vector<core::Problem> problems = check_equipped(set->second, where);
     for (const std::string& name : ids_in(set->second)) {
         if (name.empty()) continue;
-        if (const auto signal = roads::named_signal(network, name, where, problems))
-            equipped[signal->value] = true;
+        const auto signal = roads::named_signal(network, name, where, problems);
+        if (!signal) continue;
+        if (equipped[signal->value])
+            problems.push_back(
+                {where, fmt::format("\"{}\" is a signal that is named before", name), allowed, ""});
+        equipped[signal->value] = true;
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
     return equipped;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -41,70 +40,25 @@ bool is_unsafe(const ConditionSummary& condition) {
     return condition.condition.safety_checks == traffic::SafetyChecks::off;
 }
 
-std::string last_part(const std::string& name) {
-    return name.substr(name.rfind('.') == std::string::npos ? 0 : name.rfind('.') + 1);
+const std::string& title_of(const ConditionTitleMap& titles, const ScenarioSummary& scenario,
+                            const std::string& condition) {
+    const auto title = titles.find({scenario.scenario, condition});
+    return title == titles.end() ? condition : title->second;
 }
 
-/// The first columns of a scenario's tables: the names of the conditions, and one column per factor of the
-/// study, whose values are left out of the names.
-class LabelColumns {
-  public:
-    explicit LabelColumns(const ScenarioSummary& scenario) {
-        for (const ConditionSummary& condition : scenario.conditions) {
-            for (const auto& [name, value] : condition.condition.factors) {
-                std::size_t& width = widths_[name];
-                width = std::max({width, last_part(name).size() + 2, printable(value).size() + 2});
-            }
-        }
-        for (const auto& [name, width] : widths_)
-            width_of_factors_ += width;
-    }
+/// The first column of a scenario's tables. A label that does not fit before the numbers gets lines of its
+/// own.
+std::string cell(const std::string& label) {
+    const std::size_t size = core::characters_in(label);
+    if (size < comparison_label_width) return label + std::string(comparison_label_width - size, ' ');
+    return core::wrapped(label, 4) + "\n" + std::string(comparison_label_width, ' ');
+}
 
-    std::string header() const {
-        std::string text = cell("Condition", name_width());
-        for (const auto& [name, width] : widths_)
-            text += cell(last_part(name), width);
-        return on_line(text);
-    }
-    std::string of(const ConditionSummary& condition) const {
-        const core::Settings& factors = condition.condition.factors;
-        const std::string mark = is_unsafe(condition) ? " (!)" : "";
-        const std::string name = printable(without_factors(condition.condition));
-        std::string text = cell(name.substr(0, name_width() - 1 - mark.size()) + mark, name_width());
-        for (const auto& [factor, width] : widths_) {
-            const auto value = factors.find(factor);
-            text += cell(value == factors.end() ? missing(Script::plain) : printable(value->second), width);
-        }
-        return on_line(text);
-    }
-
-  private:
-    static std::string cell(const std::string& text, std::size_t width) {
-        return fmt::format("{:<{}}", text, width);
-    }
-    std::size_t name_width() const {
-        return width_of_factors_ + 12 <= comparison_label_width ? comparison_label_width - width_of_factors_
-                                                                : comparison_label_width;
-    }
-    /// A label that does not fit before the numbers gets a line of its own.
-    static std::string on_line(std::string text) {
-        if (text.size() <= comparison_label_width) return text;
-        text.resize(std::min(text.size(), comparison_width));
-        text.erase(text.find_last_not_of(' ') + 1);
-        return text + "\n" + std::string(comparison_label_width, ' ');
-    }
-    static std::string without_factors(const experiment::ConditionSpec& condition) {
-        std::size_t end = condition.name.size();
-        for (const auto& [factor, value] : condition.factors) {
-            end = std::min(end, condition.name.find("+" + last_part(factor) + "="));
-            end = std::min(end, condition.name.find("+" + factor + "="));
-        }
-        return condition.name.substr(0, end);
-    }
-
-    std::map<std::string, std::size_t> widths_;
-    std::size_t width_of_factors_ = 0;
-};
+std::string label_of(const ConditionTitleMap& titles, const ScenarioSummary& scenario,
+                     const ConditionSummary& condition) {
+    return cell(printable(title_of(titles, scenario, condition.condition.name)) +
+                (is_unsafe(condition) ? " (!)" : ""));
+}
 
 std::string p_text(const std::optional<double>& p) {
     if (!p) return missing(Script::plain);
@@ -187,7 +141,7 @@ void add_objections(const ScenarioSummary& scenario, const ConditionSummary& con
 }
 
 /// Response times of the conditions that are compared; nothing where no EV arrived.
-std::string response_text(const ScenarioSummary& scenario, const LabelColumns& labels) {
+std::string response_text(const ScenarioSummary& scenario, const ConditionTitleMap& titles) {
     constexpr const char* format = "{:>8}  {:<19}  {:>8}  {}\n";
     std::string rows;
     double threshold_s = 0.0;
@@ -198,7 +152,7 @@ std::string response_text(const ScenarioSummary& scenario, const LabelColumns& l
         const auto cell = [](const MaybeEstimate& trips, double factor) {
             return trips ? number(factor * trips->mean, {}) : missing(Script::plain);
         };
-        rows += labels.of(condition) +
+        rows += label_of(titles, scenario, condition) +
                 fmt::format(fmt::runtime(format), cell(response.percentile_90_s, 1.0),
                             estimate(response.percentile_90_difference_s, {.sign = Sign::always}),
                             cell(response.in_time, 100.0),
@@ -210,7 +164,7 @@ std::string response_text(const ScenarioSummary& scenario, const LabelColumns& l
         core::wrapped(fmt::format("{}: EV response time, 90th percentile, s, and trips within {:g} s, %",
                                   printable(scenario.scenario), threshold_s),
                       4),
-        labels.header(),
+        cell("Condition"),
         fmt::format(fmt::runtime(format), "90th pc.", "diff. [95 %]", "in time", "diff. [95 %]"), "",
         comparison_width, rows);
 }
@@ -259,13 +213,14 @@ std::string differing_text(const analysis::Summary& summary) {
 }
 
 /// The lines before the tables.
-std::string objections_text(const ScenarioSummary& scenario) {
+std::string objections_text(const ScenarioSummary& scenario, const ConditionTitleMap& titles) {
     std::string text;
     for (const ConditionSummary& condition : scenario.conditions) {
         const auto add = [&](const std::string& words) {
-            text += core::wrapped(fmt::format("{}: {}: {}.", printable(scenario.scenario),
-                                              printable(condition.condition.name), words),
-                                  4) +
+            text += core::wrapped(
+                        fmt::format("{}: {}: {}.", printable(scenario.scenario),
+                                    printable(title_of(titles, scenario, condition.condition.name)), words),
+                        4) +
                     "\n";
         };
         if (const std::string locks = lock_words(condition); !locks.empty()) add(locks);
@@ -310,14 +265,14 @@ std::vector<Shortfall> shortfalls(const analysis::Summary& summary,
     return found;
 }
 
-std::string comparison_text(const analysis::Summary& summary, const std::vector<std::string>& metrics) {
+std::string comparison_text(const analysis::Summary& summary, const std::vector<std::string>& metrics,
+                            const ConditionTitleMap& titles) {
     std::string text = differing_text(summary);
     auto out = std::back_inserter(text);
     bool any_unsafe = false;
     bool any_few = false;
     for (const ScenarioSummary& scenario : summary.scenarios) {
-        text += objections_text(scenario);
-        const LabelColumns labels(scenario);
+        text += objections_text(scenario, titles);
         for (const std::string& name : metrics) {
             std::string rows;
             const analysis::MetricInfo* metric = nullptr;
@@ -327,7 +282,7 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
                 any_unsafe = any_unsafe || is_unsafe(condition);
                 const Comparison& comparison = *condition.metric(name).comparison;
                 any_few = any_few || comparison.complete_pairs < analysis::fewest_for_interval;
-                rows += labels.of(condition) + numbers_of(comparison);
+                rows += label_of(titles, scenario, condition) + numbers_of(comparison);
                 if (const std::string words =
                         locked_pairs_words(comparison, usual_least_relevant_s, Script::plain);
                     !words.empty())
@@ -336,12 +291,12 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
             if (metric == nullptr) continue;
             const std::string title = fmt::format("{}: {}{}", printable(scenario.scenario), metric->doc,
                                                   metric->unit == "1" ? "" : ", " + metric->unit);
-            fmt::format_to(out, "{}\n{}", core::wrapped(title, 4), labels.header());
+            fmt::format_to(out, "{}\n{}", core::wrapped(title, 4), cell("Condition"));
             fmt::format_to(out, fmt::runtime(numbers_format), "pairs", "diff.", "95 % interval", "%", "d",
                            "p Holm", "Wilcoxon");
             fmt::format_to(out, "{:-<{}}\n{}\n", "", comparison_width, rows);
         }
-        text += response_text(scenario, labels);
+        text += response_text(scenario, titles);
     }
     for (const analysis::Unpaired& lost : summary.unpaired)
         text += unpaired_line(lost);
@@ -353,7 +308,7 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
 }
 
 std::string comparison_json(const analysis::Summary& summary, const std::vector<std::string>& metrics,
-                            const std::vector<Shortfall>& short_of) {
+                            const std::vector<Shortfall>& short_of, const ConditionTitleMap& titles) {
     Json comparisons = Json::array();
     const results::FactorColumns columns(summary.manifest);
     for_each_compared(summary, [&](const ScenarioSummary& scenario, const ConditionSummary& condition) {
@@ -363,6 +318,7 @@ std::string comparison_json(const analysis::Summary& summary, const std::vector<
         const core::Settings factors = columns.settings(scenario.scenario, condition.condition.name);
         comparisons.push_back({{"scenario", scenario.scenario},
                                {"condition", condition.condition.name},
+                               {"title", title_of(titles, scenario, condition.condition.name)},
                                {"compared_with", condition.baseline},
                                {"safety_checks", experiment::name(condition.condition.safety_checks)},
                                {"locks", detail::locks_json(condition)},
@@ -372,6 +328,9 @@ std::string comparison_json(const analysis::Summary& summary, const std::vector<
                                {"response", to_json(condition.response)}});
         if (!factors.empty()) comparisons.back()["factors"] = detail::factors_json(factors);
     });
+    Json conditions = Json::array();
+    for (const auto& [of, title] : titles)
+        conditions.push_back({{"scenario", of.first}, {"condition", of.second}, {"title", title}});
     Json gates = Json::array();
     for (const Shortfall& one : short_of)
         gates.push_back({{"scenario", one.scenario},
@@ -388,6 +347,7 @@ std::string comparison_json(const analysis::Summary& summary, const std::vector<
     for (const analysis::Unpaired& lost : summary.unpaired)
         unpaired.push_back({{"scenario", lost.scenario}, {"condition", lost.condition}, {"why", lost.why}});
     Json result = {{"comparisons", std::move(comparisons)},
+                   {"conditions", std::move(conditions)},
                    {"differing_settings", std::move(differing)},
                    {"unpaired", std::move(unpaired)},
                    {"short_of_tolerance", std::move(gates)}};

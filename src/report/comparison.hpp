@@ -1,11 +1,16 @@
 #pragma once
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/summary.hpp"
 
 namespace clearway::report {
+
+/// Titles of conditions, by scenario and name; a condition without one is called by its name.
+using ConditionTitleMap = std::map<std::pair<std::string, std::string>, std::string>;
 
 /// A gate: the metric may be worse by at most `largest`, in its unit.
 struct Tolerance {
@@ -33,10 +38,12 @@ bool more_is_better(const std::string& metric);
 std::vector<Shortfall> shortfalls(const analysis::Summary& summary, const std::vector<Tolerance>& tolerances);
 
 /// The paired table of each scenario and metric for a terminal of 100 columns.
-std::string comparison_text(const analysis::Summary& summary, const std::vector<std::string>& metrics);
+std::string comparison_text(const analysis::Summary& summary, const std::vector<std::string>& metrics,
+                            const ConditionTitleMap& titles = {});
 
-/// The same as one JSON object, with the shortfalls; null for missing values.
+/// The same as one JSON object, with the shortfalls and the titles of all conditions; null for missing
+/// values.
 std::string comparison_json(const analysis::Summary& summary, const std::vector<std::string>& metrics,
-                            const std::vector<Shortfall>& short_of);
+                            const std::vector<Shortfall>& short_of, const ConditionTitleMap& titles = {});
 
 }  // namespace clearway::report

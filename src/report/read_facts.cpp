@@ -277,7 +277,39 @@ void add_files(const results::Store& store, const results::Results& results, Sce
     }
 }
 
+/// As analysis::to_text, with titles in place of names and levels.
+std::string titled(analysis::Reference reference, const std::vector<ConditionFacts>& conditions) {
+    const analysis::Reference by_name = reference;
+    for (const ConditionFacts& condition : conditions) {
+        if (condition.name() == by_name.name) reference.name = condition.title;
+        for (auto& [factor, level] : reference.levels) {
+            const auto value = condition.condition.factors.find(factor);
+            const auto title = condition.factor_titles.find(factor);
+            if (value != condition.condition.factors.end() && value->second == by_name.levels.at(factor) &&
+                title != condition.factor_titles.end())
+                level = title->second;
+        }
+    }
+    return analysis::to_text(reference);
+}
+
 }  // namespace
+
+Titles titles_of(const results::Store& store, const analysis::Summary& summary,
+                 const analysis::Reference& reference) {
+    const detail::ConditionTitles titles(detail::titles_in(store.folder() / "titles.json"));
+    Titles found;
+    for (const analysis::ScenarioSummary& scenario : summary.scenarios) {
+        std::vector<ConditionFacts> conditions;
+        for (const analysis::ConditionSummary& condition : scenario.conditions)
+            conditions.emplace_back().condition = condition.condition;
+        titles.give(conditions);
+        for (const ConditionFacts& condition : conditions)
+            found.conditions[{scenario.scenario, condition.name()}] = condition.title;
+        found.reference = titled(reference, conditions);
+    }
+    return found;
+}
 
 StudyFacts facts_of(const results::Store& store, const results::Results& results,
                     const analysis::Summary& summary, double least_relevant_s) {
@@ -317,7 +349,7 @@ StudyFacts read_facts(const fs::path& folder, double least_relevant_s, const ana
     const results::Results results = results::read_results(store, results::VehicleRows::emergency);
     const analysis::Summary summary = analysis::summarise(results, analysis::usual_level, {}, reference);
     StudyFacts facts = facts_of(store, results, summary, least_relevant_s);
-    facts.reference = analysis::to_text(reference);
+    if (!facts.scenarios.empty()) facts.reference = titled(reference, facts.scenarios[0].conditions);
     return facts;
 }
 

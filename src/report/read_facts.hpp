@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "analysis/summary.hpp"
+#include "report/comparison.hpp"
 #include "report/facts.hpp"
 #include "results/store.hpp"
 
@@ -28,6 +30,15 @@ StudyFacts read_facts(const std::filesystem::path& folder, double least_relevant
 /// The same from results that have been read and summarised already.
 StudyFacts facts_of(const results::Store& store, const results::Results& results,
                     const analysis::Summary& summary, double least_relevant_s = usual_least_relevant_s);
+
+/// What tables and figures call the conditions of a run folder, by scenario and name, and what they are
+/// compared with: `Ours`, `the same with policy Ours`.
+struct Titles {
+    ConditionTitleMap conditions;
+    std::string reference;
+};
+Titles titles_of(const results::Store& store, const analysis::Summary& summary,
+                 const analysis::Reference& reference);
 
 /// Whether an SVG file may go into the page as it is: one <svg> element without scripts, event handlers,
 /// foreign elements or external resources. Run folders may come from others, so an unsafe picture is left

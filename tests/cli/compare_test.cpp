@@ -1,6 +1,7 @@
 // `clearway compare`: conditions and folders pair by pair, and rows for pages.
 #include <algorithm>
 #include <future>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -70,7 +71,7 @@ TEST_F(CompareTest, compares_with_a_condition_that_is_named) {
     EXPECT_DOUBLE_EQ(pair["metrics"][metric]["difference"].get<double>(),
                      -usual["comparisons"][0]["metrics"][metric]["difference"].get<double>());
     EXPECT_THAT(clearway({"compare", "one", "--against", "graph_simulation"}).out,
-                HasSubstr("diff.: minus graph_simulation (here the baseline)"));
+                HasSubstr("diff.: minus Graph made by simulation attributes (here the baseline)"));
     const Ended unknown = clearway({"compare", "one", "--against", "graph_simulatoin"});
     EXPECT_EQ(unknown.code, 3);
     EXPECT_THAT(unknown.err, HasSubstr("Did you mean 'graph_simulation'?"));
@@ -84,7 +85,8 @@ TEST_F(CompareTest, compares_with_the_same_at_another_level_of_a_factor) {
     write("my.toml",
           "name = \"mine\"\nreplications = 5\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n"
           "[[condition]]\nname = \"own\"\npolicy = [\"corridor\"]\n[factors]\n"
-          "condition.policy = [\"corridor\", \"geocast\"]\ncondition.failure = [\"perfect\", \"B10\"]\n");
+          "condition.policy = [\"corridor\", \"geocast\"]\ncondition.failure = [\"perfect\", \"B10\"]\n"
+          "[titles]\ncorridor = \"Ours\"\ngeocast = \"Today\"\n");
     ASSERT_EQ(clearway({"study", "my.toml"}).code, 0);
     const auto tables = nlohmann::json::parse(
         clearway({"compare", "runs/mine", "--against", "policy=geocast", "--json"}).out);
@@ -95,16 +97,23 @@ TEST_F(CompareTest, compares_with_the_same_at_another_level_of_a_factor) {
         ASSERT_NE(policy, std::string::npos) << condition;
         EXPECT_EQ(pair["compared_with"],
                   condition.substr(0, policy) + "geocast" + condition.substr(policy + 8));
+        EXPECT_EQ(pair["title"],
+                  condition.find("B10") == std::string::npos ? "Ours, perfect sensors" : "Ours, B10");
     }
+    EXPECT_EQ(tables.at("conditions").size(), 5U) << "titles of all, also of the baseline";
+    EXPECT_THAT(clearway({"compare", "runs/mine", "--against", "policy=geocast"}).out,
+                AllOf(HasSubstr("\nOurs, B10           "), HasSubstr("\nOurs, perfect sensors\n"),
+                      HasSubstr("diff.: minus the same with policy Today (here the baseline)"),
+                      Not(HasSubstr("geocast"))));
     const Ended figures = clearway({"export", "figures", "runs/mine", "--out", "figures", "--svg-only",
                                     "--against", "condition.policy=geocast"});
     ASSERT_EQ(figures.code, 0) << figures.err;
     EXPECT_THAT(read("figures/factors-emergency-grid.tex"),
-                AllOf(HasSubstr("difference to the same with policy geocast, s"),
+                AllOf(HasSubstr("difference to the same with policy Today, s"),
                       HasSubstr("\\label{tab:factors-emergency-grid-against}")));
     EXPECT_THAT(
         read("figures/differences-line.svg"),
-        AllOf(HasSubstr("difference to the same with policy geocast, s"), Not(HasSubstr("the baseline"))));
+        AllOf(HasSubstr("difference to the same with policy Today, s"), Not(HasSubstr("the baseline"))));
     const auto refused = [&](const char* against, const char* said) {
         const Ended ended = clearway({"compare", "runs/mine", "--against", against});
         EXPECT_EQ(ended.code, 3);
@@ -113,6 +122,52 @@ TEST_F(CompareTest, compares_with_the_same_at_another_level_of_a_factor) {
     refused("policy=geocats", "--against: level of condition.policy: `geocats` is unknown");
     refused("condition.polcy=geocast", "Did you mean 'condition.policy'?");
     refused("nobody", "or a factor and its level, as condition.failure=perfect");
+}
+
+TEST_F(CompareTest, compares_with_the_best_other_condition_under_the_same_failure) {
+    write("my.toml",
+          "name = \"mine\"\nreplications = 5\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n"
+          "[[condition]]\nname = \"own\"\npolicy = [\"corridor\"]\n[factors]\n"
+          "condition.policy = [\"corridor\", \"geocast\", \"clear_lane\"]\n"
+          "condition.failure = [\"perfect\", \"B10\"]\n");
+    ASSERT_EQ(clearway({"study", "my.toml"}).code, 0);
+    std::map<std::string, double> sums;  // of equally many runs
+    const auto rows =
+        nlohmann::json::parse(clearway({"export", "results", "runs/mine", "runs", "--json"}).out);
+    for (const auto& row : rows)
+        sums[row["condition"]] += row["emergency_restricted_travel_time_s"].get<double>();
+    const auto usual = nlohmann::json::parse(clearway({"compare", "runs/mine", "--json"}).out);
+    for (const auto& pair : usual["comparisons"])
+        if (pair["objections"] != "") sums.erase(pair["condition"].get<std::string>());
+    const auto best =
+        nlohmann::json::parse(clearway({"compare", "runs/mine", "--against", "best", "--json"}).out);
+    ASSERT_EQ(best.at("comparisons").size(), 6U);
+    const auto failure_of = [](const std::string& name) { return name.substr(0, name.find("+policy")); };
+    for (const auto& pair : best["comparisons"]) {
+        const std::string with = pair["compared_with"];
+        EXPECT_NE(with, pair["condition"]);
+        EXPECT_EQ(failure_of(with), failure_of(pair["condition"]));
+        ASSERT_TRUE(sums.contains(with)) << "it loses no emergency vehicle";
+        for (const auto& [other, sum] : sums)
+            if (other != pair["condition"] && failure_of(other) == failure_of(with))
+                EXPECT_LE(sums[with], sum + 1e-9) << other;
+    }
+    const std::string text = clearway({"compare", "runs/mine", "--against", "best"}).out;
+    EXPECT_THAT(text,
+                testing::ContainsRegex("line: corridor, B10: diff. is minus (geocast|clear_lane), B10"));
+    EXPECT_THAT(text, HasSubstr("which favours it"));
+}
+
+TEST_F(CompareTest, tells_titles_where_nothing_is_compared) {
+    ASSERT_EQ(
+        clearway({"run", "line", "--seeds", "2", "--no-solo", "--condition", "baseline", "--out", "single"})
+            .code,
+        0);
+    const auto said = nlohmann::json::parse(clearway({"compare", "single", "--json"}).out);
+    EXPECT_TRUE(said.at("comparisons").empty());
+    EXPECT_EQ(said.at("conditions").at(0).at("title"), "Baseline");
+    EXPECT_EQ(clearway({"compare", "single", "--json", "--tolerance", "1"}).code, 3)
+        << "a gate that compares nothing does not pass";
 }
 
 TEST_F(CompareTest, two_that_publish_at_once_lose_no_row) {

@@ -124,7 +124,9 @@ double distance_m(const scenario::EmergencySite& site, core::EdgeIndex edge, con
     std::vector<roads::LanePlace> places;
     lanes.near(geography.value().point({*site.longitude, *site.latitude}), scenario::SiteRoads::reach,
                places);
-    std::erase_if(places, [&](const auto& each) { return network.lane(each.lane).edge != edge; });
+    std::erase_if(places, [&](const auto& each) {
+        return network.lane(each.lane).edge != edge || !network.lane(each.lane).allows_cars;
+    });
     return std::ranges::min(places, {}, &roads::LanePlace::distance_m).distance_m;
 }
 
