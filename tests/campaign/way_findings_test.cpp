@@ -68,6 +68,24 @@ TEST(SiteFindings, name_the_road_of_coordinates) {
     EXPECT_THAT(sites->text,
                 testing::MatchesRegex("by coordinates: fire_station \"New post\" on .*\\(?edge [^ ]+\\)?, "
                                       "[0-9]+ m from the coordinates"));
+    EXPECT_EQ(sites->grade, Grade::ok);
+}
+
+TEST(SiteFindings, note_a_site_far_from_its_road) {
+    scenario::ScenarioConfig config = scenario::load("city");
+    scenario::EmergencySite& site = config.emergency_sites.emplace_back();
+    site.longitude = 13.53;
+    const support::TemporaryFolder folder;
+    const scenario::BuiltNetwork built = scenario::build_network(config, folder.path());
+    const auto found_at = [&](double latitude) {
+        site.latitude = latitude;
+        const auto found = way_findings(config, built.network, "id,edges\n");
+        return *std::ranges::find(found, "sites", &Finding::name);
+    };
+    bool noted = false;  // a road is near in most of the city: look for a place without one
+    for (double latitude = 52.431; latitude < 52.437 && !noted; latitude += 0.0002)
+        noted = found_at(latitude).grade == Grade::note;
+    EXPECT_TRUE(noted);
 }
 
 TEST_F(WayFindings, name_those_whom_an_incident_cuts_off) {

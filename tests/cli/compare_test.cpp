@@ -148,9 +148,10 @@ TEST_F(CompareTest, compares_with_the_best_other_condition_under_the_same_failur
         EXPECT_NE(with, pair["condition"]);
         EXPECT_EQ(failure_of(with), failure_of(pair["condition"]));
         ASSERT_TRUE(sums.contains(with)) << "it loses no emergency vehicle";
-        for (const auto& [other, sum] : sums)
-            if (other != pair["condition"] && failure_of(other) == failure_of(with))
-                EXPECT_LE(sums[with], sum + 1e-9) << other;
+        for (const auto& [other, sum] : sums) {
+            if (other == pair["condition"] || failure_of(other) != failure_of(with)) continue;
+            EXPECT_LE(sums[with], sum + 1e-9) << other;
+        }
     }
     const std::string text = clearway({"compare", "runs/mine", "--against", "best"}).out;
     EXPECT_THAT(text,

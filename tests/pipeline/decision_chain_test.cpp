@@ -140,6 +140,13 @@ TEST(EquippedSignalsOfACondition, CanBeNamedByTheirNumbers) {
     EXPECT_EQ(std::ranges::count(equipped, true), 1);
 }
 
+TEST(EquippedSignalsOfACondition, CannotBeNamedTwiceInTwoWays) {
+    experiment::ConditionSpec condition;
+    const support::Scene scene(before_red);
+    condition.settings["actuation.equipped"] = scene.network().signals().front().id + ",#1";
+    EXPECT_THROW(experiment::equipped_signals(condition, scene.network()), core::InputError);
+}
+
 TEST(EquippedSignalsOfACondition, MustBeInTheNetwork) {
     experiment::ConditionSpec condition;
     condition.name = "mine";
