@@ -120,8 +120,9 @@ analysis::Summary summary_of(const Arguments& arguments, analysis::Reference& re
     const bool only_tells = arguments.printing == Printing::json && arguments.tolerances.empty();
     if (!compared && !only_tells && arguments.publication.file.empty())
         throw core::InputError({arguments.first,
-                                arguments.against.empty()
-                                    ? "has no condition besides its baselines"
+                                arguments.against.empty() ? "has no condition besides its baselines"
+                                : reference.is_best()
+                                    ? "has no two conditions that act under the same failure"
                                     : "has no other condition in the environment of " + arguments.against,
                                 "", "Name a second run folder to compare it with"});
     return summary;

@@ -25,8 +25,8 @@ TEST_F(CompareTest, pairs_conditions_and_folders_and_is_a_gate) {
     ASSERT_EQ(clearway(two_conditions("two", 5)).code, 0);
     const Ended within = clearway({"compare", "one"});
     EXPECT_EQ(within.code, 0) << within.err;
-    EXPECT_THAT(within.out,
-                AllOf(HasSubstr("line: EV travel time"), HasSubstr("graph_simulation"), HasSubstr("p Holm")));
+    EXPECT_THAT(within.out, AllOf(HasSubstr("line: EV travel time"),
+                                  HasSubstr("Graph made by simulation attributes"), HasSubstr("p Holm")));
     const Ended same =
         clearway({"compare", "one", "two", "--tolerance", "0", "--tolerance", "collisions=2", "--json"});
     EXPECT_EQ(same.code, 0) << same.err;

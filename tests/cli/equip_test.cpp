@@ -225,7 +225,7 @@ TEST_F(EquipTest, refuses_what_has_no_answer_and_leaves_nothing_behind) {
     for (const char* const all : {"actuation.equipped=all", "actuation.equipped=A,B"})
         refused({"equip", "./crossings", "--budget", "1", "--set", all}, 3,
                 "says that every signal is equipped today");
-    refused({"equip", "./crossings", "--budget", "1", "--set", "actuation.equipped=C"}, 3, "no signal \"C\"");
+    refused({"equip", "./crossings", "--budget", "1", "--set", "actuation.equipped=C"}, 3, "no signal 'C'");
     write_line_scenario();
     refused({"equip", "line", "--budget", "1"}, 3, "has no signals");
 }
@@ -254,7 +254,7 @@ TEST_F(EquipTest, has_a_setting_of_its_own_that_names_the_nearest_signal) {
         clearway({"run", "./crossings", "--policy", "corridor", "--set", "actuation.equipped=A,C", "--name",
                   "mine", "--seeds", "1", "--out", "run"});
     EXPECT_EQ(ended.code, 3);
-    EXPECT_THAT(ended.err, AllOf(HasSubstr("actuation.equipped"), HasSubstr("no signal \"C\"")));
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("actuation.equipped"), HasSubstr("no signal 'C'")));
     EXPECT_FALSE(std::filesystem::exists(folder() / "run"));
 }
 
