@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/headline.hpp"
 #include "analysis/replications.hpp"
@@ -40,10 +42,22 @@ namespace {
 /// Failed runs that are named one by one; more are in runs.csv.
 constexpr std::size_t named_errors = 10;
 
-/// Replications that a run folder holds; 0 where there is none yet.
-std::uint32_t replications_in(const std::filesystem::path& folder) {
-    if (!std::filesystem::exists(folder / "manifest.json")) return 0;
-    return results::Store::open(folder).manifest().replications;
+/// The study that a run folder holds; nothing where there is none yet.
+std::optional<results::Manifest> study_in(const std::filesystem::path& folder) {
+    if (!std::filesystem::exists(folder / "manifest.json")) return std::nullopt;
+    return results::Store::open(folder).manifest();
+}
+
+/// What a study has more of than its folder had, `from 2 to 4 replications`; empty for the same study.
+std::string growth_of(const results::Manifest& before, const results::Manifest& now) {
+    std::vector<std::string> more;
+    if (!now.precision && before.replications != now.replications)
+        more.push_back(fmt::format("from {} to {}", before.replications,
+                                   core::counted(now.replications, "replication")));
+    if (before.conditions.size() != now.conditions.size())
+        more.push_back(fmt::format("from {} to {}", before.conditions.size(),
+                                   core::counted(now.conditions.size(), "condition")));
+    return fmt::format("{}", fmt::join(more, ", "));
 }
 
 bool is_in_python(const experiment::ConditionSpec& condition) {
@@ -233,15 +247,16 @@ results::Store prepare_run_folder(const study::Plan& plan, const RunOptions& opt
     // Removed below: nothing of the user's may be in it, hidden or not.
     const bool is_new = core::holds_only(
         options.folder, [](const std::string& name) { return name == ".shard" || name == ".lock"; });
-    const std::uint32_t before = replications_in(options.folder);
+    const std::optional<results::Manifest> before = study_in(options.folder);
     try {
         results::Store store = study::prepare_folder(plan, options.folder);
         study::complete_scenarios(plan, store);
-        study::keep_command(store, options.command, before);
+        const bool is_same = before && before->replications == store.manifest().replications &&
+                             before->conditions.size() == store.manifest().conditions.size();
+        study::keep_command(store, options.command, is_same ? study::Growth::none : study::Growth::more);
         study::keep_titles(store, plan.titles);
-        if (before != 0 && !plan.manifest.precision && before != store.manifest().replications)
-            fmt::print(stderr, "clearway: {}: extended from {} to {}\n", options.folder.string(), before,
-                       core::counted(store.manifest().replications, "replication"));
+        if (const std::string growth = before ? growth_of(*before, store.manifest()) : ""; !growth.empty())
+            fmt::print(stderr, "clearway: {}: extended {}\n", options.folder.string(), growth);
         const auto trainings = core::shipped(std::filesystem::path("models") / "training");
         if (trainings && learns(plan)) study::copy_trainings(*trainings, store);
         return store;

@@ -173,9 +173,13 @@ std::string differences(const Manifest& left, const Manifest& right) {
 }
 
 bool continues(const Manifest& wanted, const Manifest& stored) {
-    Manifest as_many = wanted;
-    as_many.replications = stored.replications;
-    return as_many == stored && wanted.replications >= stored.replications;
+    Manifest less = wanted;
+    less.replications = stored.replications;
+    auto known = stored.conditions.begin();
+    for (const experiment::ConditionSpec& condition : wanted.conditions)
+        if (known != stored.conditions.end() && condition == *known) ++known;
+    if (!wanted.plan && known == stored.conditions.end()) less.conditions = stored.conditions;
+    return less == stored && wanted.replications >= stored.replications;
 }
 
 std::string manifest_hash(const Manifest& manifest) {

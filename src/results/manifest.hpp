@@ -79,7 +79,8 @@ inline constexpr const char* another_build = "build of Clearway";
 /// Names of what differs between two manifests, `seed, conditions`; empty for the same study.
 std::string differences(const Manifest& left, const Manifest& right);
 
-/// Whether `wanted` is the study of `stored` with as many replications or more.
+/// Whether `wanted` is the study of `stored` with as many replications or more and, where no plan was written
+/// before, perhaps conditions between or after those stored: no run depends on another condition.
 bool continues(const Manifest& wanted, const Manifest& stored);
 
 /// Deterministic JSON with a `hash` of the rest.

@@ -71,12 +71,13 @@ std::optional<results::Manifest> manifest_in(const fs::path& folder, std::vector
 }
 
 /// What a stored study has other than the wanted one; empty when the wanted one goes on with it. Versions do
-/// not count: nobody chooses them by results.
+/// not count: nobody chooses them by results. Conditions may have been added because of results.
 std::string other_settings(const results::Manifest& stored, results::Manifest wanted) {
     wanted.clearway_version = stored.clearway_version;
     wanted.sumo_version = stored.sumo_version;
     wanted.clearway_build = stored.clearway_build;
-    return results::continues(wanted, stored) ? "" : results::differences(stored, wanted);
+    const bool same = wanted.conditions == stored.conditions && results::continues(wanted, stored);
+    return same ? "" : results::differences(stored, wanted);
 }
 
 /// `runs/first: different conditions`, or nothing.

@@ -85,9 +85,9 @@ void complete_scenarios(const Plan& plan, const results::Store& store) {
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }
 
-void keep_command(const results::Store& store, const std::string& command, std::uint32_t before) {
+void keep_command(const results::Store& store, const std::string& command, Growth growth) {
     const std::filesystem::path file = store.folder() / "command.txt";
-    if (before == store.manifest().replications && std::filesystem::exists(file)) return;
+    if (growth == Growth::none && std::filesystem::exists(file)) return;
     core::write_atomically(file, command + "\n");
 }
 

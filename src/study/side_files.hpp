@@ -14,9 +14,10 @@ namespace clearway::study {
 /// any worker starts. Keeps what already exists. Throws core::InputError with the problems of all scenarios.
 void complete_scenarios(const Plan& plan, const results::Store& store);
 
-/// Stores the command that made the study: the first one, or a later one that extends the study beyond the
-/// `before` replications it had.
-void keep_command(const results::Store& store, const std::string& command, std::uint32_t before);
+/// Whether a study has more replications or conditions than its folder had.
+enum class Growth : std::uint8_t { none, more };
+/// Stores the command that made the study: the first one, or a later one that extends it.
+void keep_command(const results::Store& store, const std::string& command, Growth growth);
 
 /// Stores titles for the report in place of earlier ones: `titles.json`, a text by name. Without titles there
 /// is no such file.

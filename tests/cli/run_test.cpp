@@ -483,6 +483,31 @@ TEST_F(RunTest, a_study_file_runs_and_its_plan_can_be_seen_before) {
     EXPECT_THAT(clearway({"study", "status", "runs/mine"}).out, HasSubstr("b20 (!)"));
 }
 
+TEST_F(RunTest, a_condition_that_is_added_to_a_study_keeps_the_runs_of_the_others) {
+    const auto study = [](const char* more) {
+        return fmt::format(
+            "name = \"mine\"\nreplications = 2\nscenarios = [\"./line\"]\nconditions = [\"baseline\", "
+            "{}\"corridor\"]\n",
+            more);
+    };
+    write("my.toml", study(""));
+    ASSERT_EQ(clearway({"study", "my.toml"}).code, 0);
+    const auto made =
+        std::filesystem::last_write_time(folder() / "runs/mine/runs/line/corridor/00001/run.json");
+    write("my.toml", study("\"graph_simulation\", "));
+    const Ended extended = clearway({"study", "my.toml"});
+    ASSERT_EQ(extended.code, 0) << extended.err;
+    EXPECT_THAT(extended.err, AllOf(HasSubstr("extended from 2 to 3 conditions"), HasSubstr("6/6")));
+    EXPECT_EQ(std::filesystem::last_write_time(folder() / "runs/mine/runs/line/corridor/00001/run.json"),
+              made);
+    ASSERT_EQ(clearway({"study", "my.toml", "--out", "whole"}).code, 0);
+    for (const char* const table : {"runs.csv", "vehicles.csv"})
+        EXPECT_EQ(read(std::string("runs/mine/") + table), read(std::string("whole/") + table));
+    EXPECT_THAT(clearway({"verify", "runs/mine", "--all"}).out, HasSubstr("6 verified: 6 same"));
+    write("my.toml", study(""));
+    EXPECT_THAT(clearway({"study", "my.toml"}).err, HasSubstr("graph_simulation is not asked for"));
+}
+
 TEST_F(RunTest, a_dry_run_refuses_the_folder_that_the_study_would_refuse) {
     const auto study = [](int seed) {
         return "name = \"mine\"\nreplications = 1\nseed = " + std::to_string(seed) +

@@ -55,6 +55,29 @@ TEST(Manifest, NamesTheConditionsThatDifferAndWhatDiffersInThem) {
     EXPECT_EQ(differences(manifest, changed), "order of conditions");
 }
 
+TEST(Manifest, ContinuesAStudyWithFewerReplicationsOrConditions) {
+    const Manifest stored = synthetic::manifest();
+    Manifest wanted = stored;
+    wanted.replications += 2;
+    for (const std::size_t at : {std::size_t{0}, std::size_t{1}, stored.conditions.size()}) {
+        Manifest more = wanted;
+        const auto added = more.conditions.insert(more.conditions.begin() + static_cast<std::ptrdiff_t>(at),
+                                                  stored.conditions[1]);
+        added->name = "another";
+        EXPECT_TRUE(continues(more, stored)) << at;
+        EXPECT_FALSE(continues(stored, more)) << at;
+        more.plan.emplace();
+        Manifest planned = stored;
+        planned.plan.emplace();
+        EXPECT_FALSE(continues(more, planned)) << "a plan is about its conditions";
+        more = wanted;
+        std::swap(more.conditions[0], more.conditions[1]);
+        EXPECT_FALSE(continues(more, stored)) << "the first baseline may be another";
+    }
+    wanted.conditions[1].failure = "B10";
+    EXPECT_FALSE(continues(wanted, stored));
+}
+
 TEST(Manifest, OfMoreRunsThanAnyStudyHasIsRefused) {
     const auto problem_of = [](std::uint32_t replications, std::size_t scenarios) {
         Manifest manifest = synthetic::manifest(replications);
