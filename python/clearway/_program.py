@@ -107,12 +107,12 @@ def did_you_mean(word: Any, known: Iterable[str], most: int = 1) -> str:
     return f". Did you mean {' or '.join(map(repr, near))}?" if near else ""
 
 
-def there_are(word: Any, known: Sequence[str], noun: str, all_by: str) -> str:
+def there_are(word: Any, known: Sequence[str], noun: str, all_by: str, count: int | None = None) -> str:
     """What follows ``there is no WORD``: few names all, of many the nearest and how to see all."""
     if len(known) <= MOST_LISTED:
         return f"; it has {', '.join(known) or 'none'}{did_you_mean(word, known)}"
     near = did_you_mean(word, known, 3) or f". It has {', '.join(known[:3])} and others."
-    return f"{near} {all_by} names all {counted(len(known), noun)}"
+    return f"{near} {all_by} names all {counted(len(known) if count is None else count, noun)}"
 
 
 #: What keywords mean that others use.

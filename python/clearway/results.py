@@ -161,7 +161,7 @@ class Results(_program.Told):
         """The paired difference of a condition and its baseline, with the console's intervals (the program works it out).
 
         ``metric`` is a column of ``runs``, ``scenario`` may be left out where there is one, ``against`` is another condition in
-        place of the baseline; factors that it leaves out are those of ``condition``, as here the failure::
+        place of the baseline, or ``"best"``; factors that it leaves out are those of ``condition``, as here the failure::
 
             results.paired_difference("emergency_travel_time_s", {"condition.policy": "my_policy.py:Green", "condition.failure": "B10"},
                                       against={"condition.policy": "corridor"})
@@ -170,7 +170,7 @@ class Results(_program.Told):
         """
         scenario = self._conditions.scenario_with(condition) if scenario is None else scenario
         name = self._conditions.name_of(condition)
-        other = None if against is None else self._conditions.name_of(against, like=name)
+        other = against if against is None or self._is_best(against) else self._conditions.name_of(against, like=name)
         there = self.paired_differences(metric, against)
         if scenario is not None:
             self._conditions.require_scenario(scenario)
@@ -187,12 +187,18 @@ class Results(_program.Told):
         """All conditions of the folder against their baselines, or against the condition ``against``.
 
         With factors, each is compared with the condition that has these and is otherwise the same:
-        ``against={"condition.policy": "corridor"}`` compares every policy with ``corridor`` under the same failure. ``holm_p`` corrects
+        ``against={"condition.policy": "corridor"}`` compares every policy with ``corridor`` under the same failure, ``against="best"``
+        each with the best of the others there (``compared_with``), which the same runs chose and so favour. ``holm_p`` corrects
         for all comparisons of a scenario in this list, as ``clearway compare`` does.
         """
         if isinstance(against, Mapping):
             return self._compared(metric, self._conditions.levels(against))
+        if self._is_best(against):
+            return self._compared(metric, "best")
         return self._compared(metric, None if against is None else self._conditions.name_of(against))
+
+    def _is_best(self, against: Given | None) -> bool:
+        return against == "best" and "best" not in self._conditions.names
 
     def _compared(self, metric: str, against: str | None) -> list[Difference]:
         chosen = [] if against is None else ["--against", against]

@@ -102,6 +102,7 @@ analysis::Reference reference_from(const std::string& against,
     if (levels.empty() || against.find('=') == std::string::npos || against.find('+') != std::string::npos) {
         core::Problem problem =
             unknown_name(option, against, names, "clearway study status " + folder.string());
+        problem.allowed += "; or best, each with the best of the others";
         if (!levels.empty()) problem.allowed += "; or a factor and its level, as " + example_of(levels);
         throw core::InputError(std::move(problem));
     }

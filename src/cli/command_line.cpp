@@ -18,6 +18,8 @@
 #include "core/process.hpp"
 #include "core/program.hpp"
 #include "core/usage.hpp"
+#include "failures/failure_config.hpp"
+#include "prediction/predictor.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -158,6 +160,23 @@ std::string other_way(const std::string& message) {
     return "";
 }
 
+/// For a second value of an option of conditions that takes one; empty for all else.
+std::string second_value(const CLI::App& command) {
+    const auto presets = failures::failure_presets();
+    for (const std::string& word : command.remaining()) {
+        const char* option = nullptr;
+        if (prediction::predictors().find(word) != nullptr) option = "predictor";
+        if (std::ranges::find(presets, word, &failures::FailurePreset::name) != presets.end())
+            option = "failure";
+        if (option != nullptr && command.get_option_no_throw(fmt::format("--{}", option)) != nullptr)
+            return fmt::format(
+                "{} is a second {}, and a condition has one. A study file compares several, by the factor "
+                "condition.{}",
+                word, option, option);
+    }
+    return "";
+}
+
 /// The message for a command line that cannot be parsed, as the verb that was called states it.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::App* deepest = &app;
@@ -166,6 +185,8 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
         deepest = deepest->get_subcommands().front();
         name += " " + deepest->get_name();
     }
+    if (const std::string second = second_value(*deepest); !second.empty())
+        return fmt::format("{}: {}\n`{} --help` says more.\n", name, second, name);
     const std::string message = core::usage_message(*deepest, name, error);
     return other_way(message) + message;
 }

@@ -65,12 +65,15 @@ std::string part_words(const std::string& name, bool on_command_line) {
                                : fmt::format(fmt::runtime(in_file), name);
     };
     if (policy::policies().find(name) != nullptr)
-        return words("policy", "[[condition]] with policies = [\"{}\"]");
+        return words("policy",
+                     "[[condition]] with policy = [\"{0}\"], in Python Condition(NAME, policy=\"{0}\")");
     if (prediction::predictors().find(name) != nullptr)
-        return words("predictor", "[[condition]] with predictor = \"{}\"");
+        return words("predictor",
+                     "[[condition]] with predictor = \"{0}\", in Python Condition(NAME, predictor=\"{0}\")");
     const auto presets = failures::failure_presets();
     if (std::ranges::find(presets, name, &failures::FailurePreset::name) != presets.end())
-        return words("failure", "[[condition]] with failure = \"{}\"");
+        return words("failure",
+                     "[[condition]] with failure = \"{0}\", in Python Condition(NAME, failure=\"{0}\")");
     return "";
 }
 

@@ -74,7 +74,7 @@ class FileWriter : public detail::Writer {
     }
     /// Two exports of a study may stand in one paper.
     std::string label(const std::string& name) const {
-        return study_.reference.empty() ? name : name + "-against";
+        return study_.reference.empty() ? name : name + "-against-" + plain_name(study_.reference);
     }
     std::string caption(const std::string& text) const {
         const std::string words = named(text, study_.reference);

@@ -253,17 +253,25 @@ std::string locks_sentence(const ScenarioFacts& scenario, const ConditionFacts& 
 std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scenario) {
     std::size_t compared = 0;
     std::size_t help = 0;
+    std::size_t corrected = 0;
     std::size_t objected = 0;
     for (const ConditionFacts& condition : scenario.conditions) {
         if (!condition.is_compared() || reference_of(study, scenario, condition) != nullptr) continue;
         ++compared;
-        help += effect_of(condition, primary) == Effect::better ? 1 : 0;
+        const bool helps = effect_of(condition, primary) == Effect::better;
+        const auto& comparison = condition.outcome(primary).comparison;
+        help += helps ? 1 : 0;
+        corrected +=
+            helps && comparison && comparison->holm_p.value_or(1.0) < 1.0 - analysis::usual_level ? 1 : 0;
         objected += condition.objections.on_emergency() ? 1 : 0;
     }
     if (compared < 2) return {};
     std::string words = help == 0 ? fmt::format("None of {} conditions is shown to help", compared)
                                   : fmt::format("{} of {} conditions {} shown to help", help, compared,
                                                 help == 1 ? "is" : "are");
+    if (help > 0 && corrected < help)
+        words += fmt::format(", {} with Holm's correction for so many comparisons",
+                             corrected == 0 ? "none" : std::to_string(corrected));
     if (help > 1)
         words += featured_condition(study, scenario) == largest_gain(study, scenario)
                      ? "; this one has the largest mean gain, which usually overstates its true gain a little"
@@ -340,14 +348,19 @@ Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, S
     const MaybeEstimate& difference = condition.difference(primary);
     const std::uint64_t count = difference ? difference->n : 0;
     const std::string pairs = counted(count, "pair") + " of runs";
+    const bool is_trusted = count >= fewest_to_trust;
+    const std::string few =
+        is_trusted ? "" : fmt::format("; below {} means and intervals are unreliable", fewest_to_trust);
+    const Badge::Runs runs = is_trusted ? Badge::Runs::enough : Badge::Runs::too_few;
+    const char* const quantity = is_trusted ? "Enough" : "Few";
     // What the intervals alone show: objections are counts and need no interval.
     switch (effect_of(difference, Better::lower, condition.least_relevant(primary))) {
         case Effect::better:
         case Effect::worse:
-            return {Badge::Runs::enough, fmt::format("Enough runs: {} show the direction", pairs)};
+            return {runs, fmt::format("{} runs: {} show the direction{}", quantity, pairs, few)};
         case Effect::negligible:
-            return {Badge::Runs::enough,
-                    fmt::format("Enough runs: {} show that the difference is too small to matter", pairs)};
+            return {runs, fmt::format("{} runs: {} show that the difference is too small to matter{}",
+                                      quantity, pairs, few)};
         case Effect::none_shown: {
             const std::uint64_t needed = condition.precision ? condition.precision->needed : 0;
             const double counts_s = condition.least_relevant(primary);

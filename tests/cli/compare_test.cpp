@@ -110,7 +110,7 @@ TEST_F(CompareTest, compares_with_the_same_at_another_level_of_a_factor) {
     ASSERT_EQ(figures.code, 0) << figures.err;
     EXPECT_THAT(read("figures/factors-emergency-grid.tex"),
                 AllOf(HasSubstr("difference to the same with policy Today, s"),
-                      HasSubstr("\\label{tab:factors-emergency-grid-against}")));
+                      HasSubstr("\\label{tab:factors-emergency-grid-against-the-same-with-policy-today}")));
     EXPECT_THAT(
         read("figures/differences-line.svg"),
         AllOf(HasSubstr("difference to the same with policy Today, s"), Not(HasSubstr("the baseline"))));

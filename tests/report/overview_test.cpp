@@ -140,7 +140,11 @@ TEST_F(Overview, NamesFailedAndMissingRuns) {
 }
 
 TEST_F(Overview, SaysWhetherThereAreEnoughRuns) {
-    EXPECT_EQ(badge().runs, Badge::Runs::enough);
+    EXPECT_EQ(badge().words, "Enough runs: 20 pairs of runs show the direction");
+    tests::difference(corridor(), primary)->n = 8;
+    EXPECT_EQ(badge().runs, Badge::Runs::too_few);
+    EXPECT_EQ(badge().words,
+              "Few runs: 8 pairs of runs show the direction; below 10 means and intervals are unreliable");
     tests::compare(corridor(), around(-2.0, 3.0), around(0.4, 1.0));
     tests::difference(corridor(), primary)->deviation = 6.4;
     corridor().precision = Precision{{}, 6.4, 160};
@@ -169,6 +173,10 @@ TEST_F(Overview, FeaturesTheLargestShownGainAndSaysThatItWasChosen) {
               "2 of 3 conditions are shown to help; this one has the largest mean gain, which usually "
               "overstates its true "
               "gain a little.");
+    tests::comparison(scenario_.conditions.back(), primary).holm_p = 0.2;
+    EXPECT_THAT(among_conditions(study_, scenario_),
+                StartsWith("2 of 3 conditions are shown to help, 1 with Holm's "
+                           "correction for so many comparisons; this one"));
     lose_vehicles();
     EXPECT_EQ(featured_condition(study_, scenario_), &scenario_.conditions[3]);
 }
