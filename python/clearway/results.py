@@ -40,6 +40,7 @@ class Difference(_program.Told):
     * ``complete_pairs``, ``incomplete_pairs``, ``vehicles_left_out``: how many;
     * ``locked_pairs``: in which vehicles locked each other in either run; where there are any, ``difference_without_locks`` and
       ``interval_95_without_locks`` are those of the other pairs, else None;
+    * ``title``, ``compared_title``: of the two conditions, as tables show them;
     * ``objections``: why the mean must not be believed as it stands (vehicles that did not arrive); empty where nothing is wrong.
     """
 
@@ -64,12 +65,15 @@ class Difference(_program.Told):
     difference_without_locks: float | None
     interval_95_without_locks: tuple[float, float] | None
     objections: str
+    title: str
+    compared_title: str
 
     def __str__(self) -> str:
+        pair = f"{self.scenario}: {self.title} - {self.compared_title}"
         if self.difference is None:
-            return f"{self.scenario}: {self.condition} - {self.compared_with}, {self.metric}: no complete pair"
+            return f"{pair}, {self.metric}: no complete pair"
         interval = "too few seeds" if self.interval_95 is None else "[{:+.2f}, {:+.2f}]".format(*self.interval_95)
-        text = (f"{self.scenario}: {self.condition} - {self.compared_with}, {self.metric}: {self.difference:+.2f} {interval} "
+        text = (f"{pair}, {self.metric}: {self.difference:+.2f} {interval} "
                 f"({_program.counted(self.complete_pairs, 'pair')})")
         return text + (f"; {self.objections}" if self.objections else "")
 
@@ -202,13 +206,15 @@ class Results(_program.Told):
 
     def _compared(self, metric: str, against: str | None) -> list[Difference]:
         chosen = [] if against is None else ["--against", against]
-        rows = _program.call_json(["compare", str(self.folder.absolute()), "--metric", str(metric), *chosen])["comparisons"]
+        compared = _program.call_json(["compare", str(self.folder.absolute()), "--metric", str(metric), *chosen])
+        titles = {one["condition"]: one["title"] for one in compared["conditions"]}
         differences = []
-        for row in rows:
+        for row in compared["comparisons"]:
             numbers = row["metrics"][metric]
             pairs = {key: _pair(numbers.pop(key)) for key in ("interval_95", "bca_95", "median_95", "interval_95_without_locks")}
             differences.append(Difference(scenario=row["scenario"], condition=row["condition"], compared_with=row["compared_with"],
-                                          metric=metric, objections=row["objections"], **pairs, **numbers))
+                                          metric=metric, objections=row["objections"], title=row["title"],
+                                          compared_title=titles[row["compared_with"]], **pairs, **numbers))
         return differences
 
     def __repr__(self) -> str:

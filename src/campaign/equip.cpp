@@ -342,6 +342,10 @@ core::ExitCode equip_dry_run(EquipRequest request) {
     const std::string size =
         fmt::format("{} likely, {} at most, into {}; runs that it holds are not made again.",
                     report::counted(runs.likely(), "run"), runs.most(), request.run.folder.string());
+    const std::string vain =
+        request.replications < analysis::fewest_for_interval
+            ? fmt::format(" Nothing can be shown by fewer than {} seeds.", analysis::fewest_for_interval)
+            : "";
     const std::string time =
         cost.wall_s ? fmt::format("About {} with {}, warm-ups left out ({}).", clock(runs.likely()),
                                   report::counted(processes, "worker"),
@@ -361,7 +365,7 @@ core::ExitCode equip_dry_run(EquipRequest request) {
             {"estimated_time_s", seconds(runs.likely())},
             {"estimate_measured", cost.measured}},
            {table},
-           core::wrapped(size + few, 0) + "\n" + core::wrapped(time, 0) + "\n",
+           core::wrapped(size + few + vain, 0) + "\n" + core::wrapped(time, 0) + "\n",
            core::wrapped(met.words(), 0) + "\n\n"},
           request.run.publish.printing);
     return core::ExitCode::ok;

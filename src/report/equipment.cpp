@@ -100,9 +100,9 @@ std::string together_sentence(const EquipmentFacts& facts) {
     std::vector<std::string> pairs;
     for (const EquipPairFacts& pair : facts.pairs)
         if (pair.chosen)
-            pairs.push_back(fmt::format("{} with {}, which gain {} s ({})", rank_of(facts, pair.numbers[0]),
-                                        rank_of(facts, pair.numbers[1]), estimate_or_dash(pair.both_gain),
-                                        shown_word(pair.both_gain)));
+            pairs.push_back(fmt::format("rank {} with rank {}, which gain {} s ({})",
+                                        rank_of(facts, pair.numbers[0]), rank_of(facts, pair.numbers[1]),
+                                        estimate_or_dash(pair.both_gain), shown_word(pair.both_gain)));
     return pairs.empty() ? "" : fmt::format("Chosen together: {}.", fmt::join(pairs, "; "));
 }
 
@@ -131,6 +131,23 @@ std::string seeds_sentence(const EquipmentFacts& facts) {
     if (seeds > most)
         return fmt::format("It would take more than {} seeds to show so small a gain of all.", most);
     return fmt::format("About {} seeds would show the gain of all, if it is as it looks.", seeds);
+}
+
+/// What a further study sets to equip all ranks.
+std::string setting_sentence(const EquipmentFacts& facts) {
+    std::vector<std::string> signals = facts.equipped_today;
+    for (const EquippedSignal& rank : facts.ranked)
+        signals.push_back(fmt::format("#{}", rank.number));
+    return fmt::format("For a study of them: --set actuation.equipped={} (numbers of signals, not ranks).",
+                       printable(fmt::format("{}", fmt::join(signals, ","))));
+}
+
+/// Where no EV was a step faster or slower, seeds of the same kind would not show more.
+std::string no_effect_sentence(const EquipmentFacts& facts) {
+    const analysis::MaybeEstimate& gain = facts.ranked.back().so_far;
+    const bool none = gain && gain->mean == 0.0 && gain->deviation == 0.0;
+    return none ? "In these runs no trip of an EV was changed: they say nothing of what signals are worth."
+                : "";
 }
 
 std::string not_shown_sentence(const EquipmentFacts& facts) {
@@ -259,6 +276,8 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts) {
             "Together, an EV needs {} s less a trip than with {} ({}), and the others {}.",
             estimate_or_dash(last.so_far), facts.equipped_today.empty() ? "none" : "those of today",
             shown_word(last.so_far), others_words(last.others)));
+        sentences.push_back(no_effect_sentence(facts));
+        sentences.push_back(setting_sentence(facts));
         sentences.push_back(together_sentence(facts));
         sentences.push_back(not_shown_sentence(facts));
         sentences.push_back(seeds_sentence(facts));

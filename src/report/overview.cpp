@@ -307,6 +307,8 @@ Tile incident_tile(const ScenarioFacts& scenario, const ConditionFacts& conditio
                                 counted(condition.emergency.total(), "EV"),
                                 baseline == nullptr ? condition.baseline : baseline->title);
     tile.meaning += fmt::format("; {} of them meet it with this condition", grouped(met.still));
+    if (std::ranges::find(condition.condition.policies, "navigate") != condition.condition.policies.end())
+        tile.meaning += "; navigate.heeds_incidents = 0 tells what hearing of it is worth to all";
     return tile;
 }
 
