@@ -79,8 +79,10 @@ def changed_files(check):
     commit = base(check)
     if commit is None:
         return None
-    return set(git("diff", "--name-only", "--diff-filter=d", commit) or []) | set(
+    files = set(git("diff", "--name-only", "--diff-filter=d", commit) or []) | set(
         git("ls-files", "--others", "--exclude-standard") or [])
+    print(f"{check}: files that differ from the base {commit[:12]}: {len(files)}; CLEARWAY_BASE=COMMIT names another", file=sys.stderr, flush=True)
+    return files
 
 
 def configure():

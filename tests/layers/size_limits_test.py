@@ -64,6 +64,27 @@ class House(unittest.TestCase):
             self.write(LIMIT, text)
             self.refused(what)
 
+    def test_a_wall_is_told_from_a_missing_arrow(self):
+        for module, uses in (("truth", ""), ("policy", " USES core")):
+            self.write(f"src/{module}/CMakeLists.txt", f"clearway_module({module}{uses})\n")
+        self.write("src/truth/t.hpp", "")
+        self.write("src/core/c.hpp", "")
+        self.write("src/policy/registry.cpp", '#include "core/c.hpp"\n#include "truth/t.hpp"\n')
+        self.write("tests/layers/allowed.txt", "core:\ntruth: core\npolicy: core\n")
+        self.write(LIMIT, "9\n")
+        self.refused("policy uses truth and does not declare it: policy must not see truth (tests/layers/allowed.txt)")
+        self.write("tests/layers/allowed.txt", "core:\ntruth: core\npolicy: core truth\n")
+        self.refused("policy uses truth and does not declare it: declare it in src/policy/CMakeLists.txt")
+
+    def test_a_policy_that_nothing_registers_is_found(self):
+        self.write("src/policy/CMakeLists.txt", "clearway_module(policy)\n")
+        self.write("src/policy/slow.hpp", "")
+        self.write("src/policy/slow.cpp", '#include "policy/slow.hpp"\n')
+        self.write(LIMIT, "9\n")
+        self.refused("src/policy/slow.hpp is included by nothing but its own source: register the part in src/policy/registry.cpp")
+        self.write("src/policy/registry.cpp", '#include "policy/slow.hpp"\n')
+        self.assertEqual(self.check(), (0, ""))
+
     def test_a_test_that_no_list_names_is_found(self):
         self.write("tests/core/core_test.cpp", "")  # is the name of the program
         self.write("tests/core/deep/b_test.cpp", "")
