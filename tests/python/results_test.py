@@ -95,7 +95,7 @@ class ResultsTest(FolderCase):
         self.assertIn("<tr><td>&lt;x&gt;</td><td>0.333333</td></tr><tr><td>y</td><td></td></tr>", table._repr_html_())
         self.assertIn("<p>0 rows, 0 columns</p>", clearway.Table({})._repr_html_())
         whole = self.results._repr_html_()
-        self.assertIn("<li>intersection: corridor - baseline, emergency_restricted_travel_time_s: ", whole)
+        self.assertIn("<li>intersection: corridor - Baseline, emergency_restricted_travel_time_s: ", whole)
         self.assertIn(runs._repr_html_(), whole)
 
     def printed(self, table: clearway.Table, columns: int = 80) -> list[str]:
@@ -188,7 +188,7 @@ class ResultsTest(FolderCase):
         self.assertAlmostEqual(found.interval_95[0], pairs.mean() - half, places=6)
         self.assertAlmostEqual(found.interval_95[1], pairs.mean() + half, places=6)
         self.assertEqual((found.complete_pairs, found.compared_with), (5, "baseline"))
-        self.assertIn("corridor - baseline", str(found))
+        self.assertIn("corridor - Baseline", str(found))
         turned = self.results.paired_difference(metric, "baseline", against="corridor")
         self.assertAlmostEqual(turned.difference, -found.difference, places=9)
         self.assertEqual(turned.compared_with, "corridor")
