@@ -32,7 +32,7 @@ TEST(BuiltInConditions, AreNotTheirPartsWhoseOptionIsNamed) {
     EXPECT_THAT(refusal("dead_reckoning", "--condition"), HasSubstr("Use --predictor dead_reckoning"));
     EXPECT_THAT(refusal("B10", "--condition"), HasSubstr("Use --failure B10"));
     EXPECT_THAT(refusal("navigate", "my.toml: conditions"),
-                HasSubstr("Use [[condition]] with policies = [\"navigate\"]"));
+                HasSubstr("Use [[condition]] with policy = [\"navigate\"], in Python Condition(NAME"));
     EXPECT_THAT(refusal("corridr", "--condition"), HasSubstr("Did you mean 'corridor'?"));
 }
 
