@@ -149,6 +149,7 @@ TEST(Equipment, NamesNoOrderWhereNothingIsShown) {
     facts.ranked[1].so_far->mean = 0.1;
     EXPECT_THAT(flat_text(facts), HasSubstr("It would take more than 1000 seeds to show so small a gain"));
     facts.ranked[1].so_far = about(0.0, 0.0);
+    facts.ranked[1].so_far->deviation = 0.0;
     EXPECT_THAT(flat_text(facts), HasSubstr("In these runs no trip of an EV was changed"));
     facts.ranked[1].so_far = about(-1.0, 6.0);
     EXPECT_THAT(flat_text(facts), HasSubstr("Their mean is no gain."));
