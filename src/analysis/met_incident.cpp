@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/response.hpp"
+#include "metrics/restricted_time.hpp"
 
 namespace clearway::analysis {
 namespace {
@@ -18,11 +18,6 @@ std::map<std::string, const VehicleRow*> emergency_vehicles(const results::RunRe
     for (const VehicleRow& vehicle : run.vehicles)
         if (vehicle.vehicle_class == traffic::VehicleClass::emergency) vehicles[vehicle.id] = &vehicle;
     return vehicles;
-}
-
-double restricted_s(const VehicleRow& vehicle, std::optional<double> horizon_s) {
-    return vehicle.outcome == metrics::VehicleOutcome::arrived ? vehicle.travel_time_s.value()
-                                                               : horizon_s.value();
 }
 
 }  // namespace
@@ -37,8 +32,8 @@ MetIncident met_incident(std::span<const results::RunRecord* const> runs,
         const results::RunRecord* const before = baseline[replication];
         if (run == nullptr || before == nullptr) continue;
         const auto same = emergency_vehicles(*run);
-        const std::optional<double> horizon = horizon_s(*run);
-        const std::optional<double> horizon_before = horizon_s(*before);
+        const double horizon = horizon_s(*run).value_or(0.0);
+        const double horizon_before = horizon_s(*before).value_or(0.0);
         double sum_s = 0.0;
         double sum_before_s = 0.0;
         double count = 0.0;
@@ -47,8 +42,8 @@ MetIncident met_incident(std::span<const results::RunRecord* const> runs,
             if (!vehicle->incident_met_s || found == same.end()) continue;
             count += 1.0;
             met.still += found->second->incident_met_s ? 1 : 0;
-            sum_s += restricted_s(*found->second, horizon);
-            sum_before_s += restricted_s(*vehicle, horizon_before);
+            sum_s += metrics::restricted_travel_time_s(*found->second, horizon);
+            sum_before_s += metrics::restricted_travel_time_s(*vehicle, horizon_before);
         }
         if (count == 0.0) continue;
         met.vehicles += static_cast<std::size_t>(count);

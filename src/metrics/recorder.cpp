@@ -83,18 +83,15 @@ class RowTable {
 
     void set_teleports(const std::unordered_map<core::VehicleKey, std::uint32_t>& teleports) {
         for (const auto& [vehicle, count] : teleports) {
-            const auto found = row_of_.find(vehicle);
-            if (found == row_of_.end())
-                throw core::SimulatorError("a vehicle teleported that is not in the demand");
-            rows_[found->second].teleports = count;
-            rows_[found->second].outcome = VehicleOutcome::teleported;
+            VehicleRow& row = planned(vehicle, "teleported");
+            row.teleports = count;
+            row.outcome = VehicleOutcome::teleported;
         }
     }
 
     void set_met(const std::map<core::VehicleKey, double>& met_s) {
         for (const auto& [vehicle, time_s] : met_s)
-            if (const auto found = row_of_.find(vehicle); found != row_of_.end())
-                rows_[found->second].incident_met_s = time_s;
+            planned(vehicle, "met an incident").incident_met_s = time_s;
     }
 
     /// SUMO leaves planned stops out of both measures. A stop that a policy commanded is time lost.
@@ -117,6 +114,14 @@ class RowTable {
     }
 
   private:
+    /// The row of a vehicle of which something is told.
+    VehicleRow& planned(core::VehicleKey vehicle, const char* what) {
+        const auto found = row_of_.find(vehicle);
+        if (found == row_of_.end())
+            throw core::SimulatorError(fmt::format("a vehicle {} that is not in the demand", what));
+        return rows_[found->second];
+    }
+
     void take(const detail::Element& element) {
         const std::string id(element.text("id"));
         const auto found = row_of_.find(core::vehicle_key(id));
