@@ -160,19 +160,23 @@ std::string other_way(const std::string& message) {
     return "";
 }
 
-/// For a second value of an option of conditions that takes one; empty for all else.
-std::string second_value(const CLI::App& command) {
+/// For a predictor or failure that stands alone, or is the second value of its option; empty for all else.
+std::string lone_value(const CLI::App& command) {
     const auto presets = failures::failure_presets();
     for (const std::string& word : command.remaining()) {
         const char* option = nullptr;
         if (prediction::predictors().find(word) != nullptr) option = "predictor";
         if (std::ranges::find(presets, word, &failures::FailurePreset::name) != presets.end())
             option = "failure";
-        if (option != nullptr && command.get_option_no_throw(fmt::format("--{}", option)) != nullptr)
-            return fmt::format(
-                "{} is a second {}, and a condition has one. A study file compares several, by the factor "
-                "condition.{}",
-                word, option, option);
+        if (option == nullptr) continue;
+        const CLI::Option* const known = command.get_option_no_throw(fmt::format("--{}", option));
+        if (known == nullptr) continue;
+        if (known->count() == 0)
+            return fmt::format("Values follow their option: did you mean '--{} {}'?", option, word);
+        return fmt::format(
+            "{} is a second {}, and a condition has one. A study file compares several, by the factor "
+            "condition.{}",
+            word, option, option);
     }
     return "";
 }
@@ -185,8 +189,8 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
         deepest = deepest->get_subcommands().front();
         name += " " + deepest->get_name();
     }
-    if (const std::string second = second_value(*deepest); !second.empty())
-        return fmt::format("{}: {}\n`{} --help` says more.\n", name, second, name);
+    if (const std::string lone = lone_value(*deepest); !lone.empty())
+        return fmt::format("{}: {}\n`{} --help` says more.\n", name, lone, name);
     const std::string message = core::usage_message(*deepest, name, error);
     return other_way(message) + message;
 }

@@ -163,6 +163,7 @@ TEST_F(HelpTest, a_word_that_should_be_a_number_is_told_from_a_number_out_of_ran
     EXPECT_THAT(
         clearway({"run", "merge", "--predictor", "gcn", "gat"}).err,
         HasSubstr("gat is a second predictor, and a condition has one. A study file compares several"));
+    EXPECT_THAT(clearway({"run", "merge", "B10"}).err, HasSubstr("did you mean '--failure B10'?"));
     EXPECT_THAT(clearway({"run", "merge", "--failure", "B10", "B40"}).err,
                 HasSubstr("B40 is a second failure"));
     for (const char* const seed : {"9223372036854775808", "18446744073709551616", "99999999999999999999"})
