@@ -51,7 +51,7 @@ std::optional<results::Manifest> study_in(const std::filesystem::path& folder) {
 /// What a study has more of than its folder had, `from 2 to 4 replications`; empty for the same study.
 std::string growth_of(const results::Manifest& before, const results::Manifest& now) {
     std::vector<std::string> more;
-    if (!now.precision && before.replications != now.replications)
+    if (before.replications != now.replications)
         more.push_back(fmt::format("from {} to {}", before.replications,
                                    core::counted(now.replications, "replication")));
     if (before.conditions.size() != now.conditions.size())
@@ -251,11 +251,11 @@ results::Store prepare_run_folder(const study::Plan& plan, const RunOptions& opt
     try {
         results::Store store = study::prepare_folder(plan, options.folder);
         study::complete_scenarios(plan, store);
-        const bool is_same = before && before->replications == store.manifest().replications &&
-                             before->conditions.size() == store.manifest().conditions.size();
-        study::keep_command(store, options.command, is_same ? study::Growth::none : study::Growth::more);
+        const std::string growth = before ? growth_of(*before, store.manifest()) : "";
+        study::keep_command(store, options.command,
+                            growth.empty() ? study::Growth::none : study::Growth::more);
         study::keep_titles(store, plan.titles);
-        if (const std::string growth = before ? growth_of(*before, store.manifest()) : ""; !growth.empty())
+        if (!growth.empty() && !plan.manifest.precision)
             fmt::print(stderr, "clearway: {}: extended {}\n", options.folder.string(), growth);
         const auto trainings = core::shipped(std::filesystem::path("models") / "training");
         if (trainings && learns(plan)) study::copy_trainings(*trainings, store);

@@ -164,7 +164,7 @@ std::string asked_words(std::size_t replications) {
                                                   : fmt::format("about {}", replications);
 }
 
-/// `about 24 would show the 5.2 s that are seen, `; empty where these are less than what counts.
+/// `about 24 would show the 5.2 s seen, `; empty where these are less than what counts.
 std::string what_shows_the_seen(const analysis::Estimate& difference, double counts_s, Script script) {
     const double seen_s = std::abs(difference.mean);
     if (seen_s <= (counts_s > 0.0 ? counts_s : usual_least_relevant_s)) return "";

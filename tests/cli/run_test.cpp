@@ -1,11 +1,7 @@
 // Runs with SUMO, from the command line to the files.
 #include <algorithm>
-#include <chrono>
-#include <csignal>
 #include <sstream>
-#include <thread>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sqlite3.h>
 
@@ -21,21 +17,6 @@ class RunTest : public UserTest {
         UserTest::SetUp();
         write_line_scenario();
     }
-
-    std::size_t complete_runs(const std::string& out) const {
-        std::size_t count = 0;
-        const std::filesystem::path runs = folder() / out / "runs";
-        std::error_code ignored;
-        for (auto entry = std::filesystem::recursive_directory_iterator(runs, ignored);
-             entry != std::filesystem::recursive_directory_iterator(); entry.increment(ignored)) {
-            // A run that is being written lies in a folder with a dot in front.
-            const bool is_whole = entry->path().parent_path().filename().string().front() != '.';
-            if (is_whole && entry->path().filename() == "run.json") ++count;
-        }
-        return count;
-    }
-    /// Starts ten replications, interrupts them once a run is complete, and checks what is left.
-    void interrupt_and_resume(int signal, int expected_code) const;
 };
 
 TEST_F(RunTest, what_is_set_stands_in_manifest_record_and_report) {
@@ -52,18 +33,6 @@ TEST_F(RunTest, what_is_set_stands_in_manifest_record_and_report) {
     const auto run = nlohmann::json::parse(read("out/runs/line/" + name + "/00000/run.json"));
     EXPECT_EQ(run.at("condition_spec").at("settings"), set);
     EXPECT_THAT(read("out/report.html"), HasSubstr("actuation.hold_cap_s=30 clear_lane.horizon_m=300"));
-}
-
-TEST_F(RunTest, folders_may_be_named_with_a_slash_at_their_end) {
-    const Ended ended =
-        clearway({"run", "line", "--seeds", "1", "--no-solo", "--policy", "corridor", "--out", "out/"});
-    ASSERT_EQ(ended.code, 0) << ended.err;
-    EXPECT_EQ(complete_runs("out"), 2U);
-    const Ended merged = clearway({"study", "merge", "out/", "--out", "all/"});
-    ASSERT_EQ(merged.code, 0) << merged.err;
-    EXPECT_EQ(complete_runs("all"), 2U);
-    EXPECT_EQ(clearway({"report", "all/"}).code, 0);
-    EXPECT_EQ(clearway({"export", "figures", "all/", "--out", "figures/", "--svg-only"}).code, 0);
 }
 
 TEST_F(RunTest, settings_change_the_usual_condition_or_the_one_that_is_named) {
@@ -222,57 +191,6 @@ TEST_F(RunTest, a_run_that_is_made_anew_replaces_its_rows) {
     EXPECT_EQ(read("out/runs.csv"), runs);
 }
 
-TEST_F(RunTest, another_study_in_the_same_folder_is_refused) {
-    ASSERT_EQ(clearway(two_conditions("out", 1)).code, 0);
-    const std::string before = read("out/runs.csv");
-    std::vector<std::string> words = two_conditions("out", 1);
-    words.insert(words.end(), {"--seed", "9", "--density", "2"});
-    const Ended other = clearway(words);
-    EXPECT_EQ(other.code, 3);
-    EXPECT_THAT(other.err,
-                AllOf(HasSubstr("out"), HasSubstr("different seed, scenarios"), HasSubstr("--out")));
-    EXPECT_EQ(read("out/runs.csv"), before);
-}
-
-TEST_F(RunTest, more_seeds_extend_a_study_and_keep_its_runs) {
-    ASSERT_EQ(clearway(two_conditions("out", 2)).code, 0);
-    const auto made = std::filesystem::last_write_time(folder() / "out/runs/line/baseline/00001/run.json");
-    EXPECT_THAT(clearway({"verify", "out", "--all"}).out, HasSubstr("4 verified: 4 same"));
-    const Ended extended = clearway(two_conditions("out", 4));
-    ASSERT_EQ(extended.code, 0) << extended.err;
-    EXPECT_THAT(extended.err, AllOf(HasSubstr("extended from 2 to 4 replications"), HasSubstr("8/8")));
-    EXPECT_THAT(extended.out, HasSubstr("line: 4 replications"));
-    EXPECT_EQ(std::filesystem::last_write_time(folder() / "out/runs/line/baseline/00001/run.json"), made);
-    EXPECT_THAT(read("out/command.txt"), HasSubstr("--seeds 4"));
-    ASSERT_EQ(clearway(two_conditions("whole", 4)).code, 0);
-    EXPECT_EQ(read("out/runs.csv"), read("whole/runs.csv"));
-    EXPECT_EQ(read("out/vehicles.csv"), read("whole/vehicles.csv"));
-}
-
-TEST_F(RunTest, fewer_seeds_than_are_there_are_refused_with_what_to_do) {
-    ASSERT_EQ(clearway(two_conditions("out", 2)).code, 0);
-    const std::string before = read("out/manifest.json");
-    const Ended fewer = clearway(two_conditions("out", 1));
-    EXPECT_EQ(fewer.code, 3);
-    EXPECT_THAT(fewer.err, AllOf(HasSubstr("holds 2 replications of this study, and 1 are asked for"),
-                                 HasSubstr("allowed: 2 or more"), HasSubstr("--out")));
-    EXPECT_EQ(read("out/manifest.json"), before);
-}
-
-TEST_F(RunTest, a_study_file_with_more_replications_goes_on_in_its_folder) {
-    const auto study = [](int replications) {
-        return "name = \"mine\"\nreplications = " + std::to_string(replications) +
-               "\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n";
-    };
-    write("my.toml", study(1));
-    ASSERT_EQ(clearway({"study", "my.toml"}).code, 0);
-    write("my.toml", study(3));
-    EXPECT_THAT(clearway({"study", "my.toml", "--dry-run"}).out, HasSubstr("1 complete in runs/mine"));
-    const Ended extended = clearway({"study", "my.toml"});
-    ASSERT_EQ(extended.code, 0) << extended.err;
-    EXPECT_THAT(read("runs/mine/runs.csv"), HasSubstr("line,baseline,2,ok"));
-}
-
 TEST_F(RunTest, without_a_condition_it_compares_corridor_with_the_baseline) {
     const Ended ended = clearway({"run", "line", "--seeds", "1", "--out", "out"});
     ASSERT_EQ(ended.code, 0) << ended.err;
@@ -416,115 +334,6 @@ TEST_F(RunTest, the_trace_of_a_small_run_is_as_recorded) {
     // Recorded with SUMO 1.15.0. A change means that every result changes: say so in the changelog.
     EXPECT_EQ(trace_of("baseline"), "baa39fe9f426d67f7c43339abee66cda");
     EXPECT_EQ(trace_of("graph_simulation"), "5066a8d7ed43b5248f36af76c560bfdf");
-}
-
-void RunTest::interrupt_and_resume(int signal, int expected_code) const {
-    const int seeds = 10;
-    const core::Child child = start(two_conditions("out", seeds));
-    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (complete_runs("out") == 0 && std::chrono::steady_clock::now() < patience) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    ::kill(child.pid, signal);
-    const Ended interrupted = finish(child);
-    EXPECT_EQ(interrupted.code, expected_code) << interrupted.err;
-    EXPECT_THAT(interrupted.err,
-                AllOf(testing::ContainsRegex("To continue:\n.*\n.*about [0-9]+:[0-9:]+ is left\n"),
-                      HasSubstr("clearway run line")));
-    const std::size_t kept = complete_runs("out");
-    EXPECT_GE(kept, 1U);
-    ASSERT_LT(kept, 2U * seeds);
-
-    const Ended incomplete = clearway({"report", "out"});
-    EXPECT_EQ(incomplete.code, 5) << incomplete.err;
-    const Ended resumed = clearway(two_conditions("out", seeds));
-    EXPECT_EQ(resumed.code, 0) << resumed.err;
-    ASSERT_EQ(clearway(two_conditions("undisturbed", seeds, 2)).code, 0);
-    EXPECT_EQ(read("out/runs.csv"), read("undisturbed/runs.csv"));
-    EXPECT_EQ(read("out/vehicles.csv"), read("undisturbed/vehicles.csv"));
-}
-
-TEST_F(RunTest, interrupted_it_exits_with_130_and_continues_to_the_same_result) {
-    interrupt_and_resume(SIGINT, 130);
-}
-
-TEST_F(RunTest, terminated_it_exits_with_143_and_continues_to_the_same_result) {
-    interrupt_and_resume(SIGTERM, 143);
-}
-
-TEST_F(RunTest, its_plan_can_be_seen_before) {
-    const Ended plan = clearway({"run", "./line", "--seeds", "2", "--dry-run", "--json"});
-    ASSERT_EQ(plan.code, 0) << plan.err;
-    const auto json = nlohmann::json::parse(plan.out);
-    EXPECT_EQ(json.at("runs"), 6) << "baseline, corridor and solo";
-    EXPECT_GT(json.at("estimated_time_left_s"), 0.0);
-    EXPECT_FALSE(std::filesystem::exists(folder() / "runs"));
-    EXPECT_NE(clearway({"run", "./line", "--dry-run", "--gui"}).code, 0);
-}
-
-TEST_F(RunTest, a_study_file_runs_and_its_plan_can_be_seen_before) {
-    write("my.toml",
-          "name = \"mine\"\nreplications = 2\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n"
-          "[[condition]]\nname = \"b20\"\nfailure = \"B20\"\npolicy = [\"dissertation\"]\n"
-          "safety_checks = \"off\"\n");
-    const Ended plan = clearway({"study", "my.toml", "--dry-run", "--json"});
-    ASSERT_EQ(plan.code, 0) << plan.err;
-    const auto json = nlohmann::json::parse(plan.out);
-    EXPECT_EQ(json.at("runs"), 4);
-    EXPECT_EQ(json.at("cells").at(1).at("safety_checks"), "off");
-    EXPECT_GT(json.at("estimated_time_left_s"), 0.0);
-    EXPECT_FALSE(std::filesystem::exists(folder() / "runs"));
-
-    const Ended ended = clearway({"study", "my.toml"});
-    ASSERT_EQ(ended.code, 0) << ended.err;
-    EXPECT_THAT(read("runs/mine/runs.csv"), HasSubstr("line,b20,1,ok"));
-    EXPECT_THAT(clearway({"study", "my.toml", "--dry-run"}).out, HasSubstr("4 complete in runs/mine"));
-    EXPECT_THAT(clearway({"study", "my.toml", "--dry-run"}).out,
-                testing::ContainsRegex("safety\n +checks off \\(!\\)"));
-    EXPECT_THAT(clearway({"study", "status", "runs/mine"}).out, HasSubstr("b20 (!)"));
-}
-
-TEST_F(RunTest, a_condition_that_is_added_to_a_study_keeps_the_runs_of_the_others) {
-    const auto study = [](const char* more) {
-        return fmt::format(
-            "name = \"mine\"\nreplications = 2\nscenarios = [\"./line\"]\nconditions = [\"baseline\", "
-            "{}\"corridor\"]\n",
-            more);
-    };
-    write("my.toml", study(""));
-    ASSERT_EQ(clearway({"study", "my.toml"}).code, 0);
-    const auto made =
-        std::filesystem::last_write_time(folder() / "runs/mine/runs/line/corridor/00001/run.json");
-    write("my.toml", study("\"graph_simulation\", "));
-    const Ended extended = clearway({"study", "my.toml"});
-    ASSERT_EQ(extended.code, 0) << extended.err;
-    EXPECT_THAT(extended.err, AllOf(HasSubstr("extended from 2 to 3 conditions"), HasSubstr("6/6")));
-    EXPECT_EQ(std::filesystem::last_write_time(folder() / "runs/mine/runs/line/corridor/00001/run.json"),
-              made);
-    ASSERT_EQ(clearway({"study", "my.toml", "--out", "whole"}).code, 0);
-    for (const char* const table : {"runs.csv", "vehicles.csv"})
-        EXPECT_EQ(read(std::string("runs/mine/") + table), read(std::string("whole/") + table));
-    EXPECT_THAT(clearway({"verify", "runs/mine", "--all"}).out, HasSubstr("6 verified: 6 same"));
-    write("my.toml", study(""));
-    EXPECT_THAT(clearway({"study", "my.toml"}).err, HasSubstr("graph_simulation is not asked for"));
-}
-
-TEST_F(RunTest, a_dry_run_refuses_the_folder_that_the_study_would_refuse) {
-    const auto study = [](int seed) {
-        return "name = \"mine\"\nreplications = 1\nseed = " + std::to_string(seed) +
-               "\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n";
-    };
-    write("my.toml", study(1));
-    ASSERT_EQ(clearway({"study", "my.toml"}).code, 0);
-    write("my.toml", study(2));
-    const Ended dry = clearway({"study", "my.toml", "--dry-run"});
-    EXPECT_EQ(dry.code, 3);
-    EXPECT_THAT(dry.err, HasSubstr("runs/mine: holds another study"));
-    EXPECT_EQ(dry.err, clearway({"study", "my.toml"}).err);
-    write("theirs/letter.txt", "mine");
-    const Ended foreign = clearway({"study", "my.toml", "--dry-run", "--out", "theirs"});
-    EXPECT_EQ(foreign.code, 3);
-    EXPECT_THAT(foreign.err, HasSubstr("theirs holds something else"));
 }
 
 TEST_F(RunTest, few_seeds_are_told_before_they_run) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <exception>
 #include <string_view>
 
 #include <sys/stat.h>
@@ -52,6 +53,23 @@ void sample(const results::Store& store, const std::string& scenario, const std:
     }
 }
 
+/// Of runs of a scenario, by its hash; nothing where there are none.
+std::optional<RunCost> measured_in(const results::Store& store, const std::string& hash,
+                                   experiment::TrafficModel traffic_model) {
+    RunCost sum;
+    std::size_t count = 0;
+    for (const results::ScenarioEntry& scenario : store.manifest().scenarios) {
+        if (scenario.configuration_hash != hash) continue;
+        for (const experiment::ConditionSpec& condition : store.manifest().conditions) {
+            if (condition.traffic_model == traffic_model)
+                sample(store, scenario.name, condition.name, sum, count);
+        }
+    }
+    if (count == 0) return std::nullopt;
+    const auto runs = static_cast<double>(count);
+    return RunCost{.wall_s = *sum.wall_s / runs, .disk_bytes = sum.disk_bytes / runs, .measured = true};
+}
+
 /// Vehicles of a route file that depart within the window.
 double departures(const std::string& routes, double window_s) {
     constexpr std::string_view depart = " depart=\"";
@@ -85,12 +103,11 @@ fs::path notes_in(const fs::path& runs) {
 /// By the hash of a scenario; empty where there are none or where they cannot be read: they are a help alone.
 core::Json read_notes(const fs::path& runs) {
     const fs::path file = notes_in(runs);
-    if (!fs::exists(file)) return core::Json::object();
     try {
-        return core::parse_object(core::read_file(file), file.string());
-    } catch (const core::Error&) {
-        return core::Json::object();
+        if (fs::exists(file)) return core::parse_object(core::read_file(file), file.string());
+    } catch (const std::exception&) {
     }
+    return core::Json::object();
 }
 
 std::optional<RunCost> noted_cost(const core::Json& notes, const std::string& hash) {
@@ -144,8 +161,8 @@ CostBook::CostBook(const fs::path& folder) : noted_(read_notes(fs::absolute(fold
     for (const fs::path& each : folders) {
         try {
             stores_.push_back(results::Store::open(each));
-        } catch (const core::InputError&) {
-            // A folder of another version cannot be read.
+        } catch (const core::Error&) {
+            // A folder of another version, or one that cannot be read.
         }
     }
 }
@@ -153,18 +170,11 @@ CostBook::CostBook(const fs::path& folder) : noted_(read_notes(fs::absolute(fold
 RunCost CostBook::of(const scenario::ScenarioConfig& config, const std::string& hash,
                      experiment::TrafficModel traffic_model) const {
     for (const results::Store& store : stores_) {
-        RunCost sum;
-        std::size_t count = 0;
-        for (const results::ScenarioEntry& scenario : store.manifest().scenarios) {
-            if (scenario.configuration_hash != hash) continue;
-            for (const experiment::ConditionSpec& condition : store.manifest().conditions) {
-                if (condition.traffic_model == traffic_model)
-                    sample(store, scenario.name, condition.name, sum, count);
-            }
+        try {
+            if (const auto cost = measured_in(store, hash, traffic_model)) return *cost;
+        } catch (const std::exception&) {
+            // Its runs are damaged, or are being removed: whom they belong to is told, and not a neighbour.
         }
-        if (count == 0) continue;
-        const auto runs = static_cast<double>(count);
-        return {.wall_s = *sum.wall_s / runs, .disk_bytes = sum.disk_bytes / runs, .measured = true};
     }
     if (traffic_model != experiment::TrafficModel::free_flow)
         if (const auto noted = noted_cost(noted_, hash)) return *noted;
