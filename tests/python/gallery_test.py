@@ -22,7 +22,7 @@ class GalleryTest(FolderCase):
         return ended.stdout
 
     def test_first_steps(self) -> None:
-        self.assertRegex(self.example("first_steps.py", "runs"), r"corridor - baseline, emergency_travel_time_s: -\d+\.\d\d too few seeds")
+        self.assertRegex(self.example("first_steps.py", "runs"), r"corridor - Baseline, emergency_travel_time_s: -\d+\.\d\d too few seeds")
 
     def test_study_with_plot_draws_each_condition(self) -> None:
         said = self.example("study_with_plot.py", "runs", "1")
@@ -49,7 +49,7 @@ class GalleryTest(FolderCase):
     def test_a_policy_is_trained_and_scored(self) -> None:
         said = self.example("train_signals.py", "--steps", "512", "--seeds", "1", "--out", "ppo")
         for condition in ("corridor", "signals", "ppo"):
-            self.assertIn(f"intersection: {condition} - baseline, others_time_loss_s", said)
+            self.assertIn(f"intersection: {condition} - Baseline, others_time_loss_s", said)
         self.assertTrue(os.path.exists("ppo/trained.py"))
         self.assertEqual(clearway.open("ppo/study").errors.row_count, 0)
 
