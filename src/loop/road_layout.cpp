@@ -236,6 +236,14 @@ metrics::RoadLayout road_layout(const roads::Network& network,
     }
     for (const traffic::EmergencyDeparture& departure : emergency)
         layout.routes.push_back(watched_route(network, layout, departure));
+    layout.on_way = [&network](const metrics::RoadLayout& known, const metrics::WatchedRoute& route,
+                               std::span<const core::EdgeIndex> edges) {
+        traffic::EmergencyDeparture departure;
+        departure.id = route.id;
+        for (const core::EdgeIndex edge : edges)
+            departure.edges.push_back(network.edge(edge).id);
+        return watched_route(network, known, departure);
+    };
     return layout;
 }
 

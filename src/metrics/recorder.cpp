@@ -352,7 +352,7 @@ void Recorder::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
     if (state_->traffic) {
         core::match_rows(snapshot.key, state_->keys, state_->row_before);
         state_->keys = snapshot.key;
-        state_->traffic->step(snapshot, state_->row_before);
+        state_->traffic->step(snapshot, roster, state_->row_before);
         state_->flow->step(snapshot, state_->row_before);
         state_->holds->step(snapshot, leases);
         state_->locks->step(snapshot, roster);

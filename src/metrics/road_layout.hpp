@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -88,6 +90,10 @@ struct RoadLayout {
     std::vector<std::uint8_t> internal_lane;     ///< By core::LaneIndex; 1 inside junctions.
     std::vector<float> limit_of_lane_mps;        ///< By core::LaneIndex.
     std::vector<WatchedRoute> routes;
+    /// Describes the way that the vehicle of a route took instead; earliest times count from 0 s. Empty where
+    /// ways do not change.
+    std::function<WatchedRoute(const RoadLayout&, const WatchedRoute&, std::span<const core::EdgeIndex>)>
+        on_way;
     std::vector<std::string> signals;                   ///< Ids, by core::SignalIndex.
     std::vector<SignalWay> signal_ways;                 ///< Ordered by `to`.
     std::vector<std::vector<SignalHead>> signal_heads;  ///< By core::SignalIndex, then link.

@@ -1,4 +1,5 @@
 #include <map>
+#include <set>
 
 #include <gmock/gmock.h>
 
@@ -17,14 +18,18 @@ constexpr const char* grid = "grid_signals_v2";
 constexpr double from_s = 40.0;
 constexpr double to_s = 340.0;
 
-/// How many vehicles stand on the blocked edge, at most while it is blocked, and long after.
+/// How many vehicles stand on the blocked edge, at most while it is blocked, and long after; and where
+/// emergency vehicles drive.
 class Watcher : public trace::StepListener {
   public:
     Watcher(core::EdgeIndex edge, const roads::Network& network) : edge_(edge), network_(network) {}
     void on_step(const truth::Snapshot& snapshot, const traffic::Roster&) override {
         int standing = 0;
         for (std::size_t row = 0; row < snapshot.size(); ++row) {
-            const bool is_here = network_.lane(snapshot.lane[row]).edge == edge_;
+            const core::EdgeIndex edge = network_.lane(snapshot.lane[row]).edge;
+            const bool is_here = edge == edge_;
+            if (snapshot.vehicle_class[row] == traffic::VehicleClass::emergency)
+                driven.emplace(snapshot.key[row], network_.edge(edge).id);
             standing += is_here && snapshot.speed_mps[row] < 0.1F ? 1 : 0;
             if (is_here && snapshot.time.value > from_s + 60.0 && snapshot.time.value < to_s)
                 farthest_m = std::max(farthest_m, snapshot.lane_position_m[row]);
@@ -35,6 +40,7 @@ class Watcher : public trace::StepListener {
     int most = 0;
     int late = 0;
     float farthest_m = 0.0F;
+    std::set<std::pair<core::VehicleKey, std::string>> driven;
 
   private:
     core::EdgeIndex edge_;
@@ -65,6 +71,7 @@ struct Outcome {
     int most = 0;
     int late = 0;
     float farthest_m = 0.0F;
+    std::set<std::pair<core::VehicleKey, std::string>> driven = {};
 };
 
 Outcome outcome_of(const test::StudyFolder& folder, const std::string& condition, const std::string& edge,
@@ -79,6 +86,7 @@ Outcome outcome_of(const test::StudyFolder& folder, const std::string& condition
     outcome.most = watcher.most;
     outcome.late = watcher.late;
     outcome.farthest_m = watcher.farthest_m;
+    outcome.driven = std::move(watcher.driven);
     return outcome;
 }
 
@@ -111,6 +119,10 @@ TEST(IncidentRun, blocks_the_road_until_it_is_over_alike_in_two_conditions) {
         EXPECT_EQ(outcome.late, 0);
         EXPECT_GT(without.farthest_m, outcome.farthest_m + 50.0F);  // nobody gets past the middle
         EXPECT_GE(metrics.emergency_turned_round, 1U);
+        EXPECT_FALSE(outcome.record.traffic.edge_times.empty());
+        for (const metrics::EdgeTimeRow& row : outcome.record.traffic.edge_times)
+            EXPECT_TRUE(outcome.driven.contains({core::vehicle_key(row.vehicle), row.edge}))
+                << row.vehicle << " has a time of " << row.edge << ", which it did not drive";
         EXPECT_GE(metrics.emergency_met_incident, metrics.emergency_turned_round);
         EXPECT_EQ(
             static_cast<std::uint64_t>(std::ranges::count_if(outcome.record.vehicles, &met_while_it_lasted)),

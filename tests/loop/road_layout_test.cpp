@@ -50,6 +50,18 @@ TEST_F(RoadLayout, MeasuresTheRouteOfAnEmergencyVehicle) {
     EXPECT_EQ(route.signals[0].approach, 1);
 }
 
+TEST_F(RoadLayout, MeasuresTheWayThatAnEmergencyVehicleTakesInstead) {
+    const std::vector departures = {departure({"west", "east"})};
+    const metrics::RoadLayout layout = road_layout(network_, departures);
+    const std::vector way = {*network_.find_edge("south"), *network_.find_edge("north")};
+    const metrics::WatchedRoute taken = layout.on_way(layout, layout.routes.at(0), way);
+    EXPECT_EQ(taken.vehicle, layout.routes[0].vehicle);
+    EXPECT_THAT(taken.edges, ElementsAre("south", "north"));
+    EXPECT_THAT(taken.edge_start_m, ElementsAre(0.0, 60.0));
+    ASSERT_EQ(taken.signals.size(), 1U);
+    EXPECT_EQ(taken.signals[0].distance_m, 50.0);
+}
+
 TEST_F(RoadLayout, SaysWhenAnEmergencyVehicleCouldBeAtASignal) {
     std::vector departures = {departure({"south", "north"})};
     departures[0].depart = core::Seconds(100.0);

@@ -1,4 +1,5 @@
 // Where a recorder says that time was lost, in scenes small enough to count by hand.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "metrics/recorder.hpp"
@@ -46,6 +47,10 @@ class TrafficWatch : public testing::Test {
     /// One step with the vehicles that were put since the last one.
     void step(double time_s, const std::string& signal = "rr",
               const std::vector<traffic::Lease>& leases = {}) {
+        step(time_s, std::vector{signal}, leases);
+    }
+    void step(double time_s, const std::vector<std::string>& signals,
+              const std::vector<traffic::Lease>& leases = {}) {
         truth::Snapshot snapshot;
         snapshot.time = core::Seconds(time_s);
         snapshot.resize(rows_.size());
@@ -58,8 +63,8 @@ class TrafficWatch : public testing::Test {
             snapshot.lane_position_m[row] = vehicle.position_m;
             snapshot.route_edge[row++] = vehicle.route_edge;
         }
-        snapshot.signals.state = {signal};
-        recorder_.step(snapshot, {}, {}, leases);
+        snapshot.signals.state = signals;
+        recorder_.step(snapshot, roster_, {}, leases);
         rows_.clear();
     }
     RunSummary summary() {
@@ -68,6 +73,8 @@ class TrafficWatch : public testing::Test {
         return recorder_.finish(end);
     }
     TrafficTables tables() { return summary().traffic; }
+
+    traffic::Roster roster_;
 
   private:
     struct Vehicle {
@@ -281,6 +288,53 @@ TEST_F(TrafficWatch, LeavesOutAnEdgeBehindTheEndOfTheRoute) {
         step(second);
     }
     EXPECT_THAT(tables().edge_times, ElementsAre(EdgeTimeRow{"ev", "out", 0.0, 2.0}));
+}
+
+/// The crossing with edges 0 `in`, 1 `out` and 2 `aside`, which leads to signal K after 60 m.
+RoadLayout fork() {
+    RoadLayout layout = crossing();
+    layout.chain.edge_ids = {"in", "out", "aside"};
+    layout.approaches.push_back({"aside", SignalIndex{1}});
+    layout.approach_of_lane.push_back(2);
+    layout.internal_lane.push_back(0);
+    layout.limit_of_lane_mps.push_back(10.0F);
+    layout.signals.push_back("K");
+    layout.routes[0].signals.push_back({SignalIndex{2}, "L", {0}, 310.0});
+    layout.on_way = [](const RoadLayout&, const WatchedRoute& route, std::span<const core::EdgeIndex> edges) {
+        EXPECT_THAT(edges, ElementsAre(core::EdgeIndex{0}, core::EdgeIndex{2}));
+        WatchedRoute other{route.vehicle, route.id, {"in", "aside"}, {0.0, 110.0}, {100.0, 60.0}, {0, 2}, {}};
+        other.signals = {{SignalIndex{0}, "J", {1}, 100.0}, {SignalIndex{1}, "K", {0}, 170.0, 0.0, 2}};
+        return other;
+    };
+    return layout;
+}
+
+TEST_F(TrafficWatch, FollowsAnEmergencyVehicleOnTheWayThatItTakesInstead) {
+    watch_anew(fork());
+    roster_.add({.key = core::vehicle_key("ev"),
+                 .id = "ev",
+                 .vehicle_class = VehicleClass::emergency,
+                 .route = roster_.add_route({core::EdgeIndex{0}, core::EdgeIndex{1}})});
+    for (int second = 0; second <= 20; ++second) {
+        if (second == 5)
+            roster_.set_route(core::vehicle_key("ev"),
+                              roster_.add_route({core::EdgeIndex{0}, core::EdgeIndex{2}}));
+        const bool is_aside = second >= 11;
+        const auto driven_m = static_cast<float>(10 * second);
+        put("ev", VehicleClass::emergency, is_aside ? 4 : 0, 10.0F, is_aside ? driven_m - 110.0F : driven_m,
+            is_aside ? 1 : 0);
+        step(second, {"rr", second < 8 ? "r" : "G", "r"});
+    }
+    const TrafficTables found = tables();
+    EXPECT_THAT(found.edge_times,
+                ElementsAre(EdgeTimeRow{"ev", "in", 0.0, 11.0}, EdgeTimeRow{"ev", "aside", 11.0, 9.0}));
+    std::vector<std::string> signals;
+    for (const JourneyRow& row : found.journeys) {
+        if (!row.signal.empty())
+            signals.push_back(fmt::format("{} {} {} {}", row.signal, row.state, row.time_s, row.distance_m));
+    }
+    EXPECT_THAT(signals, ElementsAre("J red 0 100", "K red 5 170", "K green 8 170"))
+        << "L is on the way that it left";
 }
 
 TEST_F(TrafficWatch, LooksFromAMinuteBeforeAPassageToFourMinutesAfter) {

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "core/match_rows.hpp"
 #include "metrics/detail/standing.hpp"
@@ -36,6 +37,13 @@ char shown_by(const std::string& state, const std::vector<std::uint16_t>& links)
 
 std::string_view name_of(char shown) {
     return shown == 'g' ? "green" : shown == 'y' ? "yellow" : "red";
+}
+
+/// Whether two ways pass the same stop line at the same distance.
+bool is_same(const RouteSignal& one, const RouteSignal& other) {
+    constexpr double tolerance_m = 1.0;  // lanes of an edge end that near each other
+    return one.signal == other.signal && one.approach == other.approach &&
+           std::abs(one.distance_m - other.distance_m) < tolerance_m;
 }
 
 /// Whether every place between the two lies within the tolerance of the line that joins them.
@@ -71,11 +79,13 @@ std::vector<Place> simplified(const std::vector<Place>& places) {
 
 TrafficWatch::TrafficWatch(const RoadLayout& layout)
     : layout_(layout),
+      routes_(layout.routes),
       losses_(layout_.approaches.size()),
       halted_(layout_.approaches.size()),
       journeys_(layout_.routes.size()) {}
 
-void TrafficWatch::step(const truth::Snapshot& snapshot, const std::vector<std::uint32_t>& before) {
+void TrafficWatch::step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
+                        const std::vector<std::uint32_t>& before) {
     const double now_s = snapshot.time.value;
     assert(before.size() == snapshot.size() && now_s >= last_s_);
     const double elapsed_s = last_s_ < 0.0 ? 0.0 : now_s - last_s_;
@@ -83,7 +93,7 @@ void TrafficWatch::step(const truth::Snapshot& snapshot, const std::vector<std::
     last_s_ = now_s;
     count_vehicles(snapshot, before, elapsed_s);
     sample_halted(now_s);
-    follow(snapshot);
+    follow(snapshot, roster);
 }
 
 void TrafficWatch::count_vehicles(const truth::Snapshot& snapshot, const std::vector<std::uint32_t>& before,
@@ -123,12 +133,42 @@ void TrafficWatch::sample_halted(double time_s) {
     if (time_s + core::clock_tolerance_s >= due_s) samples_.push_back(halted_);
 }
 
-void TrafficWatch::follow(const truth::Snapshot& snapshot) {
-    for (std::size_t number = 0; number < layout_.routes.size(); ++number) {
-        const WatchedRoute& route = layout_.routes[number];
+void TrafficWatch::follow(const truth::Snapshot& snapshot, const traffic::Roster& roster) {
+    for (std::size_t number = 0; number < routes_.size(); ++number) {
+        WatchedRoute& route = routes_[number];
         const auto row = snapshot.row_of(route.vehicle);
-        if (row) follow(snapshot, *row, route, journeys_[number]);
+        if (!row) continue;
+        follow_way(roster, route, journeys_[number]);
+        follow(snapshot, *row, route, journeys_[number]);
     }
+}
+
+void TrafficWatch::follow_way(const traffic::Roster& roster, WatchedRoute& route, Journey& journey) const {
+    const traffic::VehicleInfo* const vehicle = roster.find(route.vehicle);
+    if (vehicle == nullptr || !layout_.on_way || vehicle->route == journey.way) return;
+    journey.way = vehicle->route;
+    const std::vector<core::EdgeIndex>& edges = roster.route(vehicle->route);
+    const auto id_of = [&](core::EdgeIndex edge) -> const std::string& {
+        return layout_.chain.edge_ids[edge.value];
+    };
+    if (std::ranges::equal(route.edges, edges, {}, {}, id_of)) return;
+    WatchedRoute taken = layout_.on_way(layout_, route, edges);
+    // Signals ahead on the former way are of no interest any more.
+    std::vector<SignalChange> changes;
+    std::vector<char> shown(taken.signals.size(), '-');
+    for (SignalChange& change : journey.changes) {
+        const auto same = std::ranges::find_if(taken.signals, [&](const RouteSignal& one) {
+            return is_same(one, route.signals[change.signal]);
+        });
+        if (same == taken.signals.end()) continue;
+        change.signal = static_cast<std::uint32_t>(same - taken.signals.begin());
+        shown[change.signal] = change.shown;
+        changes.push_back(change);
+    }
+    journey.changes = std::move(changes);
+    journey.shown = std::move(shown);
+    journey.entered_s.resize(taken.edges.size(), -1.0);
+    route = std::move(taken);
 }
 
 void TrafficWatch::follow(const truth::Snapshot& snapshot, std::size_t row, const WatchedRoute& route,
@@ -162,7 +202,7 @@ void TrafficWatch::follow(const truth::Snapshot& snapshot, std::size_t row, cons
 void TrafficWatch::pass(double now_s, std::uint32_t edge, bool inside, const WatchedRoute& route,
                         Journey& journey) {
     const bool left = inside || edge != journey.route_edge;
-    if (journey.seen && left && !journey.passed) {
+    if (journey.seen && left && !journey.passed && journey.route_edge < route.approach.size()) {
         const std::int32_t approach = route.approach[journey.route_edge];
         if (approach != RoadLayout::no_approach) passages_.push_back({now_s, approach});
         journey.passed = true;
@@ -206,7 +246,7 @@ std::vector<RecoveryRow> TrafficWatch::recovery() const {
 std::vector<JourneyRow> TrafficWatch::journeys() const {
     std::vector<JourneyRow> rows;
     for (std::size_t number = 0; number < journeys_.size(); ++number) {
-        const WatchedRoute& route = layout_.routes[number];
+        const WatchedRoute& route = routes_[number];
         for (const Place& place : simplified(journeys_[number].places))
             rows.push_back({route.id, "", "", place.time_s, place.distance_m});
         for (const SignalChange& change : journeys_[number].changes) {
@@ -221,7 +261,7 @@ std::vector<JourneyRow> TrafficWatch::journeys() const {
 std::vector<EdgeTimeRow> TrafficWatch::edge_times() const {
     std::vector<EdgeTimeRow> rows;
     for (std::size_t number = 0; number < journeys_.size(); ++number) {
-        const WatchedRoute& route = layout_.routes[number];
+        const WatchedRoute& route = routes_[number];
         const Journey& journey = journeys_[number];
         for (std::size_t edge = 0; edge < std::min(journey.entered_s.size(), route.edges.size()); ++edge) {
             const double entered_s = journey.entered_s[edge];

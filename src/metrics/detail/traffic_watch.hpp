@@ -17,9 +17,10 @@ class TrafficWatch {
     /// The layout outlives the watch.
     explicit TrafficWatch(const RoadLayout& layout);
 
-    /// One step; `before` has the row that each vehicle had at the step before (core/match_rows.hpp). The
-    /// first step only sets the clock.
-    void step(const truth::Snapshot& snapshot, const std::vector<std::uint32_t>& before);
+    /// One step; the roster knows the way of each vehicle, `before` the row that it had at the step before
+    /// (core/match_rows.hpp). The first step only sets the clock.
+    void step(const truth::Snapshot& snapshot, const traffic::Roster& roster,
+              const std::vector<std::uint32_t>& before);
     TrafficTables tables() const;
 
   private:
@@ -44,6 +45,7 @@ class TrafficWatch {
         char shown = 'r';          ///< g, y or r.
     };
     struct Journey {
+        core::RouteIndex way;
         std::uint32_t route_edge = 0;
         bool seen = false;
         bool passed = false;            ///< It left `route_edge` and is crossing the junction.
@@ -57,7 +59,9 @@ class TrafficWatch {
     void count_vehicles(const truth::Snapshot& snapshot, const std::vector<std::uint32_t>& before,
                         double elapsed_s);
     void sample_halted(double time_s);
-    void follow(const truth::Snapshot& snapshot);
+    void follow(const truth::Snapshot& snapshot, const traffic::Roster& roster);
+    /// Takes another way where the vehicle did. What was driven is the beginning of both.
+    void follow_way(const traffic::Roster& roster, WatchedRoute& route, Journey& journey) const;
     void follow(const truth::Snapshot& snapshot, std::size_t row, const WatchedRoute& route,
                 Journey& journey);
     /// Notes, once, that a vehicle leaves an approach, whether or not it is seen on the lanes across the
@@ -69,6 +73,7 @@ class TrafficWatch {
     double others_halted(const Passage& passage, std::size_t sample) const;
 
     const RoadLayout& layout_;
+    std::vector<WatchedRoute> routes_;         ///< As they are driven.
     std::vector<std::array<Loss, 2>> losses_;  ///< By approach; human, automated.
     std::vector<std::uint32_t> halted_;        ///< By approach, now.
     std::vector<std::vector<std::uint32_t>> samples_;
