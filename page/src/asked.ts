@@ -4,6 +4,7 @@ import { actions, element } from "./controls";
 import type { Drawing } from "./drawing";
 import type { Lease } from "./stream";
 import type { Moment, Track } from "./track";
+import { changeText } from "./ways";
 
 /** A vehicle by its slot, or a signal by its number, of one run. */
 export interface Thing {
@@ -107,12 +108,16 @@ export class AskedPanel {
   private words(thing: Thing, { now }: Moment): [string, string[]] {
     const track = this.tracks[thing.pane] as Track;
     const title = `${track.about.condition}, ${nameOf(thing, track, this.drawing)}${this.state(thing, now)}`;
-    const asked = track.asked.of(thing, now.time_s);
-    const lines = asked.slice(0, mostListed).map(({ lease, from_s, to_s }) => {
+    const asked = track.asked.of(thing, now.time_s).map(({ lease, from_s, to_s }) => {
       const until = to_s >= now.time_s - 1e-6 ? "now" : `${to_s.toFixed(2)} s`;
-      return `${from_s.toFixed(2)} s to ${until}: ${actionText(lease)}${reasonText(lease, track)}`;
+      return { time_s: from_s, line: `${from_s.toFixed(2)} s to ${until}: ${actionText(lease)}${reasonText(lease, track)}` };
     });
-    if (asked.length > mostListed) lines.push(`and ${asked.length - mostListed} earlier`);
+    const changes = thing.onSignal ? [] : track.ways.of(thing.number, now.time_s).map((change) => (
+      { time_s: change.time_s, line: changeText(change, track, this.drawing) }
+    ));
+    const all = [...changes, ...asked].sort((one, other) => other.time_s - one.time_s);
+    const lines = all.slice(0, mostListed).map(({ line }) => line);
+    if (all.length > mostListed) lines.push(`and ${all.length - mostListed} earlier`);
     if (lines.length === 0) lines.push("nothing was asked of it so far");
     return [title, [...lines, ...this.requests(thing, track, now.time_s)]];
   }

@@ -52,7 +52,7 @@ export function choice(
 /** Alternatives of traffic::Action, in their order. */
 export const actions = [
   "drive at", "change to lane", "hold lane", "pull aside", "give way at the stop line", "hold green", "adjust green",
-  "pass red",
+  "pass red", "nothing: this is no case for it", "take another way",
 ];
 
 function leaseText(lease: Lease, track: Track, signalId: (signal: number) => string): string {
@@ -89,7 +89,7 @@ export class LeaseList {
 }
 
 /** What the map's colours and shapes mean. */
-export function legend(): HTMLElement {
+export function legend(hasBlocks: boolean): HTMLElement {
   const made = element("ul", "legend");
   const entries: [string, string][] = [
     ["human", "human driver (box)"],
@@ -97,6 +97,8 @@ export function legend(): HTMLElement {
     ["emergency", "emergency vehicle (arrow)"],
     ["dark-vehicle", "hollow: its last report did not arrive"],
     ["ghost", "where it is believed to be, with one sigma"],
+    ["way", "way ahead of the emergency vehicle"],
+    ["former-way", "the way that it left"],
     ["lease", "a lease acts here"],
     ["chosen", "chosen: what it was asked is below"],
     ["true-link", "true link"],
@@ -106,7 +108,9 @@ export function legend(): HTMLElement {
     ["grant", "green granted"],
     ["braking", "emergency braking"],
     ["collision", "collision"],
+    ["way-changed", "another way taken"],
   ];
+  if (hasBlocks) entries.unshift(["block", "road blocked"], ["unknown-block", "road blocked, not known yet"]);
   for (const [sign, text] of entries) {
     const entry = element("li");
     entry.append(element("span", `sign ${sign}`), ` ${text}`);

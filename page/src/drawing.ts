@@ -21,6 +21,8 @@ export interface Drawing {
   quantum_m: number;
   size_m: [number, number];
   lanes: DrawnLane[];
+  /** By number of the edge: its first lane, and how many it has. */
+  edges: [number, number][];
   signals: { id: string; stopLines: StopLine[] }[];
 }
 
@@ -28,6 +30,7 @@ interface Described {
   quantum_m: number;
   size: [number, number];
   lanes: { kind: LaneKind; width: number; shape: number[] }[];
+  edges: number[];
   signals: { id: string; links: [number, number, number, number][][] }[];
 }
 
@@ -79,5 +82,8 @@ export function readDrawing(text: string): Drawing {
     id: signal.id,
     stopLines: laneEnds(signal.links).flatMap((end) => stopLines(end, number, quantum_m)),
   }));
-  return { quantum_m, size_m: [described.size[0] * quantum_m, described.size[1] * quantum_m], lanes, signals };
+  const edges: [number, number][] = [];
+  for (let i = 0; i + 1 < described.edges.length; i += 2)
+    edges.push([described.edges[i] as number, described.edges[i + 1] as number]);
+  return { quantum_m, size_m: [described.size[0] * quantum_m, described.size[1] * quantum_m], lanes, edges, signals };
 }

@@ -7,6 +7,7 @@ import type { Pane, Shown } from "./pane";
 import { RoadLayer } from "./road_layer";
 import { dark, light, type Theme } from "./theme";
 import type { Moment } from "./track";
+import type { Point } from "./ways";
 
 export interface Camera {
   x: number;
@@ -86,10 +87,16 @@ export class MapCanvas {
 
   /** The camera that shows the whole network. */
   whole(): Camera {
-    const [width_m, height_m] = this.drawing.size_m;
+    return this.around([[0, 0], this.drawing.size_m]);
+  }
+
+  /** The camera that shows all of these places, of which there is at least one. */
+  around(places: Point[], margin_m = 10): Camera {
+    const [left, low] = [0, 1].map((axis) => Math.min(...places.map((place) => place[axis] as number))) as Point;
+    const [right, high] = [0, 1].map((axis) => Math.max(...places.map((place) => place[axis] as number))) as Point;
     const [width, height] = this.paneSize();
-    const scale = Math.min(width / (width_m + 20), height / (height_m + 20));
-    return { x: width_m / 2, y: height_m / 2, zoom: Math.log2(Math.max(scale, 1e-3)) };
+    const scale = Math.min(width / (right - left + 2 * margin_m), height / (high - low + 2 * margin_m));
+    return { x: (left + right) / 2, y: (low + high) / 2, zoom: Math.log2(Math.max(scale, 1e-3)) };
   }
 
   draw(moments: Moment[], cameras: Camera[], shown: Shown): void {

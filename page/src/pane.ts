@@ -8,11 +8,15 @@ import type { Drawing } from "./drawing";
 import { type FrameState, type Ghost, linkFactor } from "./stream";
 import { type Rgba, signalColour, type Theme } from "./theme";
 import type { Moment, Track } from "./track";
+import { formerLines, lineAhead, type Point } from "./ways";
 
 export interface Shown {
   links: [boolean, boolean, boolean];
   ghosts: boolean;
   leases: boolean;
+  ways: boolean;
+  /** By pane: the emergency vehicle whose way is shown. */
+  followed: (number | undefined)[];
   chosen?: Thing;
 }
 
@@ -21,6 +25,35 @@ const steps = 256;
 const longestJump_m = 60;
 /** Marks stay on the map this long, s. */
 const markLasts_s = 3;
+
+function pointsOf(path: Float32Array): Point[] {
+  const points: Point[] = [];
+  for (let i = 0; i + 1 < path.length; i += 2) points.push([path[i] as number, path[i + 1] as number]);
+  return points;
+}
+
+function lineOf(boxes: Boxes, line: Point[], width_m: number, colour: Rgba): void {
+  for (let i = 0; i + 1 < line.length; ++i) boxes.line(line[i] as Point, line[i + 1] as Point, width_m, colour);
+}
+
+/** The same with gaps two thirds as long as the dashes. */
+function dashesOf(boxes: Boxes, line: Point[], width_m: number, dash_m: number, colour: Rgba): void {
+  const period_m = (5 * dash_m) / 3;
+  let driven_m = 0;
+  for (let i = 0; i + 1 < line.length; ++i) {
+    const [from, to] = [line[i] as Point, line[i + 1] as Point];
+    const piece_m = Math.hypot(to[0] - from[0], to[1] - from[1]);
+    const place = (along_m: number): Point => {
+      const share = along_m / piece_m;
+      return [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])];
+    };
+    for (let begin_m = -(driven_m % period_m); begin_m < piece_m; begin_m += period_m) {
+      const [low_m, high_m] = [Math.max(0, begin_m), Math.min(piece_m, begin_m + dash_m)];
+      if (low_m < high_m) boxes.line(place(low_m), place(high_m), width_m, colour);
+    }
+    driven_m += piece_m;
+  }
+}
 
 export class Pane {
   private places = new Float32Array(0);
@@ -44,14 +77,16 @@ export class Pane {
   layers(moment: Moment, shown: Shown, theme: Theme, metresPerPixel: number): Layer[] {
     this.place(moment);
     this.ghosts = new Map(moment.now.ghosts.map((ghost) => [ghost.slot, ghost]));
-    const layers: Layer[] = [this.signalLayer(moment.now, theme, metresPerPixel)];
+    const layers: Layer[] = [this.closedLayer(moment.now, theme)];
+    if (shown.ways) layers.push(this.wayLayer(this.waysShown(shown), moment, theme, metresPerPixel));
+    layers.push(this.signalLayer(moment.now, theme, metresPerPixel));
     for (const kind of [0, 1, 2] as const) {
       if (shown.links[kind]) layers.push(this.linkLayer(kind, moment, theme, metresPerPixel));
     }
     if (shown.ghosts) layers.push(...this.ghostLayers(moment, theme, metresPerPixel));
     layers.push(this.vehicleLayer(moment.now, theme, metresPerPixel));
     if (shown.leases) layers.push(...this.leaseLayers(moment, theme));
-    layers.push(this.alarmLayer(moment, theme));
+    layers.push(this.alarmLayer(moment, theme), ...this.blockSigns(moment.now, theme, metresPerPixel));
     if (shown.chosen?.pane === this.index) layers.push(this.chosenLayer(shown.chosen, moment, theme));
     return layers;
   }
@@ -139,6 +174,75 @@ export class Pane {
       boxes.add(x, y, along, [length_m, width_m], shape, theme.vehicles[vehicleClass]);
     }
     return BoxLayer.of(this.id("vehicles"), boxes);
+  }
+
+  /** The lanes that are closed now. */
+  private closedLayer(now: FrameState, theme: Theme): Layer {
+    const boxes = this.emptied("closed");
+    for (const { lanes } of this.track.blocksAt(now.time_s)) {
+      for (const number of lanes) {
+        const lane = this.drawing.lanes[number];
+        if (lane !== undefined) lineOf(boxes, pointsOf(lane.path), lane.width_m, theme.closed);
+      }
+    }
+    return BoxLayer.of(this.id("closed"), boxes);
+  }
+
+  /** No entry: full where the block is known, else a ring. */
+  private blockSigns(now: FrameState, theme: Theme, metresPerPixel: number): Layer[] {
+    const { quantum_m } = this.drawing;
+    const least_px = 9;
+    const radius_m = Math.max(3, least_px * metresPerPixel);
+    const signs = this.track.blocksAt(now.time_s).map(({ edge, place }) => ({
+      at: [place[0] * quantum_m, place[1] * quantum_m] as Point,
+      isKnown: now.knownBlocks.includes(edge),
+    }));
+    const bars = this.emptied("block-bars");
+    for (const { at: [x, y], isKnown } of signs) {
+      const colour = isKnown ? theme.bar : theme.block;
+      bars.line([x - 0.55 * radius_m, y], [x + 0.55 * radius_m, y], 0.4 * radius_m, colour);
+    }
+    const discs = new ScatterplotLayer({
+      id: this.id("blocks"),
+      data: signs,
+      getPosition: (sign) => sign.at,
+      getRadius: radius_m,
+      radiusUnits: "common",
+      getFillColor: (sign) => (sign.isKnown ? theme.block : theme.background),
+      stroked: true,
+      getLineColor: theme.block,
+      lineWidthUnits: "pixels",
+      getLineWidth: 2.5,
+    });
+    return [discs, BoxLayer.of(this.id("block-bars"), bars)];
+  }
+
+  private waysShown(shown: Shown): Set<number> {
+    const slots = new Set<number>();
+    const followed = shown.followed[this.index];
+    if (followed !== undefined) slots.add(followed);
+    if (shown.chosen?.pane === this.index && !shown.chosen.onSignal) slots.add(shown.chosen.number);
+    return slots;
+  }
+
+  /** What lies ahead of emergency vehicles and, dashed, the way that one left a moment ago. */
+  private wayLayer(slots: Set<number>, moment: Moment, theme: Theme, metresPerPixel: number): Layer {
+    const boxes = this.emptied("ways");
+    const { now } = moment;
+    const width_m = Math.max(1.4, 4 * metresPerPixel);
+    for (const { slot, way, at } of now.ways) {
+      const place = slots.has(slot) ? this.placeOf(slot, moment) : undefined;
+      const edges = this.track.names.ways[way];
+      if (place === undefined || edges === undefined) continue;
+      const change = this.track.ways.shown(slot, now.time_s);
+      const former = change === undefined ? undefined : this.track.names.ways[change.before];
+      if (change !== undefined && former !== undefined) {
+        for (const line of formerLines(this.drawing, former, edges, change.at))
+          dashesOf(boxes, line, width_m, Math.max(5, 9 * metresPerPixel), theme.way);
+      }
+      lineOf(boxes, lineAhead(this.drawing, edges, at, place), width_m, theme.way);
+    }
+    return BoxLayer.of(this.id("ways"), boxes);
   }
 
   private signalLayer(now: FrameState, theme: Theme, metresPerPixel: number): Layer {

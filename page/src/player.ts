@@ -8,6 +8,7 @@ import { type Camera, MapCanvas } from "./map";
 import { Pane, type Shown } from "./pane";
 import { describe, TimeLine } from "./timeline";
 import type { Moment, Track } from "./track";
+import { middleOf, reasonOf } from "./ways";
 
 const speeds = [0.25, 0.5, 1, 2, 5, 10, 30];
 const followZoom = 2.2;
@@ -49,7 +50,7 @@ export class Player {
   private readonly clock = element("output", "clock");
   private readonly playButton: HTMLButtonElement;
   private readonly calm = matchMedia("(prefers-reduced-motion: reduce)");
-  private readonly shown: Shown = { links: [false, false, true], ghosts: true, leases: true };
+  private readonly shown: Shown = { links: [false, false, true], ghosts: true, leases: true, ways: true, followed: [] };
   private readonly followBox: HTMLInputElement;
   private readonly askedPanel: AskedPanel;
   /** Id of the emergency vehicle to follow; empty for one that is on the road, whichever it is. */
@@ -211,7 +212,7 @@ export class Player {
     this.element.append(this.askedPanel.element, this.curves.element);
     const leases = element("div", "lease-lists");
     leases.append(...this.leaseLists.map((list) => list.element));
-    this.element.append(leases, legend());
+    this.element.append(leases, legend(this.tracks.some(({ about }) => about.incidents.length > 0)));
     if (this.options.note !== "") this.element.append(element("p", "note", this.options.note));
     return place;
   }
@@ -226,6 +227,7 @@ export class Player {
     row.append(this.clock, wanted, follow);
     row.append(button("+", "Nearer (plus)", () => this.zoom(0.5)), button("−", "Farther (minus)", () => this.zoom(-0.5)));
     row.append(button("whole", "The whole network (W)", () => this.look(this.map.whole())));
+    row.append(button("its way", "The way ahead of the emergency vehicle, and the one that it left (V)", () => this.lookAtWays()));
     if (live !== undefined && !live.allowed)
       row.append(element("span", "hint", "This page only watches: the server was started without --allow-control."));
     return row;
@@ -242,7 +244,7 @@ export class Player {
         }),
       );
     }
-    for (const [text, what] of [["ghosts", "ghosts"], ["leases", "leases"]] as const) {
+    for (const [text, what] of [["ghosts", "ghosts"], ["leases", "leases"], ["way", "ways"]] as const) {
       row.append(
         toggle(text, this.shown[what], (on) => {
           this.shown[what] = on;
@@ -294,6 +296,7 @@ export class Player {
       "-": () => this.zoom(-0.5),
       f: () => this.setFollowing(!this.following),
       w: () => this.look(this.map.whole()),
+      v: () => this.lookAtWays(),
       n: () => this.wantNext(1),
       N: () => this.wantNext(-1),
       c: () => this.chooseNext(),
@@ -411,6 +414,21 @@ export class Player {
     this.draw();
   }
 
+  /** Shows what lies ahead of the followed vehicles, and the ways that they left a moment ago. */
+  private lookAtWays(): void {
+    const places = this.tracks.flatMap((track, i) => {
+      const { now } = track.at(this.time_s);
+      const seen = now.ways.find(({ slot }) => slot === this.followed[i]);
+      if (seen === undefined) return [];
+      const change = track.ways.shown(seen.slot, now.time_s);
+      const ahead = (way: number, at: number) => (track.names.ways[way] ?? []).slice(at);
+      const former = change === undefined ? [] : ahead(change.before, change.at);
+      return [...ahead(seen.way, seen.at), ...former].flatMap((edge) => middleOf(this.drawing, edge));
+    });
+    const margin_m = 40;
+    if (places.length > 0) this.look(this.map.around(places, margin_m));
+  }
+
   private setSpeed(times: number): void {
     this.speed = times;
     this.live?.speed(times);
@@ -488,6 +506,7 @@ export class Player {
       return isHere(before[i]) ? before[i] : (track.emergency.find(isHere) ?? before[i] ?? track.emergency[0]);
     });
     this.listEmergency();
+    this.shown.followed = this.followed;
     if (this.followed.some((slot, i) => slot !== before[i])) this.refreshCurves(true);
   }
 
@@ -546,7 +565,9 @@ export class Player {
     const state = row >= 0 ? "" : `, ${this.absence(track, slot, now.time_s)}`;
     const id = slot === undefined ? "no emergency vehicle yet" : (track.names.vehicles[slot]?.id ?? "?");
     const caption = this.captions[i] as HTMLElement;
-    const text = `${track.about.condition}: ${id}${speed}${state}; ${now.count} vehicles`;
+    const change = row < 0 ? undefined : track.ways.shown(slot as number, now.time_s);
+    const turned = change === undefined ? "" : `, another way since ${change.time_s.toFixed(0)} s: ${reasonOf(change, track)}`;
+    const text = `${track.about.condition}: ${id}${speed}${state}${turned}; ${now.count} vehicles`;
     if (caption.textContent !== text) caption.textContent = text;
     caption.title = describe(track);
     (this.leaseLists[i] as LeaseList).show(now);

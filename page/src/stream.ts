@@ -1,13 +1,14 @@
 // Decodes the blocks of a stream: the other half of src/view/frame_encoder.cpp (docs/reference/frames.md).
 
 /** The stream format that this page understands: view::stream_format. */
-export const streamFormat = 1;
+export const streamFormat = 2;
 
 export const BlockKind = { names: 1, key: 2, delta: 3, message: 4 } as const;
 
 /** Names of view::MarkKind, in its order. */
 export const markNames = ["request", "grant", "braking", "collision", "departure", "arrival", "teleport"] as const;
-export type MarkName = (typeof markNames)[number];
+/** `way`: an emergency vehicle took another way, which the page finds by itself. */
+export type MarkName = (typeof markNames)[number] | "way";
 
 export interface NamedVehicle {
   id: string;
@@ -35,6 +36,15 @@ export interface Lease {
   reason: number;
   /** Slot, or -1. */
   beneficiary: number;
+}
+
+/** The way of an emergency vehicle. */
+export interface SeenWay {
+  slot: number;
+  /** Number of a way of Names. */
+  way: number;
+  /** Place in it of the last edge that was entered. */
+  at: number;
 }
 
 export interface Mark {
@@ -116,10 +126,12 @@ export function* blocksOf(bytes: Uint8Array): Generator<Block> {
   }
 }
 
-/** Names of vehicles and texts, by number. */
+/** Names of vehicles, texts and ways, by number. */
 export class Names {
   readonly vehicles: NamedVehicle[] = [];
   readonly texts: string[] = [];
+  /** Numbers of their edges, in driving order. */
+  readonly ways: number[][] = [];
 
   add(reader: ByteReader, quantum_m: number): void {
     for (let left = reader.number(); left > 0; --left) {
@@ -130,6 +142,7 @@ export class Names {
       this.vehicles.push({ id: reader.text(), vehicleClass, kind, length_m, width_m });
     }
     for (let left = reader.number(); left > 0; --left) this.texts.push(reader.text());
+    for (let left = reader.number(); left > 0; --left) this.ways.push(readWay(reader));
   }
 }
 
@@ -150,6 +163,9 @@ export class FrameState {
   readonly links: [Set<number>, Set<number>, Set<number>] = [new Set(), new Set(), new Set()];
   ghosts: Ghost[] = [];
   leases: Lease[] = [];
+  ways: SeenWay[] = [];
+  /** Edges of incidents that last and are known. */
+  knownBlocks: number[] = [];
   marks: Mark[] = [];
   /** Raised whenever signals, links, ghosts or leases change. */
   changes = 0;
@@ -168,6 +184,8 @@ export class FrameState {
     for (const links of this.links) this.readLinks(links, reader);
     this.readGhosts(reader);
     this.readLeases(reader);
+    this.readWays(reader);
+    this.readKnownBlocks(reader);
     this.readMarks(reader);
     if (!reader.atEnd) throw new StreamError("a frame is longer than its content");
   }
@@ -190,6 +208,8 @@ export class FrameState {
     for (const links of this.links) links.clear();
     this.ghosts = [];
     this.leases = [];
+    this.ways = [];
+    this.knownBlocks = [];
     ++this.changes;
   }
 
@@ -325,6 +345,27 @@ export class FrameState {
     this.leases = leases;
   }
 
+  private readWays(reader: ByteReader): void {
+    const count = reader.number();
+    if (count === 0) return;
+    const ways: SeenWay[] = [];
+    let slot = 0;
+    for (let left = count - 1; left > 0; --left) {
+      slot += reader.number();
+      ways.push({ slot, way: reader.number(), at: reader.number() });
+    }
+    this.ways = ways;
+  }
+
+  private readKnownBlocks(reader: ByteReader): void {
+    const count = reader.number();
+    if (count === 0) return;
+    const edges: number[] = [];
+    let edge = 0;
+    for (let left = count - 1; left > 0; --left) edges.push((edge += reader.number()));
+    this.knownBlocks = edges;
+  }
+
   private readMarks(reader: ByteReader): void {
     const marks: Mark[] = [];
     for (let left = reader.number(); left > 0; --left) {
@@ -375,6 +416,13 @@ function readAscending(reader: ByteReader): number[] {
     values.push(value);
   }
   return values;
+}
+
+function readWay(reader: ByteReader): number[] {
+  const edges: number[] = [];
+  let edge = 0;
+  for (let left = reader.number(); left > 0; --left) edges.push((edge += reader.signed()));
+  return edges;
 }
 
 function readLinks(reader: ByteReader): number[] {

@@ -14,6 +14,12 @@ export interface Theme {
   lease: Rgba;
   alarm: Rgba;
   chosen: Rgba;
+  way: Rgba;
+  block: Rgba;
+  /** The bar of its sign. */
+  bar: Rgba;
+  /** The lanes of a blocked road. */
+  closed: Rgba;
   signals: { go: Rgba; yield: Rgba; wait: Rgba; stop: Rgba; off: Rgba };
 }
 
@@ -25,6 +31,9 @@ const shared = {
   ] as [Rgba, Rgba, Rgba],
   lease: [214, 0, 196, 255] as Rgba,
   alarm: [255, 90, 0, 255] as Rgba,
+  block: [200, 0, 30, 255] as Rgba,
+  bar: [255, 255, 255, 255] as Rgba,
+  closed: [200, 0, 30, 110] as Rgba,
   signals: {
     go: [0, 165, 80, 255],
     yield: [130, 200, 60, 255],
@@ -46,6 +55,7 @@ export const light: Theme = {
   ghost: [110, 60, 160, 255],
   sigma: [110, 60, 160, 50],
   chosen: [28, 31, 36, 255],
+  way: [0, 140, 150, 220],
 };
 
 export const dark: Theme = {
@@ -60,6 +70,7 @@ export const dark: Theme = {
   ghost: [190, 150, 235, 255],
   sigma: [190, 150, 235, 60],
   chosen: [255, 255, 255, 255],
+  way: [70, 205, 215, 220],
 };
 
 /** The colour of SUMO's letter for a link of a signal. */

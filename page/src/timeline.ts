@@ -3,7 +3,7 @@
 import { type Mark, markNames } from "./stream";
 import type { Track } from "./track";
 
-const drawn: readonly string[] = ["request", "grant", "braking", "collision", "departure", "arrival", "teleport"];
+const drawn: readonly string[] = ["request", "grant", "braking", "collision", "departure", "arrival", "teleport", "way"];
 const svgSpace = "http://www.w3.org/2000/svg";
 
 export class TimeLine {
@@ -61,5 +61,7 @@ export function describe(track: Track): string {
   const words = markNames
     .filter((kind) => kind !== "departure" && kind !== "arrival")
     .map((kind) => `${count(kind)} ${kind}${count(kind) === 1 ? "" : "s"}`);
+  const changed = track.ways.all.length;
+  if (changed > 0) words.push(`another way taken ${changed === 1 ? "once" : `${changed} times`}`);
   return `${track.about.condition}: ${words.join(", ")}`;
 }

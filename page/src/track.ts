@@ -2,6 +2,7 @@
 
 import { AskedLog } from "./asked";
 import { BlockKind, blocksOf, ByteReader, FrameState, type Mark, Names } from "./stream";
+import { WayLog } from "./ways";
 
 export interface About {
   run: string;
@@ -11,6 +12,18 @@ export interface About {
   policies: string[];
   failure: string;
   predictor: string;
+  incidents: Block[];
+}
+
+/** A road that is blocked for a while. */
+export interface Block {
+  edge: number;
+  /** Numbers of the closed lanes. */
+  lanes: number[];
+  /** In the units of places. */
+  place: [number, number];
+  from_s: number;
+  to_s: number;
 }
 
 /** Two frames and how far the moment lies between them. */
@@ -78,6 +91,8 @@ export class Track {
   readonly messages: string[] = [];
   /** What was asked of vehicles and signals. */
   readonly asked = new AskedLog();
+  /** Where emergency vehicles took another way. */
+  readonly ways = new WayLog();
   private readonly frames: CodedFrame[] = [];
   private readonly journeys = new Map<number, Journey>();
   private readonly pass: FrameState;
@@ -131,6 +146,11 @@ export class Track {
     return time_s < here_s - 1e-6 ? here_s : this.time(index + 1);
   }
 
+  /** The roads that are blocked at a moment, known or not. */
+  blocksAt(time_s: number): Block[] {
+    return this.about.incidents.filter(({ from_s, to_s }) => from_s <= time_s + 1e-6 && time_s < to_s - 1e-6);
+  }
+
   journey(slot: number): Journey {
     return this.journeys.get(slot) ?? { time_s: [], speed_mps: [], distance_m: [] };
   }
@@ -140,6 +160,8 @@ export class Track {
     this.frames.push({ time_s: this.pass.time_s, kind, bytes });
     this.marks.push(...this.pass.marks);
     this.asked.take(this.pass.time_s, this.pass.leases);
+    for (const { slot, time_s } of this.ways.take(this.pass.time_s, this.pass.ways))
+      this.marks.push({ kind: "way", time_s, vehicle: slot, other: -1 });
     this.follow();
     this.kept += bytes.length;
     if (this.kept > mostKept) this.forgetOldest();

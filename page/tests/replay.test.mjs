@@ -13,6 +13,8 @@ const run = "runs/mine/city/corridor/0";
 const baseline = "runs/mine/city/baseline/0";
 const single = join(folder, "single.html");
 const pair = join(folder, "pair.html");
+const blocked = join(folder, "blocked.html");
+const block = { edge: "-142575655#10", lane: "-142575655#10_1", from_s: 80, known_s: 140, to_s: 320 };
 const address = (file) => pathToFileURL(file).href;
 let browser;
 
@@ -20,6 +22,9 @@ before(async () => {
   clearway("run", "city", "--seeds", "1", "--no-solo", "--record", "--out", "runs/mine");
   clearway("replay", run, "--view", "--out", single);
   clearway("replay", baseline, run, "--view", "--out", pair);
+  clearway("run", "city_v2", "--policy", "navigate", "--seeds", "1", "--no-solo", "--record", "--out", "runs/blocked", "--incident",
+    `edge=${block.edge},from_s=${block.from_s},to_s=${block.to_s},known_after_s=${block.known_s - block.from_s},reroute_share=0.5`);
+  clearway("replay", "runs/blocked/city_v2/baseline/0", "runs/blocked/city_v2/navigate/0", "--view", "--out", blocked);
   browser = await startBrowser();
 }, options);
 after(() => browser?.close());
@@ -106,11 +111,11 @@ for (const [width, colorScheme] of [[360, "light"], [360, "dark"], [768, "dark"]
     await page.waitForFunction((from) => Number(document.querySelector(".play").dataset.time) > from + 2, begin_s);
     await page.getByRole("button", { name: "Play or pause" }).click();
     const paused_s = await time();
-    for (const name of ["true links", "observed links", "believed links", "ghosts", "leases"]) {
+    for (const name of ["true links", "observed links", "believed links", "ghosts", "leases", "way"]) {
       const box = page.getByLabel(name, { exact: true });
       await box.setChecked(!(await box.isChecked()));
     }
-    for (const name of ["Nearer", "Farther", "The whole network"]) await page.getByRole("button", { name }).click();
+    for (const name of ["Nearer", "Farther", "The way ahead", "The whole network"]) await page.getByRole("button", { name }).click();
     assert.equal(await page.getByLabel("follow the emergency vehicle").isChecked(), false);
     assert.equal(await time(), paused_s, "only the clock moves the time");
     await page.getByLabel("follow the emergency vehicle").check();
@@ -250,6 +255,134 @@ test("a click or a key on a signal or a vehicle tells what it was asked, by whic
   await close();
 });
 
+/** The middle of a line. */
+function halfWay(shape) {
+  const lengths = shape.slice(1).map(([x, y], i) => Math.hypot(x - shape[i][0], y - shape[i][1]));
+  let left_m = lengths.reduce((sum, one) => sum + one, 0) / 2;
+  let i = 0;
+  while (left_m > lengths[i]) left_m -= lengths[i++];
+  const share = left_m / lengths[i];
+  return [0, 1].map((axis) => shape[i][axis] + share * (shape[i + 1][axis] - shape[i][axis]));
+}
+
+/** How many pixels near the middle of a pane have a colour. */
+async function near(page, pane, colour, reach = 24) {
+  const { width, height, at } = await pixelsOf(page, page.locator(".map"));
+  let count = 0;
+  for (let dx = -reach; dx <= reach; ++dx) {
+    for (let dy = -reach; dy <= reach; ++dy) count += alike(at(width * (0.25 + 0.5 * pane) + dx, height / 2 + dy), colour, 30) ? 1 : 0;
+  }
+  return count;
+}
+
+const red = [200, 0, 30];
+const teal = [20, 150, 160];
+
+/** Opens the page of the blocked city; `lookAt` shows a place at a moment. */
+async function openBlocked(choices = {}) {
+  const opened = await openPage(browser, address(blocked), choices);
+  const { origin, shapes, edges } = readNetwork(join(folder, "runs/blocked/scenarios/city_v2/network/network.net.xml"));
+  const lookAt = async (time_s, [x, y], zoom = 3) => {
+    await opened.page.evaluate((hash) => (location.hash = hash), `time=${time_s}&x=${x - origin[0]}&y=${y - origin[1]}&zoom=${zoom}`);
+    await settled(opened.page);
+  };
+  return { ...opened, lookAt, shapes, edges };
+}
+
+test("a blocked road is marked while it is blocked, and otherwise before it is known", options, async () => {
+  const { page, faults, close, lookAt, shapes } = await openBlocked();
+  assert.match(await page.locator(".legend").textContent(), /road blocked.*road blocked, not known yet/);
+  const place = halfWay(shapes.get(block.lane));
+  const signs = async (time_s) => {
+    await lookAt(time_s, place, 2);
+    return [await near(page, 0, red), await near(page, 1, red)];
+  };
+  const none = await signs(block.from_s - 5);
+  const unknown = await signs(block.known_s - 5);
+  const known = await signs(block.known_s + 5);
+  const over = await signs(block.to_s + 5);
+  assert.deepEqual(none, [0, 0]);
+  assert.deepEqual(over, [0, 0]);
+  for (const pane of [0, 1]) {
+    assert.ok(unknown[pane] > 40, `a ring: ${unknown}`);
+    assert.ok(known[pane] > 1.4 * unknown[pane], `a disc: ${known} pixels are red, a ring: ${unknown}`);
+  }
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("the way of the followed vehicle is drawn and, when it changes, both ways, with the reason among its commands", options, async () => {
+  const { page, faults, close, lookAt, shapes, edges } = await openBlocked();
+  const changes = rows(clearway("replay", "runs/blocked/city_v2/navigate/0", "--csv", "leases"))
+    .filter(({ action, reason }) => action === "take_route" && reason === "its way is closed");
+  assert.ok(changes.length > 0);
+  const { vehicle, time_s, links, policy } = changes[0];
+  const asked_s = Number(time_s);
+  await page.getByLabel("Emergency vehicle to follow").selectOption(vehicle);
+  const present = links.split(" ").map((edge) => edges[Number(edge)]);
+  const middle = (edge) => halfWay(shapes.get([3, 2, 1, 0].map((lane) => `${edge}_${lane}`).find((lane) => shapes.has(lane))));
+  assert.ok(!present.includes(block.edge));
+  const isDrawn = async (moment_s, place) => {
+    await lookAt(moment_s, place);
+    return (await near(page, 1, teal)) > 20;
+  };
+  // Of the way that it takes, an edge that was not on its way before.
+  let taken;
+  for (const edge of present.slice(8, 24)) {
+    if (await isDrawn(asked_s - 1, middle(edge))) continue;
+    taken = middle(edge);
+    break;
+  }
+  assert.ok(taken !== undefined, "before the change the whole new way is drawn");
+  // The blocked edge is on the way that it left. Beside its sign the way is seen.
+  const left = shapes.get(block.lane).at(-1);
+  const ways = async (moment_s) => [await isDrawn(moment_s, left), await isDrawn(moment_s, taken)];
+  assert.deepEqual(await ways(asked_s - 1), [true, false], "before the change");
+  assert.deepEqual(await ways(asked_s + 1), [true, true], "both ways after the change");
+  await page.getByLabel("way", { exact: true }).uncheck();
+  assert.deepEqual(await ways(asked_s + 1), [false, false]);
+  await page.getByLabel("way", { exact: true }).check();
+  assert.deepEqual(await ways(asked_s + 35), [false, true], "later the former way is gone");
+
+  const toChange = async () => {
+    await page.evaluate((hash) => (location.hash = hash), `time=${asked_s + 1}`);
+    await page.getByLabel("follow the emergency vehicle").check();
+    await settled(page);
+  };
+  await toChange();
+  const caption = await page.locator(".caption").nth(1).textContent();
+  assert.match(caption, new RegExp(`${vehicle}, \\d+ km/h, another way since \\d+ s: its way is closed \\(${policy}\\); `));
+  const box = await page.locator(".map").boundingBox();
+  await page.mouse.click(box.x + box.width * 0.75, box.y + box.height / 2);
+  assert.match(await page.locator(".asked h4").textContent(), new RegExp(`^navigate, vehicle ${vehicle}: `));
+  const told = await page.locator(".asked li").allTextContents();
+  const change = told.find((line) => line.includes("took another way"));
+  assert.match(change ?? "", /^\d+\.\d+ s: took another way, \d+ m ahead instead of \d+ m: its way is closed \(navigate\)$/, String(told));
+  assert.ok(Math.abs(Number.parseFloat(change) - asked_s) <= 1);
+  assert.ok(told.some((line) => line.includes(`take another way for ${vehicle}: its way is closed`)), String(told));
+  assert.match(await page.locator(".marks").getAttribute("aria-label"), /navigate: .*another way taken/);
+  assert.ok((await page.locator(".marks .way").count()) > 0);
+  await keepPicture(page, "blocked-1440-light");
+  assert.deepEqual(faults, []);
+  await close();
+  for (const [width, colorScheme] of [[360, "light"], [360, "dark"], [1440, "dark"]]) {
+    const other = await openBlocked({ viewport: { width, height: 800 }, colorScheme });
+    await other.page.getByLabel("Emergency vehicle to follow").selectOption(vehicle);
+    await other.page.evaluate((hash) => (location.hash = hash), `time=${asked_s + 1}`);
+    await settled(other.page);
+    assert.ok(await other.page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "the page is too wide");
+    await keepPicture(other.page, `blocked-${width}-${colorScheme}`);
+    await other.page.getByRole("button", { name: "The way ahead" }).click();
+    await settled(other.page);
+    const picture = await pixelsOf(other.page, other.page.locator(".map"));
+    let drawn = 0;
+    for (let x = 0; x < picture.width; x += 2) for (let y = 0; y < picture.height; y += 2) drawn += alike(picture.at(x, y), colorScheme === "dark" ? [62, 180, 190] : teal, 30) ? 1 : 0;
+    assert.ok(drawn > 150, `${drawn} pixels of ways`);
+    await keepPicture(other.page, `blocked-${width}-${colorScheme}-way`);
+    await other.close();
+  }
+});
+
 test("both runs show the same moment, and the marks are those of the recording", options, async () => {
   const { page, close } = await openPage(browser, address(pair));
   const events = rows(clearway("replay", run, "--csv", "events"));
@@ -289,7 +422,7 @@ test("data that was cut short, or of another format, is told", options, async ()
     return file;
   };
   const cases = [
-    [(json) => (json.format = 99), /format 99, this page reads 1/],
+    [(json) => (json.format = 99), /format 99, this page reads 2/],
     [(json) => (json.plays[0].runs[0].stream = json.plays[0].runs[0].stream.slice(0, 4000)), /cannot be shown/],
     [(json) => (json.plays[0].runs[0].stream = "AAAA"), /cannot be shown/],
   ];

@@ -5,7 +5,7 @@ import { alike } from "./browser.mjs";
 
 export const classColours = { human: [214, 154, 0], automated: [32, 110, 235], emergency: [225, 0, 40] };
 
-/** Lanes and signal links of SUMO's network file. */
+/** Lanes, edges by number and signal links of SUMO's network file. */
 export function readNetwork(file) {
   const text = readFileSync(file, "utf8");
   const attribute = (tag, name) => new RegExp(` ${name}="([^"]*)"`).exec(tag)?.[1];
@@ -20,6 +20,7 @@ export function readNetwork(file) {
       low = Math.min(low, y);
     }
   }
+  const edges = [...text.matchAll(/<edge [^>]*>/g)].map(([tag]) => attribute(tag, "id"));
   const lanes = new Map();
   for (const [tag] of text.matchAll(/<connection [^>]*>/g)) {
     const signal = attribute(tag, "tl");
@@ -29,7 +30,7 @@ export function readNetwork(file) {
     lanes.set(lane, { ...links, links: links.links.add(Number(attribute(tag, "linkIndex"))) });
   }
   const stopLines = [...lanes.values()].map((lane) => ({ ...lane, at: lane.shape.at(-1) }));
-  return { origin: [Math.floor(left), Math.floor(low)], stopLines };
+  return { origin: [Math.floor(left), Math.floor(low)], stopLines, shapes, edges };
 }
 
 /** Where a place of the network, m from its lower left corner, is on the screen. */

@@ -8,7 +8,7 @@ import { Track } from "../.build/track.js";
 
 const hex = readFileSync(new URL("golden_stream.hex", import.meta.url), "utf8").replaceAll("\n", "");
 const golden = Uint8Array.from(hex.match(/../g) ?? [], (pair) => Number.parseInt(pair, 16));
-const about = { run: "", scenario: "", condition: "mine", replication: 0, policies: [], failure: "", predictor: "" };
+const about = { run: "", scenario: "", condition: "mine", replication: 0, policies: [], failure: "", predictor: "", incidents: [] };
 
 /** Frames, in the order of the stream, as plain values. */
 function decoded() {
@@ -36,7 +36,7 @@ function plain(state) {
     [...layer].sort((a, b) => a - b).map((link) => [Math.floor(link / linkFactor), link % linkFactor]),
   );
   return { time_s: state.time_s, vehicles, signals: [...state.signals], links, ghosts: [...state.ghosts],
-           leases: [...state.leases], marks: [...state.marks] };
+           leases: [...state.leases], ways: [...state.ways], knownBlocks: [...state.knownBlocks], marks: [...state.marks] };
 }
 
 const hold = { onSignal: true, target: 2, action: 5, amount: 4, policy: 0, reason: 1, beneficiary: 0 };
@@ -48,6 +48,7 @@ test("names come back", () => {
     { id: "händler", vehicleClass: 0, kind: 0, length_m: 5, width_m: 1.8 },
   ]);
   assert.deepEqual(names.texts, ["green_wave", "ahead of the ambulance", "keep clear"]);
+  assert.deepEqual(names.ways, [[5, 6, 200, 3], []]);
   assert.deepEqual(messages, ['{"ended":true}']);
 });
 
@@ -60,6 +61,8 @@ test("a key frame comes back", () => {
     links: [[[0, 1], [0, 7], [1, 7]], [], [[0, 7]]],
     ghosts: [{ slot: 1, x: 55, y: 6010, sigma_m: 83 * 0.1, age_s: 2.5 }],
     leases: [hold, { onSignal: false, target: 7, action: 0, amount: 105, policy: 0, reason: 2, beneficiary: -1 }],
+    ways: [{ slot: 0, way: 0, at: 2 }, { slot: 7, way: 1, at: 0 }],
+    knownBlocks: [9, 300],
     marks: [
       { kind: "request", time_s: 100, vehicle: 0, other: 2 },
       { kind: "departure", time_s: 100.25, vehicle: 0, other: -1 },
@@ -73,6 +76,8 @@ test("differences come back", () => {
   assert.deepEqual(second.signals, ["GGrr", "", "Gg"]);
   assert.deepEqual(second.links, [[[0, 7]], [[0, 3], [3, 7]], [[0, 7]]]);
   assert.deepEqual(second.leases, [hold]);
+  assert.deepEqual(second.ways, [{ slot: 0, way: 1, at: 3 }]);
+  assert.deepEqual(second.knownBlocks, [300]);
   assert.deepEqual(second.marks, [
     { kind: "grant", time_s: 100.5, vehicle: 0, other: 2 },
     { kind: "collision", time_s: 100.5, vehicle: 7, other: 3 },

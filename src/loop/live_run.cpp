@@ -46,8 +46,9 @@ core::ExitCode run_live(const experiment::RunJob& unit, const std::filesystem::p
     detail::LiveFeed feed(unit.live.value().socket);
     UnitRun run(unit, demand, work / "sumo");
     std::string greeting;
-    view::FrameEncoder::encode_message(
-        view::about({unit.scenario, condition.name, unit.replication}, condition), greeting);
+    view::FrameEncoder::encode_message(view::about({unit.scenario, condition.name, unit.replication},
+                                                   condition, run.network(), run.incidents()),
+                                       greeting);
     view::FrameEncoder::encode_message(view::drawing_of(run.network()), greeting);
     feed.send(greeting);
     Broadcast broadcast(feed, run.network(), experiment::loop_config(condition).rules());

@@ -56,10 +56,10 @@ class UnitRun {
     std::size_t emergency_count() const { return prepared_.emergency.size(); }
     const std::string& scenario_hash() const { return scenario_hash_; }
     const scenario::ScenarioConfig& scenario() const { return config_; }
+    std::vector<traffic::Incident> incidents() const;
 
   private:
     core::KeyedRandom random() const;
-    std::vector<traffic::Incident> incidents() const;
     void warm_up();
     /// Those that are called are left to a dispatcher.
     void add_emergency_vehicles(const experiment::ConditionSpec& condition);

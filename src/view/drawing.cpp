@@ -86,6 +86,11 @@ std::string drawing_of(const roads::Network& network) {
                          {"width", quanta(lane.width_m)},
                          {"shape", shape_of(lane, origin)}});
     }
+    Json edges = Json::array();
+    for (const roads::Edge& edge : network.edges()) {
+        edges.push_back(edge.first_lane);
+        edges.push_back(edge.lane_count);
+    }
     Json signals = Json::array();
     for (const roads::Signal& signal : network.signals()) {
         Json links = Json::array();
@@ -93,11 +98,9 @@ std::string drawing_of(const roads::Network& network) {
             links.push_back(stop_lines_of(network, signal, link, origin));
         signals.push_back({{"id", signal.id}, {"links", std::move(links)}});
     }
-    const Json drawing = {{"quantum_m", quantum_m},
-                          {"origin_m", {origin.x_m, origin.y_m}},
-                          {"size", {width, height}},
-                          {"lanes", std::move(lanes)},
-                          {"signals", std::move(signals)}};
+    const Json drawing = {{"quantum_m", quantum_m},    {"origin_m", {origin.x_m, origin.y_m}},
+                          {"size", {width, height}},   {"lanes", std::move(lanes)},
+                          {"edges", std::move(edges)}, {"signals", std::move(signals)}};
     return drawing.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

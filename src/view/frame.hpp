@@ -57,6 +57,14 @@ struct SeenLease {
     auto operator<=>(const SeenLease&) const = default;
 };
 
+/// The way of an emergency vehicle on the road.
+struct SeenWay {
+    Slot slot = 0;
+    std::uint32_t way = 0;  ///< Number of a way of Names.
+    std::uint32_t at = 0;   ///< Place in it of the last edge outside junctions that was entered.
+    bool operator==(const SeenWay&) const = default;
+};
+
 /// What is marked on the time line.
 enum class MarkKind : std::uint8_t { request, grant, braking, collision, departure, arrival, teleport };
 inline constexpr std::array<const char*, 7> mark_names = {"request",   "grant",   "braking", "collision",
@@ -71,7 +79,8 @@ struct Mark {
     bool operator==(const Mark&) const = default;
 };
 
-/// What a viewer sees of one moment. Vehicles and ghosts ascend by slot; links and leases ascend.
+/// What a viewer sees of one moment. Vehicles, ghosts and ways ascend by slot; links, leases and edges
+/// ascend.
 struct Frame {
     double time_s = 0.0;
     std::vector<SeenVehicle> vehicles;
@@ -79,6 +88,8 @@ struct Frame {
     std::array<std::vector<Link>, layers> links;
     std::vector<Ghost> ghosts;
     std::vector<SeenLease> leases;
+    std::vector<SeenWay> ways;
+    std::vector<std::uint32_t> known_blocks;  ///< Edges of incidents that last and are known.
     std::vector<Mark> marks;
 };
 
@@ -90,11 +101,12 @@ struct NamedVehicle {
     std::uint32_t length = 0, width = 0;  ///< Multiples of `quantum_m`.
 };
 
-/// Names that appeared since the last ones. Slots and numbers of texts go on from there.
+/// Names that appeared since the last ones. Slots and numbers of texts and ways go on from there.
 struct Names {
     std::vector<NamedVehicle> vehicles;
     std::vector<std::string> texts;
-    bool empty() const { return vehicles.empty() && texts.empty(); }
+    std::vector<std::vector<std::uint32_t>> ways;  ///< Numbers of their edges, in driving order.
+    bool empty() const { return vehicles.empty() && texts.empty() && ways.empty(); }
 };
 
 }  // namespace clearway::view

@@ -68,6 +68,7 @@ void FrameBuilder::look(const trace::RecordedStep& step) {
     if (step.observation != nullptr) {
         if (step.observation->is_report) dark_ = dark_vehicles(snapshot, *step.observation);
         take_links(step);
+        take_known_blocks(*step.observation);
     }
     if (step.belief != nullptr) take_ghosts(step);
     mark_requests(step);
@@ -79,6 +80,7 @@ const Frame& FrameBuilder::frame(const trace::RecordedStep& step) {
     frame_.time_s = step.snapshot->time.value;
     frame_.signals = step.snapshot->signals.state;
     draw_vehicles(step);
+    draw_ways(step);
     draw_leases(step);
     draw_links();
     return frame_;
@@ -106,6 +108,23 @@ std::uint32_t FrameBuilder::text_of(const std::string& text) {
     const auto [at, is_new] = texts_.try_emplace(text, static_cast<std::uint32_t>(texts_.size()));
     if (is_new) new_names_.texts.push_back(text);
     return at->second;
+}
+
+std::uint32_t FrameBuilder::way_of(core::RouteIndex route, const traffic::Roster& roster) {
+    const auto [at, is_new] = ways_.try_emplace(route.value, static_cast<std::uint32_t>(ways_.size()));
+    if (is_new) {
+        std::vector<std::uint32_t>& way = new_names_.ways.emplace_back();
+        for (const core::EdgeIndex edge : roster.route(route))
+            way.push_back(edge.value);
+    }
+    return at->second;
+}
+
+void FrameBuilder::take_known_blocks(const traffic::Observation& observation) {
+    frame_.known_blocks.clear();
+    for (const traffic::KnownIncident& incident : observation.incidents)
+        frame_.known_blocks.push_back(incident.edge.value);
+    std::ranges::sort(frame_.known_blocks);
 }
 
 void FrameBuilder::take_links(const trace::RecordedStep& step) {
@@ -226,6 +245,19 @@ void FrameBuilder::draw_vehicles(const trace::RecordedStep& step) {
     }
     std::ranges::sort(frame_.vehicles, {}, &SeenVehicle::slot);
     assert(std::ranges::adjacent_find(frame_.vehicles, {}, &SeenVehicle::slot) == frame_.vehicles.end());
+}
+
+void FrameBuilder::draw_ways(const trace::RecordedStep& step) {
+    const truth::Snapshot& snapshot = *step.snapshot;
+    frame_.ways.clear();
+    for (core::VehicleIndex row = 0; row < snapshot.size(); ++row) {
+        if (snapshot.vehicle_class[row] != traffic::VehicleClass::emergency) continue;
+        const traffic::VehicleInfo* const info = step.roster->find(snapshot.key[row]);
+        if (info == nullptr || !info->route.exists()) continue;
+        frame_.ways.push_back({slot_of(snapshot.key[row], *step.roster), way_of(info->route, *step.roster),
+                               snapshot.route_edge[row]});
+    }
+    std::ranges::sort(frame_.ways, {}, &SeenWay::slot);
 }
 
 void FrameBuilder::draw_leases(const trace::RecordedStep& step) {

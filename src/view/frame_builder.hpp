@@ -38,17 +38,20 @@ class FrameBuilder {
     };
     Slot slot_of(core::VehicleKey key, const traffic::Roster& roster);
     std::uint32_t text_of(const std::string& text);
+    std::uint32_t way_of(core::RouteIndex route, const traffic::Roster& roster);
     std::vector<LinkedPair>& links(Layer layer) { return links_[static_cast<std::size_t>(layer)]; }
     bool shows(double x_m, double y_m) const { return !area_ || area_(x_m, y_m); }
 
     void take_links(const trace::RecordedStep& step);
     void take_observed_links(const traffic::Observation& observation);
     void take_believed_links(const traffic::BelievedGraph& belief);
+    void take_known_blocks(const traffic::Observation& observation);
     void take_ghosts(const trace::RecordedStep& step);
     void mark(MarkKind kind, double time_s, std::uint32_t vehicle, std::uint32_t other = 0);
     void mark_events(const trace::RecordedStep& step);
     void mark_requests(const trace::RecordedStep& step);
     void draw_vehicles(const trace::RecordedStep& step);
+    void draw_ways(const trace::RecordedStep& step);
     void draw_leases(const trace::RecordedStep& step);
     std::vector<std::uint32_t> targets_of(const traffic::Target& target, const trace::RecordedStep& step);
     /// Keeps the links whose ends are drawn.
@@ -63,6 +66,7 @@ class FrameBuilder {
     detail::LeasesInForce leases_;
     std::unordered_map<core::VehicleKey, Slot> slots_;
     std::unordered_map<std::string, std::uint32_t> texts_;
+    std::unordered_map<std::uint32_t, std::uint32_t> ways_;  ///< Their numbers, by core::RouteIndex.
     Names new_names_;
     std::vector<core::VehicleKey> dark_;  ///< Ascending.
     std::array<std::vector<LinkedPair>, layers> links_;

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace clearway::view {
 namespace {
@@ -86,6 +87,14 @@ void FrameEncoder::encode(const Names& names, std::string& stream) {
     writer.number(names.texts.size());
     for (const std::string& text : names.texts)
         writer.text(text);
+    writer.number(names.ways.size());
+    for (const std::vector<std::uint32_t>& way : names.ways) {
+        writer.number(way.size());
+        // Edges that follow each other often have numbers near each other.
+        std::int64_t last = 0;
+        for (const std::uint32_t edge : way)
+            writer.signed_number(edge - std::exchange(last, edge));
+    }
     append_block(BlockKind::names, writer.bytes(), stream);
 }
 
@@ -111,6 +120,8 @@ void FrameEncoder::encode(const Frame& frame, BlockKind kind, std::string& strea
     write_links(frame);
     write_ghosts(frame);
     write_leases(frame);
+    write_ways(frame);
+    write_known_blocks(frame);
     write_marks(frame, writer_);
     append_block(kind, writer_.bytes(), stream);
     last_ = frame;
@@ -216,6 +227,25 @@ void FrameEncoder::write_leases(const Frame& frame) {
         writer_.number(lease.reason);
         writer_.number(lease.beneficiary);
     }
+}
+
+void FrameEncoder::write_ways(const Frame& frame) {
+    if (frame.ways == last_.ways) return writer_.number(0);
+    writer_.number(frame.ways.size() + 1);
+    Ascending slots(writer_);
+    for (const SeenWay& seen : frame.ways) {
+        slots.write(seen.slot);
+        writer_.number(seen.way);
+        writer_.number(seen.at);
+    }
+}
+
+void FrameEncoder::write_known_blocks(const Frame& frame) {
+    if (frame.known_blocks == last_.known_blocks) return writer_.number(0);
+    writer_.number(frame.known_blocks.size() + 1);
+    Ascending edges(writer_);
+    for (const std::uint32_t edge : frame.known_blocks)
+        edges.write(edge);
 }
 
 }  // namespace clearway::view

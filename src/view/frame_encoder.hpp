@@ -10,7 +10,7 @@
 namespace clearway::view {
 
 /// Raised when the meaning of a stream changes; page/src/stream.ts knows the same number.
-inline constexpr int stream_format = 1;
+inline constexpr int stream_format = 2;
 
 /// What the first byte of a block says. A stream is a sequence of blocks: this byte, the length of the rest
 /// as a number, the rest. Numbers are unsigned, seven bits a byte, lowest first, the eighth bit set where
@@ -51,6 +51,8 @@ class FrameEncoder {
     void write_links(const Frame& frame);
     void write_ghosts(const Frame& frame);
     void write_leases(const Frame& frame);
+    void write_ways(const Frame& frame);
+    void write_known_blocks(const Frame& frame);
 
     detail::ByteWriter writer_;
     Frame last_;                       ///< Empty before a key frame.

@@ -4,15 +4,39 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "roads/closure.hpp"
+#include "view/drawing.hpp"
 #include "view/run_stream.hpp"
 
 namespace clearway::view {
 
-std::string about(const experiment::RunKey& key, const experiment::ConditionSpec& condition) {
-    const core::Json words = {{"run", experiment::to_text(key)}, {"scenario", key.scenario},
-                              {"condition", key.condition},      {"replication", key.replication},
-                              {"policies", condition.policies},  {"failure", condition.failure},
-                              {"predictor", condition.predictor}};
+namespace {
+
+/// Where and when a road is blocked; lanes and places as in the drawing.
+core::Json json_of(const traffic::Incident& incident, const roads::Network& network) {
+    const Origin origin = origin_of(network);
+    const roads::Point place = roads::place_of(network, incident);
+    core::Json lanes = core::Json::array();
+    for (const std::uint32_t number : incident.lanes)
+        lanes.push_back(network.lane_of(incident.edge, number).value);
+    return {{"edge", incident.edge.value},
+            {"lanes", std::move(lanes)},
+            {"place", {origin.x(place.x_m), origin.y(place.y_m)}},
+            {"from_s", incident.from.value},
+            {"to_s", incident.to.value}};
+}
+
+}  // namespace
+
+std::string about(const experiment::RunKey& key, const experiment::ConditionSpec& condition,
+                  const roads::Network& network, std::span<const traffic::Incident> incidents) {
+    core::Json blocks = core::Json::array();
+    for (const traffic::Incident& incident : incidents)
+        blocks.push_back(json_of(incident, network));
+    const core::Json words = {{"run", experiment::to_text(key)},  {"scenario", key.scenario},
+                              {"condition", key.condition},       {"replication", key.replication},
+                              {"policies", condition.policies},   {"failure", condition.failure},
+                              {"predictor", condition.predictor}, {"incidents", std::move(blocks)}};
     return words.dump(-1, ' ', false, core::Json::error_handler_t::replace);
 }
 
@@ -20,7 +44,8 @@ RunView view_of(trace::RecordingReader& recording, const roads::Network& network
                 StreamConfig config) {
     const trace::RecordingInfo& info = recording.info();
     RunView view;
-    view.about = about(info.key, info.condition);
+    view.about = about(info.key, info.condition, network,
+                       trace::incidents_from(info.incidents, experiment::to_text(info.key)));
     RunStream stream(origin_of(network), trace::loop_of(info).rules(), std::move(config));
     std::optional<double> first_s;
     double last_s = 0.0;

@@ -1,17 +1,20 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "roads/network.hpp"
 #include "trace/recording.hpp"
+#include "traffic/incident.hpp"
 #include "view/run_view.hpp"
 #include "view/stream_config.hpp"
 
 namespace clearway::view {
 
-/// The words about a run that a page shows (`RunView::about`).
-std::string about(const experiment::RunKey& key, const experiment::ConditionSpec& condition);
+/// The words about a run that a page shows (`RunView::about`), and what blocks its roads.
+std::string about(const experiment::RunKey& key, const experiment::ConditionSpec& condition,
+                  const roads::Network& network, std::span<const traffic::Incident> incidents);
 
 /// Times of a recording that are shown, s; without them from its first, to its last step.
 struct Window {

@@ -162,6 +162,46 @@ TEST_F(FrameBuilderTest, marks_between_two_frames_are_kept_for_the_next) {
     EXPECT_EQ(id(shown.marks[1].other - 1), "h1");
 }
 
+TEST_F(FrameBuilderTest, the_way_of_an_emergency_vehicle_is_shown_and_the_one_that_it_takes_instead) {
+    traffic::Roster roster = scene_.roster();
+    const std::vector<core::EdgeIndex> planned = roster.route(roster.find(scene_.key("e1"))->route);
+    trace::RecordedStep now = step();
+    now.roster = &roster;
+    const auto edges_of = [](const std::vector<core::EdgeIndex>& way) {
+        std::vector<std::uint32_t> edges;
+        for (const core::EdgeIndex edge : way)
+            edges.push_back(edge.value);
+        return edges;
+    };
+    const Frame& first = frame(now);
+    ASSERT_THAT(first.ways, SizeIs(1)) << "those of others are nobody's concern";
+    EXPECT_EQ(id(first.ways[0].slot), "e1");
+    EXPECT_EQ(first.ways[0].at, scene_.snapshot().route_edge[scene_.row("e1")]);
+    EXPECT_EQ(first.ways[0].way, 0U);
+    EXPECT_THAT(names_.ways, ElementsAre(edges_of(planned)));
+
+    EXPECT_EQ(frame(now).ways[0].way, 0U);
+    EXPECT_THAT(names_.ways, SizeIs(0)) << "a way is named once";
+
+    const std::vector<core::EdgeIndex> other = {planned.front(), core::EdgeIndex{planned.front().value + 7}};
+    roster.set_route(scene_.key("e1"), roster.add_route(other));
+    EXPECT_EQ(frame(now).ways[0].way, 1U);
+    EXPECT_THAT(names_.ways, ElementsAre(edges_of(other)));
+}
+
+TEST_F(FrameBuilderTest, a_blocked_road_is_known_from_the_report_that_knows_it_to_the_one_that_does_not) {
+    traffic::Observation observation = support::perfect_observation(scene_);
+    observation.is_report = true;
+    trace::RecordedStep now = step();
+    now.observation = &observation;
+    EXPECT_THAT(frame(now).known_blocks, SizeIs(0));
+    observation.incidents = {{core::EdgeIndex{4}, true, 0.0F}, {core::EdgeIndex{2}, false, 3.0F}};
+    EXPECT_THAT(frame(now).known_blocks, ElementsAre(2, 4));
+    EXPECT_THAT(frame(step()).known_blocks, ElementsAre(2, 4)) << "between two reports";
+    observation.incidents.clear();
+    EXPECT_THAT(frame(now).known_blocks, SizeIs(0));
+}
+
 TEST_F(FrameBuilderTest, outside_the_area_only_emergency_vehicles_are_shown) {
     FrameBuilder cut(origin_of(scene_.network()), graph::LinkRules{},
                      [](double x_m, double) { return x_m > 100.0; });

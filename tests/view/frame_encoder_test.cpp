@@ -29,6 +29,8 @@ Frame first_frame() {
     frame.links[2] = {{0, 7}};
     frame.ghosts = {{1, 55, 6010, 83, 25}};
     frame.leases = {{true, 2, 5, 4, 0, 1, 1}, {false, 7, 0, 105, 0, 2, 0}};
+    frame.ways = {{0, 0, 2}, {7, 1, 0}};
+    frame.known_blocks = {9, 300};
     frame.marks = {{MarkKind::request, 100.0, 1, 3}, {MarkKind::departure, 100.25, 1, 0}};
     return frame;
 }
@@ -42,6 +44,8 @@ Frame second_frame() {
     frame.links[0] = {{0, 7}};
     frame.links[1] = {{0, 3}, {3, 7}};
     frame.leases.pop_back();
+    frame.ways = {{0, 1, 3}};
+    frame.known_blocks = {300};
     frame.marks = {{MarkKind::grant, 100.5, 1, 3}, {MarkKind::collision, 100.5, 8, 4}};
     return frame;
 }
@@ -61,7 +65,8 @@ std::string golden_stream() {
     std::string stream;
     FrameEncoder encoder;
     FrameEncoder::encode({.vehicles = {{"ambulance <1>", 2, 4, 65, 22}, {"h\xc3\xa4ndler", 0, 0, 50, 18}},
-                          .texts = {"green_wave", "ahead of the ambulance", "keep clear"}},
+                          .texts = {"green_wave", "ahead of the ambulance", "keep clear"},
+                          .ways = {{5, 6, 200, 3}, {}}},
                          stream);
     encoder.encode_key(first_frame(), stream);
     encoder.encode_delta(second_frame(), stream);

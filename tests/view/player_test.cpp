@@ -1,5 +1,7 @@
 #include "view/player.hpp"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -7,6 +9,8 @@
 #include "core/files.hpp"
 #include "support/crossing_scene.hpp"
 #include "view/drawing.hpp"
+#include "view/frame.hpp"
+#include "view/recorded_run.hpp"
 
 namespace clearway::view {
 namespace {
@@ -54,10 +58,40 @@ TEST(Player, bytes_are_packed_as_zlib_and_base64) {
     EXPECT_EQ(packed("Clearway Clearway Clearway "), "eNpzzklNLCpPrFRwxmAAAI2QCgk=");
 }
 
+TEST(About, says_which_lanes_are_blocked_where_and_when) {
+    const roads::Network& network = testing::two_crossings();
+    const core::EdgeIndex edge = network.lane(network.signals().front().links.front().front().from).edge;
+    traffic::Incident incident;
+    incident.edge = edge;
+    incident.lanes = {0};
+    incident.position_m = 10.0F;
+    incident.from = core::Seconds(80.0);
+    incident.to = core::Seconds(320.0);
+    const auto about =
+        nlohmann::json::parse(view::about({"town", "navigate", 3}, {}, network, {&incident, 1}));
+    EXPECT_EQ(about.at("replication"), 3);
+    ASSERT_EQ(about.at("incidents").size(), 1U);
+    const auto& told = about["incidents"][0];
+    EXPECT_EQ(told.at("edge"), edge.value);
+    EXPECT_EQ(told.at("lanes"), nlohmann::json({network.lane_of(edge, 0).value}));
+    EXPECT_EQ(told.at("from_s"), 80.0);
+    EXPECT_EQ(told.at("to_s"), 320.0);
+    const Origin origin = origin_of(network);
+    const roads::Lane& lane = network.lane(network.lane_of(edge, 0));
+    const roads::Point begin = lane.shape.front();
+    const double away_m = std::hypot(told["place"][0].get<double>() - origin.x(begin.x_m),
+                                     told["place"][1].get<double>() - origin.y(begin.y_m)) *
+                          quantum_m;
+    EXPECT_NEAR(away_m, 10.0, 0.2);
+}
+
 TEST(Drawing, holds_every_lane_and_stop_line_of_the_network) {
     const roads::Network& network = testing::two_crossings();
     const auto drawing = nlohmann::json::parse(drawing_of(network));
     ASSERT_EQ(drawing.at("lanes").size(), network.lanes().size());
+    ASSERT_EQ(drawing.at("edges").size(), 2 * network.edges().size());
+    EXPECT_EQ(drawing["edges"][2], network.edges()[1].first_lane);
+    EXPECT_EQ(drawing["edges"][3], network.edges()[1].lane_count);
     const Origin origin = origin_of(network);
     const roads::Lane& lane = network.lanes().front();
     EXPECT_EQ(drawing["lanes"][0]["shape"].size(), 2 * lane.shape.size());
