@@ -85,6 +85,18 @@ struct MapLocks {
     std::uint64_t baseline = 0;
 };
 
+/// An emergency vehicle that drove another way under a condition than under the baseline.
+struct ChangedWay {
+    std::string vehicle;  ///< SUMO's id; text from a file, so printers escape it.
+    std::uint32_t replication = 0;
+    std::vector<std::size_t> baseline;   ///< In RoadMap::edges, in driving order; not empty.
+    std::vector<std::size_t> condition;  ///< Likewise.
+    double baseline_s = 0.0;             ///< From the first of these edges until it was last seen.
+    double condition_s = 0.0;            ///< Likewise.
+
+    double gain_s() const { return baseline_s - condition_s; }
+};
+
 /// Where the edge of a road network lies in time, seen from the nearest station.
 struct ReachedEdge {
     std::optional<double> baseline_s;   ///< At the end of the edge; nothing if no station leads there.
@@ -111,6 +123,8 @@ struct ScenarioMap {
     std::vector<EdgeTimes> times;
     std::vector<SignalHolds> holds;
     std::vector<MapLocks> locks = {};
+    std::vector<ChangedWay> changed_ways = {};
+    std::uint64_t trips = 0;     ///< Of emergency vehicles that both runs of a pair have.
     std::optional<Reach> reach;  ///< Nothing for a scenario without stations.
 };
 

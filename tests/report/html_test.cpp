@@ -76,6 +76,44 @@ TEST(Page, marks_blocked_roads_on_the_map) {
     EXPECT_THAT(page, HasSubstr("road blocked for a while"));
 }
 
+/// Of five streets of the sample's grid, of which the first and the last are on both ways.
+ChangedWay changed_way(const std::string& vehicle, double gain_s) {
+    return {vehicle, 0, {0, 2, 4, 7, 18}, {0, 3, 14, 16, 18}, 100.0 + gain_s, 100.0};
+}
+
+TEST(Page, draws_the_ways_that_were_changed_and_one_trip_on_both) {
+    StudyFacts study = tests::study({"merge"});
+    EXPECT_THAT(page_of(study), Not(HasSubstr("One trip on two ways")));
+    EXPECT_THAT(page_of(study), Not(HasSubstr("It took another way")));
+    ScenarioMap& map = *study.scenarios[0].map;
+    map.trips = 9;
+    map.changed_ways = {changed_way("small", 1.0), changed_way("median", 7.0), changed_way("large", 90.0)};
+    report::RoadMap& roads = *study.scenarios[0].roads;
+    roads.incidents = {{roads.edges[4].id, 60.0, 900.0}};
+    std::string page = page_of(study);
+    EXPECT_THAT(page, HasSubstr("3 of 9 trips took another way"));
+    EXPECT_EQ(count_of(page, "class=\"way taken\""), 4u) << "three streets and the legend";
+    EXPECT_THAT(page, HasSubstr("more EVs than in the baseline"));
+    EXPECT_EQ(count_of(page, "class=\"way left\""), 4u);
+    EXPECT_THAT(page, HasSubstr("One trip on two ways"));
+    EXPECT_THAT(page,
+                HasSubstr("Vehicle median, replication 0. Of 9 trips that both conditions have, 3 took"));
+    EXPECT_THAT(page, HasSubstr("Baseline: 0.95 km, 107 s"));
+    EXPECT_EQ(count_of(page, "<circle class=\"block\""), 4u) << "on both maps and in their legends";
+    EXPECT_THAT(page, Not(HasSubstr("It took another way")));
+
+    // The trip over time is shown, if it has two ways.
+    map.changed_ways[2].vehicle = study.scenarios[0].journeys.front().vehicle;
+    page = page_of(study);
+    EXPECT_THAT(page, HasSubstr("It took another way with the condition: each line follows its own."));
+    EXPECT_THAT(page, HasSubstr("it is the trip over time, too"));
+
+    // Of trips that did not end alike no picture compares the times.
+    for (ChangedWay& change : map.changed_ways)
+        change.condition.back() = 20;
+    EXPECT_THAT(page_of(study), Not(HasSubstr("One trip on two ways")));
+}
+
 TEST(Page, marks_places_of_calls_on_the_map) {
     StudyFacts study = tests::study({"merge"});
     EXPECT_THAT(page_of(study), Not(HasSubstr("EVs are called here")));

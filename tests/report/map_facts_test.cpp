@@ -59,6 +59,26 @@ TEST_F(MapFacts, CountLocksWhereTheyHappened) {
     EXPECT_EQ(scenario.map->locks[0].baseline, 1U);
 }
 
+TEST_F(MapFacts, TellWhichVehiclesTookAnotherWay) {
+    EXPECT_TRUE(crossing().map->changed_ways.empty());
+    const results::Store store = results::Store::open(folder_.path() / "study");
+    auto run = *store.read({"crossing", "helps", 1});
+    run.traffic = store.read_traffic(run.key);
+    for (metrics::EdgeTimeRow& row : run.traffic.edge_times) {
+        if (row.edge == "north_in") row.edge = "west_in";
+    }
+    std::filesystem::remove_all(folder_.path() / "study" / "runs" / "crossing" / "helps" / "00001");
+    store.write(run, {});
+    const ScenarioFacts scenario = crossing();
+    ASSERT_EQ(scenario.map->changed_ways.size(), 1U);
+    const ChangedWay& change = scenario.map->changed_ways[0];
+    EXPECT_EQ(change.vehicle, "emergency<0>");
+    EXPECT_EQ(change.replication, 1U);
+    EXPECT_EQ(scenario.roads->edges[change.baseline.front()].id, "north_in");
+    EXPECT_EQ(scenario.roads->edges[change.condition.front()].id, "west_in");
+    EXPECT_EQ(scenario.map->trips, 6U);
+}
+
 TEST_F(MapFacts, ReachStartsAtTheStations) {
     const ScenarioFacts scenario = crossing();
     ASSERT_TRUE(scenario.map && scenario.map->reach);

@@ -28,8 +28,15 @@ Points way_of(const JourneyFacts& journey);
 Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& condition);
 
 /// Map of the roads with the ways of the emergency vehicles in the colour and width of the seconds gained on
-/// each edge, the signals held, and the approaches on which others lose time.
+/// each edge, the ways that some took instead of others, the signals held, and the approaches on which others
+/// lose time.
 Figure gain_map_figure(const ScenarioFacts& scenario);
+
+/// Map of one trip that took another way under the condition that the scenario's maps show than under its
+/// baseline, with both ways.
+Figure ways_figure(const ScenarioFacts& scenario);
+/// Whether this is the trip of `timespace_figure`.
+bool is_shown_trip(const ScenarioFacts& scenario, const ChangedWay& change);
 
 /// Map of what an emergency vehicle reaches from its stations within some minutes with and without a
 /// condition; what only one of the two reaches is marked.

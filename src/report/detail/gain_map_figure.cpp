@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
 #include "report/detail/figures.hpp"
 #include "report/detail/map_canvas.hpp"
 
@@ -28,11 +31,25 @@ const Band& band_of(double gain_s) {
     return *std::ranges::find_if(bands, [&](const Band& band) { return gain_s >= band.from_s; });
 }
 
-std::vector<const MapEdge*> all_edges(const RoadMap& roads) {
-    std::vector<const MapEdge*> edges;
-    for (const MapEdge& edge : roads.edges)
-        edges.push_back(&edge);
-    return edges;
+/// How many trips more than in the baseline drove each edge, of those that have two ways.
+using WayCounts = std::map<std::size_t, std::int64_t>;
+
+WayCounts way_counts(const ScenarioMap& map) {
+    WayCounts counts;
+    for (const ChangedWay& change : map.changed_ways) {
+        for (const std::size_t edge : std::set(change.condition.begin(), change.condition.end()))
+            ++counts[edge];
+        for (const std::size_t edge : std::set(change.baseline.begin(), change.baseline.end()))
+            --counts[edge];
+    }
+    std::erase_if(counts, [](const auto& count) { return count.second == 0; });
+    return counts;
+}
+
+/// Broad, below the ways.
+void draw_changed(MapCanvas& canvas, const RoadMap& roads, const WayCounts& counts) {
+    for (const auto& [edge, trips] : counts)
+        canvas.edge(roads.edges[edge], trips > 0 ? "way taken" : "way left");
 }
 
 /// The ways, small changes first, so that large ones lie on top.
@@ -84,28 +101,6 @@ void draw_locks(MapCanvas& canvas, const RoadMap& roads, const ScenarioMap& map)
     }
 }
 
-/// The sign for it: a bar on a disc.
-std::string no_entry(double x, double y) {
-    return fmt::format(
-        "<circle class=\"block\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"7\"/><path class=\"blockBar\" "
-        "d=\"M{:.1f} {:.1f}h8v3h-8z\"/>\n",
-        x, y, x - 4.0, y - 1.5);
-}
-
-/// In the middle of the edge.
-void draw_incidents(MapCanvas& canvas, const RoadMap& roads) {
-    for (const MapIncident& one : roads.incidents) {
-        const auto edge = roads.find_edge(one.edge);
-        if (!edge || roads.edges[*edge].shape.empty()) continue;
-        const std::vector<MapPlace>& shape = roads.edges[*edge].shape;
-        canvas.edge(roads.edges[*edge], "blocked");
-        const MapPlace& a = shape[(shape.size() - 1) / 2];
-        const MapPlace& b = shape[shape.size() / 2];
-        const auto [x, y] = canvas.place({(a.first + b.first) / 2.0, (a.second + b.second) / 2.0});
-        canvas.add(no_entry(x, y));
-    }
-}
-
 /// A ring in the middle of the edge.
 void draw_calls(MapCanvas& canvas, const RoadMap& roads) {
     for (const MapCall& one : roads.calls) {
@@ -117,7 +112,7 @@ void draw_calls(MapCanvas& canvas, const RoadMap& roads) {
     }
 }
 
-DataTable data_of(const RoadMap& roads, const ScenarioMap& map,
+DataTable data_of(const RoadMap& roads, const ScenarioMap& map, const WayCounts& counts,
                   const std::vector<const analysis::ApproachCost*>& losing) {
     DataTable table{{"What", "id", "passages or holds", "baseline, s", "condition, s", "gain, s"}, {}};
     for (const EdgeTimes& one : map.times)
@@ -127,6 +122,9 @@ DataTable data_of(const RoadMap& roads, const ScenarioMap& map,
     for (const SignalHolds& one : map.holds)
         table.rows.push_back({"signal held, per run", roads.signals[one.signal].id,
                               number(one.holds, typeset(2)), "", number(one.held_s, typeset(1)), ""});
+    for (const auto& [edge, trips] : counts)
+        table.rows.push_back({"trips more than in the baseline", roads.edges[edge].id,
+                              number(static_cast<double>(trips), typeset(0, Sign::always)), "", "", ""});
     for (const MapIncident& one : roads.incidents)
         table.rows.push_back({"blocked, from and to, s", one.edge, "", number(one.from_s, typeset(0)),
                               number(one.to_s, typeset(0)), ""});
@@ -154,7 +152,11 @@ std::vector<LegendEntry> entries_of(const RoadMap& roads, const ScenarioMap& map
     if (!map.locks.empty())
         entries.push_back({"<path class=\"lock\" d=\"M17 3l6 6m0 -6l-6 6\"/>",
                            "vehicles locked each other (pale: baseline)"});
-    if (!roads.incidents.empty()) entries.push_back({no_entry(20.0, 5.0), "road blocked for a while"});
+    if (!map.changed_ways.empty()) {
+        entries.push_back(stripe_entry("way taken", "more EVs than in the baseline"));
+        entries.push_back(stripe_entry("way left", "fewer EVs"));
+    }
+    if (!roads.incidents.empty()) entries.push_back({incident_sign, "road blocked for a while"});
     if (!roads.calls.empty())
         entries.push_back({"<circle class=\"call\" cx=\"20\" cy=\"6\" r=\"5\"/>", "EVs are called here"});
     if (!roads.stations.empty()) entries.push_back({station_sign, "station"});
@@ -173,10 +175,12 @@ Figure gain_map_figure(const ScenarioFacts& scenario) {
     MapCanvas canvas(fmt::format("{}: where {} gains and costs time", scenario.name, condition.label()),
                      roads);
     canvas.edges(all_edges(roads), "road");
+    const WayCounts counts = way_counts(map);
+    draw_changed(canvas, roads, counts);
     draw_ways(canvas, roads, map);
     draw_holds(canvas, roads, map);
     draw_locks(canvas, roads, map);
-    draw_incidents(canvas, roads);
+    canvas.incidents(roads);
     draw_calls(canvas, roads);
     canvas.stations(roads);
     const std::vector<const analysis::ApproachCost*> losing = losing_approaches(condition);
@@ -191,12 +195,15 @@ Figure gain_map_figure(const ScenarioFacts& scenario) {
         "all passages that it shares with the baseline. Single edges have no interval; the sum over a trip "
         "is in the tables.",
         condition.label());
+    if (!map.changed_ways.empty())
+        note += fmt::format(" {} of {} took another way than under the baseline.",
+                            grouped(map.changed_ways.size()), core::counted(map.trips, "trip"));
     if (losing.size() > drawn_losses)
         note += fmt::format(
             " Of {} approaches on which others lose time, the {} with the largest losses are marked.",
             losing.size(), drawn_losses);
     return {"map-" + scenario.name, "Where time is gained and lost", canvas.finish(), note,
-            data_of(roads, map, losing)};
+            data_of(roads, map, counts, losing)};
 }
 
 }  // namespace clearway::report::detail

@@ -22,6 +22,13 @@ bool is_drawable(const RoadMap& map) {
     return std::ranges::any_of(map.edges, [](const MapEdge& edge) { return edge.shape.size() > 1; });
 }
 
+std::vector<const MapEdge*> all_edges(const RoadMap& map) {
+    std::vector<const MapEdge*> edges;
+    for (const MapEdge& edge : map.edges)
+        edges.push_back(&edge);
+    return edges;
+}
+
 MapCanvas::Frame MapCanvas::frame_of(const RoadMap& map) {
     double left = 1e30;
     double right = -1e30;
@@ -103,6 +110,20 @@ void MapCanvas::stations(const RoadMap& map) {
         if (!station.name.empty())
             text(is_left ? x + 9.0 : x - 9.0, y + 4.0, shortened(station.name, letters),
                  is_left ? Anchor::start : Anchor::end, "rank");
+    }
+}
+
+void MapCanvas::incidents(const RoadMap& map) {
+    for (const MapIncident& one : map.incidents) {
+        const auto edge = map.find_edge(one.edge);
+        if (!edge || map.edges[*edge].shape.empty()) continue;
+        const std::vector<MapPlace>& shape = map.edges[*edge].shape;
+        this->edge(map.edges[*edge], "blocked");
+        const MapPlace& a = shape[(shape.size() - 1) / 2];
+        const MapPlace& b = shape[shape.size() / 2];
+        const auto [x, y] = place({(a.first + b.first) / 2.0, (a.second + b.second) / 2.0});
+        circle(x, y, 7.0, "block");
+        add(fmt::format("<path class=\"blockBar\" d=\"M{:.1f} {:.1f}h8v3h-8z\"/>\n", x - 4.0, y - 1.5));
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "report/detail/canvas.hpp"
 #include "report/map.hpp"
@@ -23,6 +24,8 @@ class MapCanvas : public Canvas {
     void scale_bar();
     /// A diamond at the start of the edge of each station, with its name.
     void stations(const RoadMap& map);
+    /// No entry in the middle of each blocked edge.
+    void incidents(const RoadMap& map);
     /// What the map's data requires, below the scale bar; nothing where it is empty.
     void credit(const std::string& words);
     /// Of the drawing, scale bar included, in figure units.
@@ -45,6 +48,13 @@ class MapCanvas : public Canvas {
 
 /// The sign of a station in a legend.
 inline constexpr const char* station_sign = "<path class=\"station\" d=\"M20 -1l6 6l-6 6l-6 -6z\"/>";
+
+/// The sign of a blocked road: a bar on a disc.
+inline constexpr const char* incident_sign =
+    "<circle class=\"block\" cx=\"20.0\" cy=\"5.0\" r=\"7\"/><path class=\"blockBar\" d=\"M16.0 "
+    "3.5h8v3h-8z\"/>\n";
+
+std::vector<const MapEdge*> all_edges(const RoadMap& map);
 
 /// Whether there is something to draw.
 bool is_drawable(const RoadMap& map);

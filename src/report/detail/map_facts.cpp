@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "report/detail/changed_ways.hpp"
 #include "report/overview.hpp"
 
 namespace clearway::report::detail {
@@ -25,8 +26,8 @@ Passages passages_of(const metrics::TrafficTables& tables) {
     return passages;
 }
 
-void add_locks(const metrics::TrafficTables& tables, const std::map<std::string, std::size_t>& edges,
-               std::uint64_t MapLocks::*count, Sums& sums) {
+void add_locks(const metrics::TrafficTables& tables, const EdgePlaces& edges, std::uint64_t MapLocks::*count,
+               Sums& sums) {
     for (const metrics::LockRow& row : tables.locks) {
         const auto edge = edges.find(row.edge);
         if (edge == edges.end()) continue;
@@ -37,7 +38,7 @@ void add_locks(const metrics::TrafficTables& tables, const std::map<std::string,
 }
 
 void add_pair(const metrics::TrafficTables& without, const metrics::TrafficTables& with,
-              const std::map<std::string, std::size_t>& edges, Sums& sums) {
+              const EdgePlaces& edges, Sums& sums) {
     ++sums.runs;
     add_locks(without, edges, &MapLocks::baseline, sums);
     add_locks(with, edges, &MapLocks::condition, sums);
@@ -93,18 +94,21 @@ std::optional<ScenarioMap> map_in(RunTraffic& traffic, const StudyFacts& study,
     if (condition == nullptr || !scenario.roads) return std::nullopt;
     const RoadMap& roads = *scenario.roads;
     const ConditionFacts& baseline = *scenario.baseline_of(*condition);
-    std::map<std::string, std::size_t> edges;
+    EdgePlaces edges;
     for (std::size_t edge = 0; edge < roads.edges.size(); ++edge)
         edges[roads.edges[edge].id] = edge;
     Sums sums;
+    ScenarioMap map;
     for (std::uint32_t replication = 0; replication < scenario.replications; ++replication) {
         const auto& without = traffic.of({scenario.name, baseline.name(), replication});
         if (without.edge_times.empty()) continue;
         const auto& with = traffic.of({scenario.name, condition->name(), replication});
-        if (!with.edge_times.empty()) add_pair(without, with, edges, sums);
+        if (with.edge_times.empty()) continue;
+        add_pair(without, with, edges, sums);
+        add_changed_ways(driven_ways(without, edges, roads), driven_ways(with, edges, roads), replication,
+                         map);
     }
     if (sums.times.empty()) return std::nullopt;
-    ScenarioMap map;
     map.condition = static_cast<std::size_t>(condition - scenario.conditions.data());
     fill(sums, roads, map);
     map.reach = reach_of(roads, map.times, station_edges(roads),

@@ -160,6 +160,8 @@ stroke-width:4px;stroke-linejoin:round}
 .plot .way{stroke:var(--muted);stroke-width:2}.plot .way.reached{stroke:var(--ink);stroke-width:1.8}
 .plot .way.better,.plot .way.worse{stroke:currentColor;stroke-width:2.6}.plot .way.better.much,.plot .way.worse.much{stroke-width:5}
 .plot .way.worse{stroke-dasharray:6 2}
+.plot .way.taken,.plot .way.left{stroke:var(--ink);stroke-width:7;stroke-opacity:.22}
+.plot .way.left{stroke-dasharray:1.5 2.5;stroke-opacity:.45}
 .plot .held{fill:none;stroke:var(--ink);stroke-width:1.5}.plot .losing{fill:var(--worse);stroke:var(--paper);stroke-width:.8}
 .plot .lock{fill:none;stroke:var(--worse);stroke-width:1.6}.plot .lock.before{opacity:.45}
 .plot .call{fill:none;stroke:var(--better);stroke-width:2}.plot .block{fill:var(--worse);stroke:var(--paper);stroke-width:1}.plot .blockBar{fill:var(--paper)}.plot .blocked{fill:none;stroke:var(--worse);stroke-width:4;stroke-dasharray:4 3}

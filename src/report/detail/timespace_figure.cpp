@@ -87,17 +87,24 @@ Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& con
     DataTable data{{"Condition", "what", "state", "from, s", "to, s", "distance, m"}, {}};
     add_data(*without, data);
     add_data(*with, data);
+    const bool has_two_ways = scenario.map && &scenario.conditions[scenario.map->condition] == &condition &&
+                              std::ranges::any_of(scenario.map->changed_ways, [&](const ChangedWay& change) {
+                                  return is_shown_trip(scenario, change);
+                              });
     const double saved_s = without->places.back().time_s - with->places.back().time_s;
-    return {"trip-" + scenario.name, "One trip with and without", plot.finish(),
-            fmt::format("Vehicle {}, replication {}: {} s {}. A level piece is a stop. {} Of the trips that "
-                        "were kept its gain is nearest to the mean.",
-                        with->vehicle, with->replication, number(std::abs(saved_s), typeset(1)),
-                        saved_s >= 0.0 ? "sooner" : "later",
-                        without->signals.empty() && with->signals.empty()
-                            ? "No signal stands on its route."
-                            : "Signals on its route are drawn twice: without the condition above the stop "
-                              "line, with it below."),
-            std::move(data)};
+    const char* const ways =
+        has_two_ways ? " It took another way with the condition: each line follows its own." : "";
+    return {
+        "trip-" + scenario.name, "One trip with and without", plot.finish(),
+        fmt::format("Vehicle {}, replication {}: {} s {}.{} A level piece is a stop. {} Of the trips that "
+                    "were kept its gain is nearest to the mean.",
+                    with->vehicle, with->replication, number(std::abs(saved_s), typeset(1)),
+                    saved_s >= 0.0 ? "sooner" : "later", ways,
+                    without->signals.empty() && with->signals.empty()
+                        ? "No signal stands on its route."
+                        : "Signals on its route are drawn twice: without the condition above the stop "
+                          "line, with it below."),
+        std::move(data)};
 }
 
 }  // namespace clearway::report::detail

@@ -48,7 +48,7 @@ void overview_section(const StudyFacts& study, Writer& writer) {
         writer.markup("<div class=\"glance\">\n");
         write_words(study, scenario, *condition, writer);
         writer.figures({gain_map_figure(scenario), timespace_figure(scenario, *condition),
-                        tradeoff_figure(study, scenario), reach_figure(scenario)});
+                        ways_figure(scenario), tradeoff_figure(study, scenario), reach_figure(scenario)});
         writer.markup("</div>\n");
     }
 }
