@@ -22,10 +22,12 @@ class AccidentTest(FolderCase):
         file.write_text(file.read_text(encoding="utf-8") + "\n" + incident, encoding="utf-8")
         self.assertIn("my-city is ", type_in(check))
         compare = commands(GUIDE, "2. The comparison")
-        self.assertEqual(len(compare), 6)
+        self.assertEqual(len(compare), 8)
         type_in(compare[0], ("--seeds 10", "--seeds 1 --no-solo --out runs/navigate"))
         found = {row["condition"]: row for row in self.rows("navigate")}
         self.assertEqual(set(found), {"baseline", "navigate"})
+        type_in(compare[6], ("--seeds 1", "--seeds 1 --no-solo"))
+        self.assertTrue(Path(type_in(compare[7]).strip()).exists())
         called = next(block for block in blocks(GUIDE, "3. Who is sent") if "[[call]]" in block)
         file.write_text(file.read_text(encoding="utf-8") + "\n" + called.replace('"..."', '"-142575694#2"'), encoding="utf-8")
         self.assertIn("my-city is fit for a study", type_in(check))
