@@ -77,7 +77,8 @@ export class Pane {
   layers(moment: Moment, shown: Shown, theme: Theme, metresPerPixel: number): Layer[] {
     this.place(moment);
     this.ghosts = new Map(moment.now.ghosts.map((ghost) => [ghost.slot, ghost]));
-    const layers: Layer[] = [this.closedLayer(moment.now, theme)];
+    const isBlocked = this.track.blocksAt(moment.now.time_s).length > 0;
+    const layers: Layer[] = isBlocked ? [this.closedLayer(moment.now, theme)] : [];
     if (shown.ways) layers.push(this.wayLayer(this.waysShown(shown), moment, theme, metresPerPixel));
     layers.push(this.signalLayer(moment.now, theme, metresPerPixel));
     for (const kind of [0, 1, 2] as const) {
@@ -86,7 +87,8 @@ export class Pane {
     if (shown.ghosts) layers.push(...this.ghostLayers(moment, theme, metresPerPixel));
     layers.push(this.vehicleLayer(moment.now, theme, metresPerPixel));
     if (shown.leases) layers.push(...this.leaseLayers(moment, theme));
-    layers.push(this.alarmLayer(moment, theme), ...this.blockSigns(moment.now, theme, metresPerPixel));
+    layers.push(this.alarmLayer(moment, theme));
+    if (isBlocked) layers.push(...this.blockSigns(moment.now, theme, metresPerPixel));
     if (shown.chosen?.pane === this.index) layers.push(this.chosenLayer(shown.chosen, moment, theme));
     return layers;
   }
