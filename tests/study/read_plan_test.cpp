@@ -97,9 +97,13 @@ TEST_F(PlannedStudy, RefusesAPlanThatDoesNotFit) {
     EXPECT_THAT(with("[plan]\nalpha = 0.5\n[[plan.comparison]]\nname='x'\ncondition='corridor'\n"
                      "against='baseline'\n"),
                 AllOf(HasSubstr("plan.alpha"), HasSubstr("0.5")));
-    EXPECT_THAT(with("[plan]\nmetric='collisions'\n[[plan.comparison]]\nname='x'\ncondition='corridor'\n"
-                     "against='baseline'\n"),
-                HasSubstr("'collisions' is not a metric in seconds"));
+    EXPECT_THAT(
+        with("[plan]\nmetric='collisions'\n[[plan.comparison]]\nname='x'\ncondition='corridor'\n"
+             "against='baseline'\n"),
+        HasSubstr("'collisions' is not a metric in seconds (allowed: columns of runs.csv in seconds)"));
+    EXPECT_THAT(
+        with("[plan]\nmetric='emergncy_travel_time_s'\n"),
+        HasSubstr("(allowed: columns of runs.csv in seconds). Did you mean 'emergency_travel_time_s'?"));
     EXPECT_THAT(with("[plan]\n[[plan.comparison]]\nname='x'\ncondition='coridor'\nagainst='baseline'\n"),
                 AllOf(HasSubstr("plan.comparison[0].condition"), HasSubstr("'coridor' is not in the study"),
                       HasSubstr("Did you mean 'corridor'?")));

@@ -130,7 +130,7 @@ void read_plan(StrictTable& root, Extent extent, StudyConfig& config) {
     const std::vector<std::string> metrics = metrics_in_seconds();
     if (std::ranges::find(metrics, plan.metric) == metrics.end())
         reader->problem("metric", fmt::format("'{}' is not a metric in seconds", plan.metric),
-                        core::listed(metrics), core::did_you_mean(plan.metric, metrics));
+                        "columns of runs.csv in seconds", core::did_you_mean(plan.metric, metrics));
     if (rows.empty())
         reader->problem("comparison", "is missing", "at least one [[plan.comparison]]",
                         "Name what the study is to show, or remove [plan]");
