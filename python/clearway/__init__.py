@@ -12,6 +12,7 @@ Run and read:
     results = clearway.open("runs/mine")                              # what is there already
     for step in clearway.trace("runs/mine/recordings/city/corridor/00000.h5"):
         print(step.time_s, step.x_m.mean())
+    scores = clearway.links.evaluate("city", ["kalman", "graphsage"], failures=["B10"])  # how well links are predicted
     samples = clearway.dataset("data/many")                           # edge lists and features, as PyTorch Geometric takes them
 
 Write a part:
@@ -59,6 +60,8 @@ _HOMES = {
     "vector": ["VectorEnv", "vector_env"],
     "parts": ["Policy", "Predictor", "Belief", "Observation", "Vehicles", "Links", "EmergencyVehicle", "Approach", "Lease", "Network"],
 }
+#: Modules that are asked for by name: scoring of links, and what a TorchScript predictor is given (``help``).
+_MODULES = ("links", "torchscript")
 _MODULE_OF = {name: module for module, names in _HOMES.items() for name in names}
 __all__ = sorted(_MODULE_OF) + ["__version__"]
 
@@ -73,14 +76,15 @@ if TYPE_CHECKING:
     from .results import Difference, Results, open
     from .running import Condition, run, study
     from .tables import Table
+    from . import links, torchscript
 
 
 def __getattr__(name: str) -> Any:
-    if name == "torchscript":  # a module whose help says what a TorchScript predictor is given
-        return importlib.import_module(".torchscript", __name__)
+    if name in _MODULES:
+        return importlib.import_module("." + name, __name__)
     if name not in _MODULE_OF:
         from ._program import did_you_mean
-        meant = "." if name.startswith("_") else did_you_mean(name, __all__, 2) or "."
+        meant = "." if name.startswith("_") else did_you_mean(name, [*__all__, *_MODULES], 2) or "."
         raise AttributeError(f"clearway has no {name!r}{meant} It has {', '.join(__all__)}")
     value = getattr(importlib.import_module("." + _MODULE_OF[name], __name__), name)
     globals()[name] = value

@@ -247,8 +247,16 @@ def _read_table(database: Path, name: str) -> dict[str, np.ndarray]:
 
 
 def _derived_table(folder: Path, name: str) -> dict[str, np.ndarray]:
-    rows = _program.call_json(["export", "results", str(folder.absolute()), name])
+    return _columns_of(_program.call_json(["export", "results", str(folder.absolute()), name]))
+
+
+def _columns_of(rows: list[dict[str, Any]]) -> dict[str, np.ndarray]:
     return {column: _column(tuple(row[column] for row in rows), "") for column in (rows[0] if rows else ())}
+
+
+def table_of(rows: list[dict[str, Any]]) -> Table:
+    """Rows of a program's JSON."""
+    return Table(_columns_of(rows))
 
 
 def _column(values: tuple[Any, ...], declared: str) -> np.ndarray:

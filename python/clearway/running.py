@@ -28,7 +28,7 @@ class Condition(_program.Told):
 
     ``name``; ``policy``, one or several; ``failure``; ``predictor``; ``set``, settings that differ from their defaults:
     ``{"preempt_signals.lead_s": 12}`` (``clearway list settings``); ``model``, a file for a learned predictor: of ``clearway links
-    train``, or a ``.pth`` of the dissertation's net. The others are keys of a condition in a study file
+    train``, or a ``.pth`` of the dissertation's net; ``title``, what tables and figures call it. The others are keys of a condition in a study file
     (docs/reference/study-file.md), or None for their default: ``dispatch``, ``traffic_model``, ``bluelight``, ``safety_checks``,
     ``rerouting_s``, ``rerouting_signal_penalty``.
     """
@@ -39,6 +39,7 @@ class Condition(_program.Told):
     predictor: Part = "none"
     set: Mapping[str, Any] = dataclasses.field(default_factory=dict)
     model: str | Path | None = None
+    title: str | None = None
     dispatch: str | None = None
     traffic_model: str | None = None
     bluelight: bool | None = None
@@ -116,7 +117,7 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
         out = Path("runs") / f"{name}-{hashlib.sha256(here.encode()).hexdigest()[:6]}"
     with tempfile.TemporaryDirectory(prefix="clearway-") as folder:
         file = Path(folder) / "study.toml"
-        file.write_text(text, encoding="utf-8")
+        file.write_text(text + _titles_text(own), encoding="utf-8")  # other titles are no other study
         try:
             return study(file, out=out, jobs=jobs, record=record, progress=progress, run_time_limit=run_time_limit,
                          memory_limit=memory_limit)
@@ -191,6 +192,11 @@ def _toml(value: Any) -> str:
     if not isinstance(value, (int, float)):
         raise _program.InputError(f"{value!r} cannot be part of a study (allowed: numbers, truth values, texts, lists and dictionaries)")
     return repr(value)
+
+
+def _titles_text(own: list[Condition]) -> str:
+    titles = [f"{json.dumps(condition.name)} = {_toml(condition.title)}" for condition in own if condition.title is not None]
+    return "\n".join(["[titles]", *titles, ""]) if titles else ""
 
 
 def _study_text(scenario: str, name: str, names: list[str], own: list[Condition], seeds: int, seed: int,

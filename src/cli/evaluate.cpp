@@ -86,6 +86,7 @@ Action configure_evaluate(App& app) {
         add_link_options(app, arguments->request.links);
     }
     add_scenario_options(app, arguments->request.options);
+    add_override_option(app, arguments->request.options);
     const std::vector<Option> options = app.get_options();
     for (std::size_t i = own_options; i < options.size(); ++i)
         options[i].excludes("--benchmark");

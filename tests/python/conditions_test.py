@@ -65,6 +65,27 @@ class ConditionsTest(FolderCase):
         self.assertIn(f"intersection/{ours}/00000.h5: cannot be read",
                       self.message_of(clearway.InputError, lambda: self.results.recording("intersection", "Ours, B10")))
 
+    def test_a_condition_of_ones_own_has_a_title_which_is_taken_too(self) -> None:
+        def run(title: str) -> clearway.Results:
+            return clearway.run("intersection", [clearway.Condition("own", policy="corridor", title=title),
+                                                 clearway.Condition("other", policy="preempt_signals", title="Theirs")], seeds=2)
+        results = run("Ours")
+        found = results.paired_difference(self.metric, "Ours", against="Theirs")
+        self.assertEqual((found.condition, found.title, found.compared_with, found.compared_title), ("own", "Ours", "other", "Theirs"))
+        self.assertEqual(found, results.paired_difference(self.metric, "own", against="other"))
+        renamed = run("Mine")
+        self.assertEqual(renamed.folder, results.folder, "other titles are no other study")
+        self.assertEqual(renamed.paired_difference(self.metric, "own").title, "Mine")
+
+    def test_a_misspelt_metric_is_told_in_one_line_with_the_one_that_is_meant(self) -> None:
+        for ask in (lambda: self.results.paired_difference("emergncy_travel_time_s", "Ours, B10"),
+                    lambda: self.results.runs["emergncy_travel_time_s"], lambda: self.results.runs.head(2, "emergncy_travel_time_s"),
+                    lambda: self.results.runs.where(emergncy_travel_time_s=1.0)):
+            said = self.message_of(clearway.InputError, ask)
+            self.assertIn("Did you mean 'emergency_travel_time_s'", said)
+            self.assertLess(len(said), 250)
+            self.assertNotIn("\n", said)
+
     def test_an_incomplete_folder_has_titles(self) -> None:
         place = self.folder / "part"
         place.mkdir()
