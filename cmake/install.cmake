@@ -8,8 +8,8 @@ endif()
 install(DIRECTORY scenarios models DESTINATION ${data} COMPONENT clearway)
 install(DIRECTORY studies DESTINATION ${data} COMPONENT clearway FILES_MATCHING PATTERN *.toml PATTERN studies/streets/*/ EXCLUDE
         PATTERN studies/navigate/*/ EXCLUDE)
-install(DIRECTORY python/clearway DESTINATION ${data}/python COMPONENT python FILES_MATCHING PATTERN *.py PATTERN py.typed
-        PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY python/clearway DESTINATION ${data}/python COMPONENT python FILES_MATCHING PATTERN *.py PATTERN *.jsonl
+        PATTERN py.typed PATTERN __pycache__ EXCLUDE)
 install(FILES python/install.py python/pyproject.toml DESTINATION ${data}/python COMPONENT python)
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/install_help.cmake @ONLY CONTENT [[
 set(prefix "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}")

@@ -37,7 +37,7 @@ class StudentTest(FolderCase):
 
     def test_the_code_of_the_page_runs_as_it_stands_in_one_file(self) -> None:
         code = "\n".join(python_blocks("docs/guides/python.md"))
-        self.assertEqual(code.count("seeds=10"), 2)
+        self.assertEqual(code.count("seeds=10"), 3)
         if importlib.util.find_spec("pandas") is None:  # optional, as the page says
             code = code.replace(".to_pandas()", "")
         self.assertEqual(set(re.findall(r"^class (\w+)", code, re.MULTILINE)), {"Green", "Mine"})
@@ -46,6 +46,9 @@ class StudentTest(FolderCase):
             self.assertRegex(printed, rf"(?mi)^intersection: {condition} - Baseline, emergency_travel_time_s: [+-][\d.]+ \[.+, .+\] \(5 pairs\)")
         self.assertRegex(printed, r"scenario +condition +replication +emergency_travel_time_s\n(intersection .*\n){5}\[5 rows, 4 columns\]")
         self.assertIn("'seed': 0", printed)
+        self.assertRegex(printed, r"(?m)^predictor +exits +ap +f1\nMine +known +0\.\d+ +0\.\d+$")
+        (judged,) = [line for block in blocks("docs/guides/python.md", "A policy") for line in block.splitlines() if "conformance" in line]
+        self.assertTrue(type_in(judged, ("python3", sys.executable)).endswith("all rules kept\n"))
         for name, part in (("Green", "--policy"), ("Mine", "--predictor")):
             words = [part, f"my_policy.py:{name}"] + (["--policy", "dissertation", "--failure", "B10"] if name == "Mine" else [])
             type_in(" ".join(["clearway run intersection --seeds 1 --no-solo", *words]))

@@ -5,11 +5,18 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <utility>
 
 namespace clearway::testing {
 namespace {
 
 using traffic::VehicleClass;
+
+/// Filled before main, by constants of other files: made when the first of them needs it.
+std::vector<PolicyScenes>& entered() {
+    static std::vector<PolicyScenes> all;
+    return all;
+}
 
 std::string describe(const traffic::Lease& lease) {
     std::ostringstream text;
@@ -44,22 +51,37 @@ void expect_legal_links(core::SignalIndex signal, const std::vector<std::uint16_
 
 }  // namespace
 
+OwnScenes::OwnScenes(PolicyScenes scenes) {
+    entered().push_back(std::move(scenes));
+}
+
+const std::vector<PolicyScenes>& all_own_scenes() {
+    return entered();
+}
+
+PolicyScenes scenes_of(const std::string& policy) {
+    const auto found = std::ranges::find(entered(), policy, &PolicyScenes::policy);
+    return found == entered().end() ? PolicyScenes{} : *found;
+}
+
 core::VehicleKey emergency_key() {
     return core::vehicle_key("e");
 }
 
-void add_helpful_scene(ActuationBench& bench, double to_line_m) {
+void add_helpful_scene(ActuationBench& bench, const PolicyScenes& scenes) {
     const auto add = [&](const std::string& id, VehicleClass kind, std::vector<std::string> route,
                          std::uint32_t lane, double position_m, double speed_mps) {
         bench.add({id, kind, std::move(route), lane, position_m, speed_mps});
     };
-    add("e", VehicleClass::emergency, eastbound, 1, 490.0 - to_line_m, 12.0);
+    add("e", VehicleClass::emergency, eastbound, 1, 490.0 - scenes.to_line_m, scenes.speed_mps);
     add("a1", VehicleClass::automated, eastbound, 1, 400.0, 10.0);
     add("a2", VehicleClass::automated, eastbound, 0, 366.0, 12.0);
     add("h1", VehicleClass::human, eastbound, 1, 480.0, 0.0);
     add("h2", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 285.0, 0.0);
     add("h3", VehicleClass::human, {"north_a_A", "A_south_a"}, 0, 277.0, 0.0);
     add("a4", VehicleClass::automated, {"north_a_A", "A_south_a"}, 0, 255.0, 6.0);
+    for (const SceneVehicle& vehicle : scenes.vehicles)
+        bench.add(vehicle);
 }
 
 void add_needless_scene(ActuationBench& bench) {

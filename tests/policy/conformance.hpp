@@ -12,10 +12,37 @@
 
 namespace clearway::testing {
 
+/// What suits a policy in the scenes of every policy where the usual does not, and why. Those that need a
+/// shoulder say so by their trait.
+struct PolicyScenes {
+    std::string policy = {};
+    std::string reason = {};
+    double to_line_m = 120.0;                 ///< From the emergency vehicle to the red signal.
+    double speed_mps = 12.0;                  ///< Of the emergency vehicle there.
+    std::vector<SceneVehicle> vehicles = {};  ///< There besides the usual ones.
+    bool acts_in_helpful_scene = true;
+    /// Its leases in the scene made against it have this reason; null where it must have none.
+    const char* needless_lease = nullptr;
+    bool ends_leases_within_60_s = true;
+    /// False: it has the trait renews_requests, and nothing in the helpful scene is for it to ask.
+    bool asks_vehicles = true;
+};
+
+/// Enters what suits a policy, as a constant of the file that tests it:
+/// `const OwnScenes mine{{.policy = "mine", .reason = "acts at speed", .speed_mps = 25.0}};`
+class OwnScenes {
+  public:
+    explicit OwnScenes(PolicyScenes scenes);
+};
+/// All that were entered.
+const std::vector<PolicyScenes>& all_own_scenes();
+/// Those of a policy; the usual ones where none were entered.
+PolicyScenes scenes_of(const std::string& policy);
+
 /// The scene that every policy has something to do in, except those that need a shoulder: an emergency
-/// vehicle `to_line_m` before a red signal, automated vehicles ahead of it on its lane and beside it, queues
-/// of human drivers ahead of it and on the crossing street, and an automated vehicle there.
-void add_helpful_scene(ActuationBench& bench, double to_line_m = 120.0);
+/// vehicle before a red signal, automated vehicles ahead of it on its lane and beside it, queues of human
+/// drivers ahead of it and on the crossing street, and an automated vehicle there.
+void add_helpful_scene(ActuationBench& bench, const PolicyScenes& scenes = {});
 /// The scene in which no policy has: traffic of all kinds, but the emergency vehicle is past the last signal
 /// and alone.
 void add_needless_scene(ActuationBench& bench);

@@ -3,8 +3,8 @@
 #include "policy/conformance.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
+#include <set>
 
 #include <gmock/gmock.h>
 
@@ -17,49 +17,41 @@ namespace {
 
 using traffic::VehicleClass;
 
-/// What differs for a policy that the scenes do not fit, and why. Those that need a shoulder say so by their
-/// trait.
-struct Exception {
-    const char* policy = "";
-    const char* reason = "";
-    bool acts_in_helpful_scene = true;
-    double to_line_m = 120.0;
-    /// Its leases in the scene made against it have this reason; null where it must have none.
-    const char* needless_lease = nullptr;
-    bool ends_leases_within_60_s = true;
+const OwnScenes shipped[] = {
+    OwnScenes{
+        {.policy = "give_way", .reason = "no junction without a signal", .acts_in_helpful_scene = false}},
+    OwnScenes{{.policy = "navigate", .reason = "no other way", .acts_in_helpful_scene = false}},
+    OwnScenes{{.policy = "hold_cross", .reason = "acts only shortly before the arrival", .to_line_m = 50.0}},
+    OwnScenes{{.policy = "geocast",
+               .reason = "a message to a place goes out although nobody is there, and its sender goes there",
+               .needless_lease = "the lane that is cleared"}},
+    OwnScenes{{.policy = "listing_5_5",
+               .reason = "releases no speed, as published",
+               .ends_leases_within_60_s = false}},
+    OwnScenes{{.policy = "pull_aside",
+               .reason = "asks those that stand",
+               .vehicles = {{"q1", VehicleClass::automated, eastbound, 1, 430.0, 0.0},
+                            {"q2", VehicleClass::automated, eastbound, 0, 430.0, 0.0}}}},
+    OwnScenes{
+        {.policy = "rescue_lane", .reason = "is for fast roads without signals", .asks_vehicles = false}},
 };
-constexpr Exception exceptions[] = {
-    {.policy = "give_way", .reason = "no junction without a signal", .acts_in_helpful_scene = false},
-    {.policy = "navigate", .reason = "no other way", .acts_in_helpful_scene = false},
-    {.policy = "hold_cross", .reason = "acts only shortly before the arrival", .to_line_m = 50.0},
-    {.policy = "geocast",
-     .reason = "a message to a place goes out although nobody is there, and its sender goes there",
-     .needless_lease = "the lane that is cleared"},
-    {.policy = "listing_5_5", .reason = "releases no speed, as published", .ends_leases_within_60_s = false},
-};
-constexpr const char* enter_exception =
-    "; or, if the policy is not for this scene, enter it with the reason in `exceptions` "
-    "(tests/policy/conformance_test.cpp)";
+constexpr const char* enter_scenes =
+    "; or say in the test of your policy what suits it: OwnScenes (tests/policy/conformance.hpp)";
 
 class EveryPolicy : public ::testing::TestWithParam<std::string> {
   protected:
     static std::unique_ptr<policy::Policy> make() {
         return policy::make_policy(GetParam(), policy::PolicyContext{two_crossings()});
     }
-    static Exception exception() {
-        const auto* const found = std::ranges::find(exceptions, GetParam(), &Exception::policy);
-        return found == std::end(exceptions) ? Exception{} : *found;
-    }
-    static double to_line_m() { return exception().to_line_m; }
+    static PolicyScenes scenes() { return scenes_of(GetParam()); }
     /// Whether the crossings lack what the policy is for.
     static bool is_out_of_place() {
-        return !exception().acts_in_helpful_scene ||
-               policy::policies().is(GetParam(), traffic::Trait::shoulder);
+        return !scenes().acts_in_helpful_scene || policy::policies().is(GetParam(), traffic::Trait::shoulder);
     }
     /// Whether it acts for the emergency vehicle of the helpful scene.
     static bool acts_for_one() {
         ActuationBench bench;
-        add_helpful_scene(bench, to_line_m());
+        add_helpful_scene(bench, scenes());
         PolicyRun run(make(), bench);
         run.run_for(5.0);
         return !run.leases().empty();
@@ -74,12 +66,13 @@ TEST_P(EveryPolicy, knows_its_name) {
 
 TEST_P(EveryPolicy, acts_in_a_scene_made_for_it) {
     if (is_out_of_place()) {
-        EXPECT_FALSE(acts_for_one()) << "it acts, so remove its line in `exceptions` (" << exception().reason
+        EXPECT_FALSE(acts_for_one()) << "it acts, so remove what OwnScenes says of it (" << scenes().reason
                                      << ") or Trait::shoulder";
     } else {
-        EXPECT_TRUE(acts_for_one())
-            << "add what your policy acts on to add_helpful_scene (tests/policy/conformance.cpp)"
-            << enter_exception;
+        EXPECT_TRUE(acts_for_one()) << "nothing of add_helpful_scene (tests/policy/conformance.cpp) moves "
+                                       "it: add what it acts on, the "
+                                       "speed of the EV or its place"
+                                    << enter_scenes;
     }
 }
 
@@ -89,7 +82,7 @@ TEST_P(EveryPolicy, serves_an_emergency_vehicle_that_only_knows_itself) {
     if (policy::policies().is(GetParam(), traffic::Trait::reads_links)) GTEST_SKIP() << "it reads links";
     if (!is_out_of_place() && !acts_for_one()) GTEST_SKIP() << scene_first;
     ActuationBench bench;
-    add_helpful_scene(bench, to_line_m());
+    add_helpful_scene(bench, scenes());
     std::erase_if(bench.scene.belief().vehicles, [](const traffic::BelievedVehicle& vehicle) {
         return vehicle.vehicle_class == VehicleClass::emergency;
     });
@@ -106,12 +99,12 @@ TEST_P(EveryPolicy, does_nothing_in_a_scene_made_against_it) {
     add_needless_scene(bench);
     PolicyRun run(make(), bench);
     run.run_for(5.0);
-    if (exception().needless_lease != nullptr) {
-        EXPECT_THAT(run.leases(), ::testing::Each(::testing::HasSubstr(exception().needless_lease)));
+    if (scenes().needless_lease != nullptr) {
+        EXPECT_THAT(run.leases(), ::testing::Each(::testing::HasSubstr(scenes().needless_lease)));
     } else {
         EXPECT_EQ(run.leases(), std::vector<std::string>{})
             << "nothing of add_needless_scene (tests/policy/conformance.cpp) is in an EV's way"
-            << enter_exception;
+            << enter_scenes;
     }
 }
 
@@ -134,12 +127,22 @@ TEST_P(EveryPolicy, says_how_long_its_requests_to_vehicles_live) {
     const policy::PolicyEntry* const entry = policy::policies().find(GetParam());
     if (entry == nullptr) GTEST_SKIP() << "code in Python has no traits";
     ActuationBench bench;
-    add_helpful_scene(bench, to_line_m());
+    add_helpful_scene(bench, scenes());
     PolicyRun run(make(), bench);
     run.run_for(5.0);
     const std::optional<double> lives_s = run.shortest_request_s();
-    if (!lives_s) GTEST_SKIP() << "it asks no vehicle here";
     const std::optional<double> promised_s = promised_lease_s(*entry);
+    if (is_out_of_place() || !scenes().asks_vehicles) {
+        EXPECT_FALSE(lives_s) << "it asks a vehicle: remove what OwnScenes says of it (" << scenes().reason
+                              << ")";
+        return;
+    }
+    if (!lives_s) {
+        EXPECT_FALSE(promised_s) << "it has Trait::renews_requests and asks no vehicle here, so nothing "
+                                    "judges its lease_s: let its scene have a vehicle that it asks"
+                                 << enter_scenes;
+        return;
+    }
     ASSERT_TRUE(promised_s)
         << "its requests to vehicles live " << *lives_s
         << " s, so one that takes longer (request_latency_s) is lost, and no check of a "
@@ -155,7 +158,7 @@ TEST_P(EveryPolicy, gives_the_same_leases_for_the_same_belief) {
     std::vector<std::vector<std::string>> leases;
     for (int repeat = 0; repeat < 2; ++repeat) {
         ActuationBench bench;
-        add_helpful_scene(bench);
+        add_helpful_scene(bench, scenes());
         PolicyRun run(make(), bench);
         run.run_for(10.0);
         leases.push_back(run.leases());
@@ -192,7 +195,7 @@ TEST_P(EveryPolicy, gives_legal_leases_for_an_emergency_vehicle_alone_or_first_i
 
 TEST_P(EveryPolicy, gives_legal_leases_on_a_junction_and_for_an_unknown_lane) {
     ActuationBench bench;
-    add_helpful_scene(bench);
+    add_helpful_scene(bench, scenes());
     PolicyRun run(make(), bench);
     run.run_for(1.0);
     const core::LaneIndex inside = two_crossings().find_lane(":A_13_0").value();
@@ -207,7 +210,7 @@ TEST_P(EveryPolicy, gives_legal_leases_on_a_junction_and_for_an_unknown_lane) {
 
 TEST_P(EveryPolicy, serves_two_emergency_vehicles_that_cross) {
     ActuationBench bench;
-    add_helpful_scene(bench, to_line_m());
+    add_helpful_scene(bench, scenes());
     bench.add({"e2", VehicleClass::emergency, {"north_a_A", "A_south_a"}, 1, 220.0, 12.0});
     bench.add({"a3", VehicleClass::automated, {"north_a_A", "A_south_a"}, 1, 245.0, 8.0});
     PolicyRun run(make(), bench);
@@ -230,7 +233,7 @@ TEST_P(EveryPolicy, serves_two_emergency_vehicles_that_cross) {
 
 TEST_P(EveryPolicy, leaves_nothing_behind_when_the_emergency_vehicle_vanishes) {
     ActuationBench bench;
-    add_helpful_scene(bench);
+    add_helpful_scene(bench, scenes());
     PolicyRun run(make(), bench);
     run.run_for(10.0);
     run.remove(emergency_key());
@@ -238,7 +241,7 @@ TEST_P(EveryPolicy, leaves_nothing_behind_when_the_emergency_vehicle_vanishes) {
     std::vector<traffic::Command> commands = run.commands();
     const std::size_t before = commands.size();
     bench.actuator.restore_all(commands);
-    if (exception().ends_leases_within_60_s) {
+    if (scenes().ends_leases_within_60_s) {
         EXPECT_EQ(commands.size(), before) << "all leases had ended already: let them expire within seconds";
     }
     // The vehicle that vanished took its own settings with it.
@@ -254,10 +257,14 @@ TEST_P(EveryPolicy, leaves_nothing_behind_when_the_emergency_vehicle_vanishes) {
     EXPECT_EQ(bench.actuator.active(), 0U);
 }
 
-TEST(PolicyExceptions, are_of_registered_policies) {
-    for (const Exception& exception : exceptions)
-        EXPECT_NE(policy::policies().find(exception.policy), nullptr)
-            << exception.policy << ": remove its line";
+TEST(OwnScenesOfPolicies, are_of_registered_policies_and_give_a_reason) {
+    std::set<std::string> seen;
+    for (const PolicyScenes& scenes : all_own_scenes()) {
+        EXPECT_NE(policy::policies().find(scenes.policy), nullptr)
+            << scenes.policy << ": no policy has this name (src/policy/registry.cpp)";
+        EXPECT_FALSE(scenes.reason.empty()) << scenes.policy << ": say why the usual scenes do not suit it";
+        EXPECT_TRUE(seen.insert(scenes.policy).second) << scenes.policy << ": entered twice";
+    }
 }
 
 std::vector<std::string> policy_names() {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Follows the steps of examples/02_own_policy/README.md on copies: `follow_guide.py SOURCE OUT` writes OUT/policy/keep_distance.hpp,
-OUT/registry.cpp and OUT/conformance.cpp with the lines that the page tells to add. Where SOURCE has followed a step already,
-its own files stay as they are."""
+"""Follows the steps of examples/02_own_policy/README.md on copies: `follow_guide.py SOURCE OUT` writes OUT/policy/keep_distance.hpp
+and OUT/registry.cpp with the lines that the page tells to add, and OUT/scenes.cpp with those for the policy's test. Where SOURCE has
+followed a step already, its own files stay as they are."""
 import re
 import sys
 from pathlib import Path
@@ -33,18 +33,14 @@ def main() -> None:
     include = told(page, "#include").strip() + "\n"
     registry = added(registry, include, '#include "policy/listing_5_5.hpp"', include)
     registry = added(registry, told(page, "entry<"), "entry<Listing55", "entry<KeepDistance")
-    conformance = (source / "tests" / "policy" / "conformance.cpp").read_text()
-    follower = told(page, 'add("').rstrip() + "\n"
-    conformance = added(conformance, follower, 'add("h1"', follower.strip())
-    vehicle = follower.split(",")[0].strip()
-    if conformance.count(vehicle) > 1:
-        sys.exit(f"follow_guide: the page adds {vehicle}...), and tests/policy/conformance.cpp has another vehicle of that name: rename it")
+    scenes = told(page, "const OwnScenes").strip()
     own = source / "src" / "policy" / "keep_distance.hpp"
     header = own if own.exists() else example / "keep_distance.hpp"
     (out / "policy").mkdir(parents=True, exist_ok=True)
     (out / "policy" / "keep_distance.hpp").write_text(header.read_text())
     (out / "registry.cpp").write_text(registry)
-    (out / "conformance.cpp").write_text(conformance)
+    (out / "scenes.cpp").write_text('#include "policy/conformance.hpp"\n\nnamespace clearway::testing {\nnamespace {\n\n'
+                                    f"{scenes}\n\n}}  // namespace\n}}  // namespace clearway::testing\n")
 
 
 main()

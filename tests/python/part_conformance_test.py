@@ -1,0 +1,134 @@
+"""`python3 -m clearway.conformance` judges parts: what keeps the rules passes, and each rule is broken by a part made for it."""
+import re
+import subprocess
+import sys
+import unittest
+
+from clearway.conformance import RULES
+from support import FolderCase, SOURCE
+
+GALLERY = SOURCE / "examples" / "python"
+
+# The policies of docs/guides/python.md, and those that break rules.
+POLICIES = """
+import numpy as np
+import clearway
+from clearway import Lease
+
+class Green(clearway.Policy):
+    def act(self, belief):
+        return [Lease.hold_green(approach.signal, approach.links, approach.own_links, serves=ev)
+                for ev in belief.emergency_vehicles for approach in ev.approaches if approach.distance_m < 100.0]
+
+class Careless(clearway.Policy):
+    "Finds EVs by their reports, asks everybody for too much, says where its objects are, and takes a row for a key."
+    def act(self, belief):
+        vehicles = belief.vehicles
+        leases = [Lease.drive_at(vehicles.key[row], 80.0, serves=vehicles.key[there], reason=str(id(self)))
+                  for there in np.flatnonzero(vehicles.vehicle_class == 2) if vehicles.lane_position_m[there] > 350.0
+                  for row in range(len(vehicles)) if row != there and len(vehicles) > 4]
+        return leases + [Lease.hold_lane(0)] * bool(leases)
+
+class Eager(clearway.Policy):
+    "Asks whoever is there, and fails where nobody reports."
+    def act(self, belief):
+        return [Lease.hold_lane(belief.vehicles.key[belief.vehicles.is_automated].tolist()[0])] if len(belief.vehicles.key) != 1 else []
+
+class OneAtATime(clearway.Policy):
+    def act(self, belief):
+        return [lease for lease in Green().act(belief)] if len(belief.emergency_vehicles) == 1 else []
+
+class Idle(clearway.Policy):
+    def __init__(self, within_m=0.0):
+        self.within_m = within_m
+    def act(self, belief):
+        return [Lease.hold_green(approach.signal, approach.links, serves=ev)
+                for ev in belief.emergency_vehicles for approach in ev.approaches if approach.distance_m < self.within_m]
+
+class Lost(clearway.Policy):
+    "Names what no network has."
+    def act(self, belief):
+        return [lease for ev in belief.emergency_vehicles for approach in ev.approaches for lease in (
+            Lease.hold_green(99, [0], serves=ev), Lease.hold_green(approach.signal, [500], serves=ev),
+            Lease.hold_green(approach.signal, approach.links, [499], serves=ev), Lease.hold_green(approach.signal, [], serves=ev, lasting_s=61),
+            Lease.change_lane(ev, 7, serves=ev), Lease.take_route(ev, [*ev.route, ev.route[0]], serves=ev),
+            Lease.take_route(ev, ev.route[:1], serves=ev), Lease.hold_lane(ev, serves=5))]
+
+class Never:
+    def predict(self, observation):
+        return np.zeros(observation.pairs.shape[1])
+
+class Chance:
+    def predict(self, observation):
+        return np.random.default_rng().random(observation.pairs.shape[1])
+"""
+
+
+class ConformanceTest(FolderCase):
+    def setUp(self) -> None:
+        super().setUp()
+        self.write("parts.py", POLICIES)
+
+    def judged(self, *words: object) -> subprocess.CompletedProcess:
+        return subprocess.run([sys.executable, "-m", "clearway.conformance", *map(str, words)], capture_output=True, text=True, check=False,
+                              timeout=120)
+
+    def broken(self, *words: object) -> set[str]:
+        """The rules that a part breaks; exit code and last line have to fit."""
+        ended = self.judged(*words)
+        self.assertEqual(ended.stderr, "")
+        self.said = ended.stdout
+        rules = set(re.findall(r"^  FAIL  (\w+)", ended.stdout, re.MULTILINE))
+        self.assertEqual(ended.returncode, 1 if rules else 0, ended.stdout)
+        self.assertRegex(ended.stdout.splitlines()[-1], rf"^{len(rules)} of \d+ rules broken$" if rules else "^all rules kept$")
+        return rules
+
+    def test_examples_keep_all_rules(self) -> None:
+        self.assertEqual(self.broken(GALLERY / "yield_policy.py:Yield"), set())
+        self.assertRegex(self.said, r"time a decision: \d+\.\d\d ms, at most \d+\.\d ms \(")
+        self.assertEqual(self.broken("parts.py:Green"), set())
+        self.assertEqual(self.broken(GALLERY / "distance_predictor.py:ByDistance", "--predictor"), set())
+
+    def test_each_rule_for_policies_is_broken_by_one_made_for_it(self) -> None:
+        found = [self.broken("parts.py:Careless"), self.broken("parts.py:Eager"), self.broken("parts.py:OneAtATime"),
+                 self.broken("parts.py:Idle")]
+        self.assertEqual(found, [{"possible", "humans", "lost", "same"}, {"answers", "no_ev", "no_need"}, {"two"}, {"acts"}])
+        self.assertEqual(set.union(*found), {rule.name for rule in RULES["policy"]})
+        self.assertIn("it asked for nothing in any scene", self.said)
+
+    def test_what_cannot_be_is_told_with_its_value_and_what_is_allowed(self) -> None:
+        self.assertEqual(self.broken("parts.py:Careless", "--leave-out", "humans", "lost", "same"), {"possible"})
+        self.assertRegex(self.said, r"an EV drives .*, \d+(\.\d)? s: drive_at for vehicle \d+: speed_mps 80 \(allowed: up to 16\.67, the limit")
+        self.assertIn("vehicle 0 was never in a belief", self.said)
+        self.assertIn("  -     lost", self.said)
+        self.assertIn("possible", self.broken("parts.py:Lost", "--all"))
+        for problem in ("signal 99 (allowed: 0 to 1", "link 500 of signal 0 (allowed: 0 to 15)", "own_links [499] (allowed: those of links [",
+                        "links is empty", "lasting_s 61 (allowed: up to 60)", "lane_number 7 (allowed: 0 to 1", "does not follow", "edges end with ",
+                        "serves 5 (allowed: an EV of the belief)"):
+            self.assertIn(problem, self.said)
+
+    def test_predictors_are_judged_too(self) -> None:
+        self.assertEqual(self.broken("parts.py:Never", "--predictor"), {"links"})
+        self.assertEqual(self.broken("parts.py:Chance", "--predictor"), {"same"})
+        self.assertRegex(self.said, r"probability 0\.\d+ for pair 0, then 0\.\d+")
+
+    def test_settings_reach_the_class(self) -> None:
+        self.assertEqual(self.broken("parts.py:Idle", "--set", "Idle.within_m=90"), set())
+
+    def test_what_no_run_takes_is_refused_with_its_words(self) -> None:
+        for words, told in ((["nix.py:Green"], "nix.py is not a file"), (["parts.py"], "does not name a class (allowed: FILE.py:CLASS)"),
+                            (["parts.py:Gren"], "has no class 'Gren'; it has Green, Careless"),
+                            (["parts.py:Never"], "Never has no method act(), which a policy needs. Correct the file or the settings, or say "
+                                                 "--predictor"),
+                            (["parts.py:Idle", "--set", "Idle.within=1"], "Idle.within is unknown"),
+                            (["parts.py:Idle", "--set", "within_m=1"], "--set within_m=1 (allowed: Idle.NAME=VALUE)"),
+                            (["parts.py:Idle", "--leave-out", "act"], "Did you mean 'acts'?")):
+            ended = self.judged(*words)
+            self.assertEqual(ended.returncode, 3, words)
+            self.assertIn(told, ended.stderr)
+            self.assertTrue(ended.stderr.startswith("clearway: ") and ended.stderr.count("\n") == 1, ended.stderr)
+            self.assertEqual(ended.stdout, "")
+
+
+if __name__ == "__main__":
+    unittest.main()
