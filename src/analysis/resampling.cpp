@@ -17,15 +17,21 @@ bool all_finite(std::span<const double> values) {
     return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
+bool enough_runs(std::span<const std::size_t> stratum_sizes) {
+    if (stratum_sizes.empty() || std::ranges::min(stratum_sizes) < 2) return false;
+    const std::size_t runs = std::accumulate(stratum_sizes.begin(), stratum_sizes.end(), std::size_t{0});
+    return runs - stratum_sizes.size() + 1 >= fewest_for_interval;
+}
+
 }  // namespace
 
 RunResampling::RunResampling(const std::vector<std::size_t>& stratum_sizes, const Config& config)
     : config_(config),
       runs_(std::accumulate(stratum_sizes.begin(), stratum_sizes.end(), std::size_t{0})),
       weights_(config.resamples * runs_, 0.0) {
-    if (!stratum_sizes.empty() && std::ranges::min(stratum_sizes) >= 2) {
+    if (enough_runs(stratum_sizes)) {
         const auto smallest = static_cast<double>(std::ranges::min(stratum_sizes));
-        freedom_ = static_cast<double>(runs_) - static_cast<double>(stratum_sizes.size());
+        freedom_ = static_cast<double>(runs_ - stratum_sizes.size());
         stretch_ = std::sqrt(smallest / (smallest - 1.0));
         const double t = boost::math::quantile(boost::math::students_t(freedom_), 0.5 * (1.0 - config.level));
         outside_ = boost::math::cdf(boost::math::normal(), t * stretch_);

@@ -39,7 +39,8 @@ class RunResampling {
     }
     /// Percentile interval of the values of all resamples, with its end points moved outwards for few runs as
     /// in SmallSample::expanded (with the degrees of freedom of all strata). Nothing when a stratum has fewer
-    /// than two runs, or when a value is not finite.
+    /// than two runs, when all have fewer degrees of freedom than `fewest_for_interval` runs of one stratum,
+    /// or when a value is not finite.
     std::optional<Interval> interval(std::vector<double> values) const;
     /// Two-sided p-value of the hypothesis that a measure with these values is 0: one minus the greatest
     /// level at which `interval` leaves 0 out. From the smaller share of values on one side of 0, counted

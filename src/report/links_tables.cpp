@@ -294,7 +294,11 @@ std::string csv_cell(const Json& value) {
 }  // namespace
 
 std::string links_console(const LinkFacts& facts) {
-    std::string text = fmt::format("{}: {} seeds ({})\n\n", facts.title, facts.split, facts.seeds);
+    std::string text = fmt::format("{}: {} seeds ({})\n", facts.title, facts.split, facts.seeds);
+    if (facts.runs < facts.scenarios.size() + analysis::fewest_for_interval - 1)
+        text += fmt::format("Too few for intervals and tests: {} in {}.\n", counted(facts.runs, "run"),
+                            counted(facts.scenarios.size(), "scenario"));
+    text += '\n';
     for (const links::Exits exits : facts.exits) {
         append_exits(facts, exits, text);
         text += '\n';

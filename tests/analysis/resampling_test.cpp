@@ -33,6 +33,10 @@ TEST(RunResampling, HasAnIntervalThatIsWiderForFewRuns) {
     EXPECT_NEAR(interval->low, 3.8753, 0.001);
     EXPECT_NEAR(interval->high, 996.1247, 0.001);
     EXPECT_FALSE(RunResampling({1, 9}).interval(thousand())) << "one run does not vary";
+    EXPECT_FALSE(RunResampling({4}).interval(thousand())) << "as in studies";
+    EXPECT_TRUE(RunResampling({5}).interval(thousand()));
+    EXPECT_FALSE(RunResampling({2, 3}).interval(thousand()));
+    EXPECT_TRUE(RunResampling({2, 2, 2, 2}).interval(thousand()));
     EXPECT_FALSE(RunResampling({4, 6}).interval({1.0, std::numeric_limits<double>::infinity()}));
 }
 

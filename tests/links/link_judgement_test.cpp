@@ -130,13 +130,24 @@ LinkResult small_result(const std::vector<LinkRun>& test) {
     return judgement.results().at(0);
 }
 
+std::vector<LinkRun> small_runs(std::uint32_t count) {
+    std::vector<LinkRun> runs;
+    for (std::uint32_t replication = 0; replication < count; ++replication)
+        runs.push_back(small_run(replication));
+    return runs;
+}
+
+TEST(LinkJudgement, gives_no_interval_of_few_runs) {
+    EXPECT_FALSE(small_result(small_runs(4)).failed.candidate_recall.interval.has_value());
+}
+
 TEST(LinkJudgement, counts_links_outside_the_candidates_as_missed) {
-    const LinkResult result = small_result({small_run(0), small_run(1)});
+    const LinkResult result = small_result(small_runs(5));
     const LinkMeasures& all = result.of(LinkSubset::all);
     EXPECT_NEAR(all.ap.value.value(), 0.5 * 1.0 + 0.5 * 2.0 / 3.0, 1e-12);
     EXPECT_NEAR(all.brier.value.value(), (0.01 + 0.36 + 0.49) / 3.0, 1e-6);
-    EXPECT_EQ(result.failed.links, 8U) << "four in each run";
-    EXPECT_EQ(result.failed.seen, 6U);
+    EXPECT_EQ(result.failed.links, 20U) << "four in each run";
+    EXPECT_EQ(result.failed.seen, 15U);
     EXPECT_DOUBLE_EQ(result.failed.candidate_recall.value.value(), 0.5);
     EXPECT_DOUBLE_EQ(result.failed.candidate_recall_seen.value.value(), 2.0 / 3.0);
     EXPECT_NEAR(result.failed.ap.value.value(), 0.25 * 1.0 + 0.25 * 2.0 / 3.0, 1e-12);
@@ -165,13 +176,13 @@ TEST(LinkJudgement, without_a_true_candidate_finds_none_of_the_failed_links) {
 
 /// Half of the vehicles are off by less than 2.1 m; of the other half nine tenths by less than 8.09 m.
 TEST(LinkJudgement, says_how_far_dark_vehicles_are_off_and_who_is_next) {
-    const LinkResult result = small_result({small_run(0), small_run(1)});
-    EXPECT_EQ(result.dark.vehicles, 10U);
-    EXPECT_EQ(result.dark.never_seen, 2U);
+    const LinkResult result = small_result(small_runs(5));
+    EXPECT_EQ(result.dark.vehicles, 25U);
+    EXPECT_EQ(result.dark.never_seen, 5U);
     EXPECT_DOUBLE_EQ(result.dark.believed.value.value(), 0.8);
     EXPECT_NEAR(result.dark.place_median_m.value.value(), 2.1, 1e-9);
     EXPECT_NEAR(result.dark.place_p95_m.value.value(), 8.09, 1e-9);
-    EXPECT_EQ(result.dark.next_cases, 16U);
+    EXPECT_EQ(result.dark.next_cases, 40U);
     EXPECT_DOUBLE_EQ(result.dark.next_ahead.value.value(), 0.75);
     EXPECT_TRUE(result.dark.place_median_m.interval.has_value());
     EXPECT_TRUE(result.dark.next_ahead.interval.has_value());
