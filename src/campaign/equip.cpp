@@ -270,6 +270,24 @@ RunCost cost_of(const Search& search, const EquipRequest& request) {
     return cost;
 }
 
+/// ` In 15 minutes: --seeds 8 --budget 1.`, the most seeds and then places, where what is asked for takes
+/// longer; else empty. A run adds `run_s` to the time.
+std::string short_plan(const EquipRounds& rounds, const EquipRequest& request, std::size_t candidates,
+                       double run_s) {
+    constexpr std::size_t minutes = 15;
+    const auto fits = [&](const EquipForecast& runs) {
+        return static_cast<double>(runs.likely()) * run_s <= 60.0 * minutes;
+    };
+    if (fits(rounds.forecast())) return "";
+    for (std::uint32_t seeds = request.replications; seeds >= analysis::fewest_for_interval; --seeds) {
+        for (std::size_t budget = std::min(request.budget, candidates); budget > 0; --budget)
+            if (fits(rounds.forecast(budget, seeds)))
+                return fmt::format(" In {} minutes: --seeds {} --budget {}.", minutes, seeds, budget);
+    }
+    return fmt::format(" {} minutes are too few to show anything of {}: try fewer, with --candidates.",
+                       minutes, report::counted(candidates, "candidate"));
+}
+
 }  // namespace
 
 core::ExitCode equip(EquipRequest request) {
@@ -355,6 +373,8 @@ core::ExitCode equip_dry_run(EquipRequest request) {
                                 ? fmt::format(" The budget is {}, and {} could gain.", request.budget,
                                               report::counted(candidates, "signal"))
                                 : "";
+    const std::string shorter =
+        cost.wall_s ? short_plan(search.rounds, request, candidates, *cost.wall_s / processes) : "";
     const report::SignalsMet& met = search.signals.candidates.met;
     print({{{"folder", request.run.folder.string()},
             {"share_of_trips_with_signals", core::to_json_value(met.share())},
@@ -365,7 +385,7 @@ core::ExitCode equip_dry_run(EquipRequest request) {
             {"estimated_time_s", seconds(runs.likely())},
             {"estimate_measured", cost.measured}},
            {table},
-           core::wrapped(size + few + vain, 0) + "\n" + core::wrapped(time, 0) + "\n",
+           core::wrapped(size + few + vain, 0) + "\n" + core::wrapped(time + shorter, 0) + "\n",
            core::wrapped(met.words(), 0) + "\n\n"},
           request.run.publish.printing);
     return core::ExitCode::ok;

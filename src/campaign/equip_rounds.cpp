@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <set>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -29,6 +30,11 @@ constexpr const char* fresh_prefix = "fresh-";
 constexpr std::size_t likely_tries = 2;
 /// Pairs of neighbours that race with the candidates. Assumed: more would cost more than the race of signals.
 constexpr std::size_t most_pairs = 6;
+
+/// Of the estimate on fresh seeds: with each number of signals, none, all, alone, and the baseline.
+std::size_t fresh_runs(std::size_t budget, std::uint32_t replications) {
+    return replications * (budget + 4);
+}
 
 /// The signals between each edge and the next.
 using Crossings = std::map<std::pair<std::string, std::string>, std::set<core::SignalIndex>>;
@@ -227,39 +233,35 @@ void EquipRounds::add_missing(const std::vector<analysis::SignalSet>& sets, std:
     }
 }
 
-std::size_t EquipRounds::fresh_runs() const {
-    return question_.config.replications * (question_.budget + 4);
-}
-
-std::size_t EquipRounds::later_runs(std::size_t places, std::size_t tries) const {
+std::size_t EquipRounds::later_runs(std::size_t places, std::size_t tries, std::uint32_t replications) const {
     std::size_t passed = 0;
-    for (const analysis::SignalSet& set : question_.passed)
+    for (const analysis::SignalSet& set : std::span(question_.passed).first(replications))
         passed += set.size();
     const std::size_t candidates = std::max<std::size_t>(question_.signals.size(), 1);
     return (places * tries * passed + candidates - 1) / candidates;
 }
 
-EquipForecast EquipRounds::forecast() const {
+EquipForecast EquipRounds::forecast(std::size_t budget, std::uint32_t replications) const {
     std::vector<analysis::SignalSet> sets = {{}};
     for (std::size_t candidate = 0; candidate < question_.signals.size(); ++candidate)
         sets.push_back({candidate});
-    if (question_.budget > 1)
+    if (budget > 1)
         for (const auto& pair : question_.pairs)
             sets.emplace_back(pair.begin(), pair.end());
-    if (sets.size() == 1) return {.fresh = fresh_runs()};
+    if (sets.size() == 1) return {.fresh = fresh_runs(budget, replications)};
     Wanted first;
     Wanted all;
-    add_missing(sets, analysis::equip_looks(question_.config.replications).front(), first);
-    add_missing(sets, question_.config.replications, all);
+    add_missing(sets, analysis::equip_looks(replications).front(), first);
+    add_missing(sets, replications, all);
     EquipForecast forecast;
     forecast.first_look = count_of(first);
     forecast.race = count_of(all) - forecast.first_look;
-    for (std::size_t place = 2; place <= question_.budget; ++place)
-        forecast.later_most += later_runs(1, question_.signals.size() + 1 - place);
+    for (std::size_t place = 2; place <= budget; ++place)
+        forecast.later_most += later_runs(1, question_.signals.size() + 1 - place, replications);
     forecast.later = question_.search == analysis::Search::thorough
                          ? forecast.later_most
-                         : std::min(forecast.later_most, later_runs(question_.budget - 1, likely_tries));
-    forecast.fresh = fresh_runs();
+                         : std::min(forecast.later_most, later_runs(budget - 1, likely_tries, replications));
+    forecast.fresh = fresh_runs(budget, replications);
     return forecast;
 }
 
@@ -333,8 +335,9 @@ void EquipRounds::measure_up_to(std::size_t largest, const std::vector<analysis:
     Wanted whole_race;
     add_missing(racing, place == 1 || is_thorough ? question_.config.replications : replications, whole_race);
     expected_ = count_of(whole_race) - count_of(wanted) +
-                later_runs(question_.budget - place, is_thorough ? question_.signals.size() : likely_tries) +
-                fresh_runs();
+                later_runs(question_.budget - place, is_thorough ? question_.signals.size() : likely_tries,
+                           question_.config.replications) +
+                fresh_runs(question_.budget, question_.config.replications);
     doing_ = fmt::format("place {} of {}, {} on {} seeds", place, question_.budget,
                          sets.size() == 2 ? "1 candidate" : fmt::format("{} candidates", sets.size() - 1),
                          replications);

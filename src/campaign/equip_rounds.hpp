@@ -91,7 +91,9 @@ class EquipRounds {
 
     EquipRounds(EquipQuestion question, RunOptions options);
 
-    EquipForecast forecast() const;
+    EquipForecast forecast() const { return forecast(question_.budget, question_.config.replications); }
+    /// Of a search with another budget and fewer replications.
+    EquipForecast forecast(std::size_t budget, std::uint32_t replications) const;
 
     /// Makes the missing runs of these sets of candidates, of which the first has those that are chosen.
     /// Throws as prepare_run_folder and run_part do, and core::Error with its exit code when interrupted.
@@ -124,8 +126,8 @@ class EquipRounds {
                        std::size_t replications);
     void run_round(const Wanted& wanted);
     results::Results run(const study::Plan& plan, const RunOptions& options);
-    std::size_t fresh_runs() const;
-    std::size_t later_runs(std::size_t places, std::size_t tries) const;
+    /// Of `places`, with `tries` candidates at each.
+    std::size_t later_runs(std::size_t places, std::size_t tries, std::uint32_t replications) const;
 
     EquipQuestion question_;
     RunOptions options_;

@@ -229,6 +229,21 @@ RoadUse road_use(const metrics::RunMetrics& run, const scenario::Times& time, do
     return use;
 }
 
+/// Finest step that a scenario may have.
+constexpr double finest_step_s = 0.1;
+
+Finding collisions_finding(const metrics::RunMetrics& run, double step_length_s) {
+    const std::string count =
+        fmt::format("{} in the baseline, {} of them at junctions", run.collisions, run.junction_collisions);
+    if (run.collisions == 0) return {"collisions", Grade::ok, count};
+    const std::string compare = "compare conditions, not counts";
+    return {"collisions", Grade::note, count,
+            step_length_s > finest_step_s
+                ? fmt::format("{}; a step of {:g} s makes some: --step-length {:g} shows how many stay",
+                              compare, step_length_s, finest_step_s)
+                : compare};
+}
+
 std::vector<Finding> findings_of(const results::RunRecord& record, const Checked& checked) {
     const metrics::RunMetrics& run = record.metrics;
     const RoadUse use = road_use(run, checked.config.time, lane_km(checked.network));
@@ -242,9 +257,7 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
     std::ranges::move(detail::way_findings(checked.config, checked.network,
                                            core::read_file(checked.demand / "emergency.csv")),
                       std::back_inserter(findings));
-    findings.push_back({"collisions", run.collisions > 0 ? Grade::note : Grade::ok,
-                        fmt::format("{} in the baseline, {} of them at junctions", run.collisions,
-                                    run.junction_collisions)});
+    findings.push_back(collisions_finding(run, checked.config.time.step_length_s));
     return findings;
 }
 

@@ -75,6 +75,18 @@ std::vector<detail::LegendEntry> map_entries(const EquipmentFacts& facts) {
     return entries;
 }
 
+/// `Discs bear the order: 1 is #7, 2 is #12.`
+std::string order_words(const EquipmentFacts& facts) {
+    constexpr std::size_t most_named = 12;
+    std::vector<std::string> words;
+    for (const EquippedSignal& signal : facts.ranked)
+        words.push_back(fmt::format("{} is #{}", words.size() + 1, signal.number));
+    if (words.size() > most_named) words.resize(most_named);
+    if (words.empty()) return "";
+    return fmt::format("Discs bear the order: {}{}.", fmt::join(words, ", "),
+                       words.size() < facts.ranked.size() ? " and so on, as in the table" : "");
+}
+
 std::string paragraphs(const std::vector<std::string>& sentences, const char* style) {
     return fmt::format("<p class=\"{}\">{}</p>\n", style,
                        escaped(fmt::format("{}", fmt::join(sentences, " "))));
@@ -185,11 +197,7 @@ Figure equipment_map_figure(const EquipmentFacts& facts) {
     draw_ranks(canvas, facts);
     canvas.credit(facts.attribution);
     canvas.legend(map_entries(facts));
-    return {"map",
-            "Where they are",
-            canvas.finish(),
-            "Discs bear the order, as the answer above and the first column of the table do.",
-            {}};
+    return {"map", "Where they are", canvas.finish(), order_words(facts), {}};
 }
 
 }  // namespace detail

@@ -126,6 +126,22 @@ TEST_F(EquipTest, says_before_it_runs_how_many_runs_it_makes) {
         EXPECT_LE(line.size(), 80U) << line;
 }
 
+TEST_F(EquipTest, says_before_it_runs_what_a_quarter_of_an_hour_would_do) {
+    clearway({"scenario", "check", "./crossings"});
+    const auto plan = [&](double run_s) {
+        auto costs = nlohmann::json::parse(read("runs/run-costs.json"));
+        costs.front().front() = run_s;
+        write("runs/run-costs.json", costs.dump());
+        return clearway({"equip", "./crossings", "--budget", "2", "--seeds", "8", "--dry-run", "--jobs", "1",
+                         "--out", "runs/equip"})
+            .out;
+    };
+    EXPECT_THAT(plan(1.0), AllOf(HasSubstr("runs likely"), Not(HasSubstr("15 minutes"))));
+    // None and each alone on 5 seeds; then baseline, none, all, alone and one rank.
+    EXPECT_THAT(plan(900.0 / 40.0), HasSubstr("In 15 minutes: --seeds 5 --budget 1."));
+    EXPECT_THAT(plan(23.0), HasSubstr("15 minutes are too few to show"));
+}
+
 TEST_F(EquipTest, tries_only_the_signals_that_most_emergency_vehicles_pass_where_that_is_wanted) {
     const Ended ended = equip({"--candidates", "1", "--json"});
     ASSERT_EQ(ended.code, 0) << ended.err;
