@@ -34,6 +34,7 @@
 #include "results/table_reader.hpp"
 #include "results/table_writer.hpp"
 #include "study/fresh_seeds.hpp"
+#include "study/reuse.hpp"
 #include "study/side_files.hpp"
 
 namespace clearway::campaign {
@@ -207,6 +208,18 @@ void print_shard(const study::Shard& shard, const StudyProgress& progress, const
           printing);
 }
 
+/// Tells on standard error what was taken over, and of which conditions nothing was.
+void take_over(const results::Store& store, const std::filesystem::path& from) {
+    const study::Reused reused = study::reuse(store, from);
+    for (const std::string& damaged : reused.damaged)
+        fmt::print(stderr, "clearway: {}\n", damaged);
+    fmt::print(
+        stderr, "clearway: {} taken over from {}{}\n", core::counted(reused.runs, "run"), from.string(),
+        reused.other_conditions.empty()
+            ? ""
+            : fmt::format("; not those of {}, which differ", fmt::join(reused.other_conditions, ", ")));
+}
+
 }  // namespace
 
 void check_seed(const study::StudyConfig& config, const std::filesystem::path& file,
@@ -255,8 +268,10 @@ results::Store prepare_run_folder(const study::Plan& plan, const RunOptions& opt
         study::keep_command(store, options.command,
                             growth.empty() ? study::Growth::none : study::Growth::more);
         study::keep_titles(store, plan.titles);
+        study::keep_controls(store, plan.controls);
         if (!growth.empty() && !plan.manifest.precision)
             fmt::print(stderr, "clearway: {}: extended {}\n", options.folder.string(), growth);
+        if (!options.reused.empty()) take_over(store, options.reused);
         const auto trainings = core::shipped(std::filesystem::path("models") / "training");
         if (trainings && learns(plan)) study::copy_trainings(*trainings, store);
         return store;

@@ -31,6 +31,7 @@ struct PublishOptions {
 /// How a study is run and shown.
 struct RunOptions {
     std::filesystem::path folder = {};  ///< Run folder; empty: a new one below `runs/`.
+    std::filesystem::path reused = {};  ///< Run folder whose runs are taken over where they are the same.
     unsigned workers = 0;               ///< 0: one per core.
     experiment::RunLimits limits = {};  ///< Of each run.
     RetriedRuns retried = RetriedRuns::ended_by_machine;

@@ -20,6 +20,7 @@
 #include "report/comparison.hpp"
 #include "report/read_facts.hpp"
 #include "report/text.hpp"
+#include "report/verdict.hpp"
 #include "results/store.hpp"
 
 namespace clearway::cli {
@@ -128,6 +129,25 @@ analysis::Summary summary_of(const Arguments& arguments, analysis::Reference& re
     return summary;
 }
 
+/// How a condition stands to another, by its EV travel time minus that of the other.
+const char* standing(const analysis::MaybeEstimate& difference) {
+    switch (report::effect_of(difference, report::Better::lower, report::usual_least_relevant_s)) {
+        case report::Effect::better:
+            return "is ahead of";
+        case report::Effect::worse:
+            return "is behind";
+        case report::Effect::negligible:
+            return "is level with";
+        case report::Effect::none_shown:
+            return "is not shown to differ from";
+        case report::Effect::too_few:
+        case report::Effect::ruled_out:
+        case report::Effect::undecided:
+            break;
+    }
+    return "cannot be told yet from";
+}
+
 /// Which conditions were the best, and what choosing them so means.
 std::string best_text(const analysis::Summary& summary, const report::ConditionTitleMap& titles) {
     std::string text;
@@ -135,13 +155,19 @@ std::string best_text(const analysis::Summary& summary, const report::ConditionT
         const auto title = [&](const std::string& name) {
             return report::printable(titles.at({scenario.scenario, name}));
         };
-        for (const analysis::ConditionSummary& condition : scenario.conditions)
-            if (!condition.baseline.empty())
-                text += core::wrapped(
-                            fmt::format("{}: {}: diff. is minus {}.", report::printable(scenario.scenario),
-                                        title(condition.condition.name), title(condition.baseline)),
-                            4) +
-                        "\n";
+        for (const analysis::ConditionSummary& condition : scenario.conditions) {
+            if (condition.baseline.empty()) continue;
+            const analysis::MaybeEstimate& difference =
+                condition.metric(analysis::primary_metric).comparison->difference;
+            text +=
+                core::wrapped(
+                    fmt::format("{}: {} {} {}, the best other one: {} s of EV travel time.",
+                                report::printable(scenario.scenario), title(condition.condition.name),
+                                standing(difference), title(condition.baseline),
+                                report::estimate(difference, {.decimals = 1, .sign = report::Sign::always})),
+                    4) +
+                "\n";
+        }
     }
     return text +
            core::wrapped(

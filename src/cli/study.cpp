@@ -17,6 +17,7 @@ enum class Mode : std::uint8_t { run, dry_run };
 
 struct Arguments {
     std::string file;
+    std::vector<std::string> scenarios;
     std::string shard;
     std::vector<std::string> models;
     Mode mode = Mode::run;
@@ -28,7 +29,8 @@ struct Arguments {
 core::ExitCode run_study(const Arguments& arguments, const Invocation& invocation) {
     study::Shard shard;
     if (!arguments.shard.empty()) shard = study::shard_from(arguments.shard, "--shard");
-    study::StudyConfig config = study::read_study(arguments.file, arguments.extent, arguments.most_runs);
+    study::StudyConfig config =
+        study::read_study(arguments.file, arguments.extent, arguments.most_runs, arguments.scenarios);
     apply_models(arguments.models, config.conditions);
     campaign::RunOptions run = arguments.run;
     run.command = invocation.command;
@@ -51,6 +53,13 @@ Action configure_study(App& app) {
                                       "Run folder; a study that was interrupted there is "
                                       "continued")
                            .option_text("DIR [runs/NAME, with the name in the file]");
+    app.add_option("--scenario", arguments->scenarios,
+                   "Scenario in place of those of the file, into runs/NAME-SCENARIO; can be repeated")
+        .option_text("SCENARIO ... [those of the file]");
+    app.add_option("--reuse", arguments->run.reused,
+                   "Run folder whose runs are taken over where scenario, condition and seed are the same, as "
+                   "after a change of one condition")
+        .option_text("DIR [none]");
     app.add_option("--shard", arguments->shard,
                    "Run only the I-th of N shards, into --out; `clearway study merge` merges them")
         .option_text("I/N [the whole]")

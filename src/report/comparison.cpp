@@ -11,6 +11,7 @@
 #include "report/facts.hpp"
 #include "report/locks.hpp"
 #include "report/text.hpp"
+#include "report/verdict.hpp"
 #include "results/factor_columns.hpp"
 
 namespace clearway::report {
@@ -270,7 +271,7 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
     std::string text = differing_text(summary);
     auto out = std::back_inserter(text);
     bool any_unsafe = false;
-    bool any_few = false;
+    std::uint64_t fewest_pairs = fewest_to_trust;
     for (const ScenarioSummary& scenario : summary.scenarios) {
         text += objections_text(scenario, titles);
         for (const std::string& name : metrics) {
@@ -281,7 +282,7 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
                 metric = &condition.metric(name).metric;
                 any_unsafe = any_unsafe || is_unsafe(condition);
                 const Comparison& comparison = *condition.metric(name).comparison;
-                any_few = any_few || comparison.complete_pairs < analysis::fewest_for_interval;
+                fewest_pairs = std::min<std::uint64_t>(fewest_pairs, comparison.complete_pairs);
                 rows += label_of(titles, scenario, condition) + numbers_of(comparison);
                 if (const std::string words =
                         locked_pairs_words(comparison, usual_least_relevant_s, Script::plain);
@@ -300,9 +301,7 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
     }
     for (const analysis::Unpaired& lost : summary.unpaired)
         text += unpaired_line(lost);
-    if (any_few)
-        text += fmt::format("too few seeds: fewer than {} complete pairs give no interval; see --seeds.\n",
-                            analysis::fewest_for_interval);
+    if (const std::string few = few_seeds_sentence(fewest_pairs); !few.empty()) text += few + '\n';
     if (any_unsafe) text += "(!): the simulator's safety checks were off in this condition.\n";
     return text;
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "report/overview.hpp"
 #include "report/planned_text.hpp"
 #include "report/published.hpp"
 #include "report/verdict.hpp"
@@ -123,6 +124,8 @@ std::string effect_word(const ConditionFacts& condition, Measure measure) {
 }
 
 std::string response_word(const MaybeEstimate& difference, Better better) {
+    // Percentiles vary more than the mean.
+    if (difference && difference->n < fewest_to_trust) return "few seeds";
     const Effect effect = effect_of(difference, better);
     if (effect == Effect::too_few || effect == Effect::undecided) return "";
     return effect == Effect::none_shown ? "none shown" : std::string(core::name(effect));
@@ -306,9 +309,11 @@ ScenarioFacts without_levels(const StudyFacts& study, const ScenarioFacts& scena
     return kept;
 }
 
-void append_verdicts(const ScenarioFacts& scenario, std::string& text) {
+/// A control is told of under the condition of which a part is off in it.
+void append_verdicts(const ScenarioFacts& scenario, Tables tables, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
-        if (!condition.is_compared()) continue;
+        const bool is_told = tables == Tables::essential && !condition.control_of.empty();
+        if (!condition.is_compared() || is_told) continue;
         append_wrapped(fmt::format("{}: {}", label(condition),
                                    printable(verdict(scenario, condition, Script::plain).text())),
                        text);
@@ -333,6 +338,7 @@ void append_measures(const ScenarioFacts& scenario, Tables tables, std::string& 
 void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& text) {
     append_head(scenario, text);
     append_wrapped(coarse_step_sentence(scenario), text);
+    append_wrapped(incidents_sentence(scenario, Script::plain), text);
     append_runs(scenario, text);
     if (const std::string caption = published_caption(scenario); !caption.empty()) {
         text += fmt::format("\n{}\n", printable(caption));
@@ -344,7 +350,7 @@ void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& 
     const std::string wide = wide_edges_sentence(scenario);
     if (tables == Tables::all && !wide.empty()) append_wrapped(wide, text);
     if (tables == Tables::all) append_leases(scenario, text);
-    append_verdicts(scenario, text);  // last, where a terminal shows it
+    append_verdicts(scenario, tables, text);  // last, where a terminal shows it
 }
 
 /// What the words of the tables mean.

@@ -156,8 +156,10 @@ using analysis::shown_interval;
 
 /// What is known of a condition, and how a report presents it. Its metrics hold those of every `Measure`.
 struct ConditionFacts : analysis::ConditionSummary {
-    std::string title;       ///< In words: detail::ConditionTitles.
-    std::string recipe;      ///< Failure, predictor and policies, in words.
+    std::string title;   ///< In words: detail::ConditionTitles.
+    std::string recipe;  ///< Failure, predictor and policies, in words.
+    /// The condition of which a part is off in this one (StudyConfig::controls); empty for no control.
+    std::string control_of = {};
     core::Settings factors;  ///< Of the study, with those of the scenario: `failure.dark_share` -> `0.3`.
     core::Settings factor_titles = {};  ///< Of some of their values, for figures.
     /// All in which conditions can differ, in words: `policy` -> `Ours`, `failure` -> `B10`.

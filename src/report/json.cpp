@@ -1,6 +1,7 @@
 #include "report/detail/json.hpp"
 
 #include "report/console.hpp"
+#include "report/controls.hpp"
 #include "report/published.hpp"
 #include "report/safety.hpp"
 #include "report/verdict.hpp"
@@ -154,6 +155,10 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
         result["met_incident"] = {{"emergency_vehicles", met.vehicles},
                                   {"still_meet_it", met.still},
                                   {"travel_time_difference_s", to_json(met.difference_s, "replications")}};
+    if (!condition.control_of.empty()) result["control_of"] = condition.control_of;
+    for (const Control& control : controls_of(scenario, condition))
+        result["controls"].push_back(
+            {{"name", control.condition->name()}, {"part_s", to_json(control.part_s, "pairs")}});
     result["leases"] = to_json(condition.leases);
     if (!condition.factors.empty()) result["factors"] = detail::factors_json(condition.factors);
     if (condition.precision) {

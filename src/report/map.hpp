@@ -38,8 +38,10 @@ struct MapStation {
 /// A road that is blocked for a while.
 struct MapIncident {
     std::string edge;
-    double from_s = 0.0;
+    double from_s = 0.0;  ///< After the start of the simulation.
     double to_s = 0.0;
+    std::optional<double> known_after_s = {};  ///< Nothing: when a vehicle sees it.
+    double spread_s = 0.0;                     ///< Each run has it later by up to this.
 };
 
 /// A place to which emergency vehicles are called.

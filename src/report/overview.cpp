@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "report/controls.hpp"
 #include "report/locks.hpp"
 
 namespace clearway::report {
@@ -178,7 +181,7 @@ const ConditionFacts* largest_gain(const StudyFacts& study, const ScenarioFacts&
     const ConditionFacts* best = nullptr;
     std::tuple<bool, int, double> best_rank;
     for (const ConditionFacts& condition : scenario.conditions) {
-        if (!condition.is_compared()) continue;
+        if (!condition.is_compared() || !condition.control_of.empty()) continue;
         const bool helps = effect_of(condition, primary) == Effect::better;
         const int grade = helps ? 0 : condition.objections.on_emergency() ? 2 : 1;
         const std::tuple rank(reference_of(study, scenario, condition) != nullptr, grade,
@@ -209,7 +212,8 @@ const ConditionFacts* featured_condition(const StudyFacts& study, const Scenario
     const double enough_s = leader->difference(primary)->mean + leader->least_relevant_s;
     const ConditionFacts* simplest = leader;
     for (const ConditionFacts& condition : scenario.conditions) {
-        const bool level = condition.is_compared() && effect_of(condition, primary) == Effect::better &&
+        const bool level = condition.is_compared() && condition.control_of.empty() &&
+                           effect_of(condition, primary) == Effect::better &&
                            condition.difference(primary)->mean <= enough_s &&
                            (reference_of(study, scenario, condition) != nullptr) == varied;
         if (level && parts_of(condition) < parts_of(*simplest)) simplest = &condition;
@@ -256,7 +260,9 @@ std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scena
     std::size_t corrected = 0;
     std::size_t objected = 0;
     for (const ConditionFacts& condition : scenario.conditions) {
-        if (!condition.is_compared() || reference_of(study, scenario, condition) != nullptr) continue;
+        if (!condition.is_compared() || !condition.control_of.empty() ||
+            reference_of(study, scenario, condition) != nullptr)
+            continue;
         ++compared;
         const bool helps = effect_of(condition, primary) == Effect::better;
         const auto& comparison = condition.outcome(primary).comparison;
@@ -280,6 +286,25 @@ std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scena
     if (objected > 0)
         words += fmt::format("; {} lost or hit emergency vehicles, or ran without safety checks", objected);
     return words + ".";
+}
+
+std::string incidents_sentence(const ScenarioFacts& scenario, Script script) {
+    if (!scenario.roads || scenario.roads->incidents.empty()) return {};
+    constexpr std::size_t most_named = 3;
+    const std::vector<MapIncident>& all = scenario.roads->incidents;
+    const NumberStyle style{0, script};
+    std::vector<std::string> words;
+    for (const MapIncident& one : std::span(all).first(std::min(all.size(), most_named))) {
+        words.push_back(fmt::format(
+            "{} from {} to {} s{}, {}", printable(scenario.place_name(one.edge)), number(one.from_s, style),
+            number(one.to_s, style),
+            one.spread_s > 0.0 ? fmt::format(", in each run up to {} s later", number(one.spread_s, style))
+                               : "",
+            one.known_after_s ? fmt::format("known {} s after", number(*one.known_after_s, style))
+                              : "known when a vehicle sees it"));
+    }
+    if (all.size() > most_named) words.push_back(fmt::format("and {} more", all.size() - most_named));
+    return fmt::format("Blocked: {}.", fmt::join(words, "; "));
 }
 
 Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
@@ -307,8 +332,10 @@ Tile incident_tile(const ScenarioFacts& scenario, const ConditionFacts& conditio
                                 counted(condition.emergency.total(), "EV"),
                                 baseline == nullptr ? condition.baseline : baseline->title);
     tile.meaning += fmt::format("; {} of them meet it with this condition", grouped(met.still));
-    if (std::ranges::find(condition.condition.policies, "navigate") != condition.condition.policies.end())
-        tile.meaning += "; navigate.heeds_incidents = 0 tells what hearing of it is worth to all";
+    const bool navigates =
+        std::ranges::find(condition.condition.policies, "navigate") != condition.condition.policies.end();
+    if (navigates && controls_note(scenario, condition, script).empty())
+        tile.meaning += "; studies/accident.toml tells what hearing of it is worth to all";
     return tile;
 }
 

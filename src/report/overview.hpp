@@ -13,7 +13,7 @@ namespace clearway::report {
 /// (EV) the one with the largest, or the simplest of those that are less than the least relevant difference
 /// behind it (fewest policies, settings, failures, repairs); else the one with the smallest EV travel time to
 /// which nothing is objected; else the first that is compared. Conditions with a setting turned alone come
-/// last. Null if none is compared.
+/// last, and controls are left out. Null if none is compared.
 const ConditionFacts* featured_condition(const StudyFacts& study, const ScenarioFacts& scenario);
 
 /// One sentence made from the figures of a condition: `corridor saves ambulances 26 s a trip (24 %); other
@@ -25,6 +25,9 @@ std::string scenario_headline(const ScenarioFacts& scenario, const ConditionFact
 std::string worst_trips(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
 /// The locks of the condition and of its baseline; empty if there are none. Plain text.
 std::string locks_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition);
+
+/// Which roads are blocked, from when to when, and when that is known; empty without incidents. Plain text.
+std::string incidents_sentence(const ScenarioFacts& scenario, Script script);
 
 /// How many of the scenario's conditions help, and that the featured one is the largest of several gains;
 /// empty if only one is compared. Plain text.

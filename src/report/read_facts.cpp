@@ -324,13 +324,19 @@ StudyFacts facts_of(const results::Store& store, const results::Results& results
         for (ConditionFacts& condition : scenario.conditions)
             conditions[{scenario.name, condition.name()}] = &condition;
     }
+    const core::Settings controls = detail::controls_in(store.folder() / "controls.json");
+    for (const auto& [control, of] : controls) {
+        for (ScenarioFacts& scenario : study.scenarios)
+            if (ConditionFacts* const found = find(conditions, {scenario.name, control}))
+                found->control_of = of;
+    }
     add_distributions(results, conditions);
     add_nouns(results, study);
     add_errors(results, conditions);
     study.plan = summary.manifest.plan;
     study.planned = analysis::planned_findings(summary);
     study.failure_curves = failure_curves(summary);
-    study.sensitivities = sensitivities(summary);
+    study.sensitivities = sensitivities(summary, controls);
     for (ScenarioFacts& scenario : study.scenarios) {
         add_files(store, results, scenario);
         detail::RunTraffic traffic(store);

@@ -54,11 +54,12 @@ SensitivityRow& row_of(Sensitivity& sensitivity, const std::string& setting) {
 }
 
 Sensitivity sensitivity_to(const analysis::ScenarioSummary& scenario,
-                           const analysis::ConditionSummary& reference) {
+                           const analysis::ConditionSummary& reference, const core::Settings& controls) {
     Sensitivity result{scenario.scenario, reference.condition.name, {}};
     const experiment::ConditionSpec recipe = plain_recipe(reference.condition);
     for (const analysis::ConditionSummary& condition : scenario.conditions) {
         if (condition.condition.settings.size() != 1 || plain_recipe(condition.condition) != recipe) continue;
+        if (controls.contains(condition.condition.name)) continue;
         const auto& [setting, value] = *condition.condition.settings.begin();
         row_of(result, setting)
             .levels.push_back({condition.condition.name, value,
@@ -80,12 +81,12 @@ double SensitivityRow::reach_s() const {
     return reach;
 }
 
-std::vector<Sensitivity> sensitivities(const analysis::Summary& summary) {
+std::vector<Sensitivity> sensitivities(const analysis::Summary& summary, const core::Settings& controls) {
     std::vector<Sensitivity> all;
     for (const analysis::ScenarioSummary& scenario : summary.scenarios) {
         for (const analysis::ConditionSummary& condition : scenario.conditions) {
             if (!condition.condition.acts() || !condition.condition.settings.empty()) continue;
-            Sensitivity sensitivity = sensitivity_to(scenario, condition);
+            Sensitivity sensitivity = sensitivity_to(scenario, condition, controls);
             if (sensitivity.rows.size() >= fewest_rows) all.push_back(std::move(sensitivity));
         }
     }

@@ -47,8 +47,9 @@ struct Sensitivity {
 };
 
 /// Sensitivities of a study: for each condition at its defaults, the conditions that differ from it in
-/// exactly one setting. Conditions for which fewer than two settings were varied are left out.
-std::vector<Sensitivity> sensitivities(const analysis::Summary& summary);
+/// exactly one setting and are no `controls` (StudyConfig::controls). Conditions for which fewer than two
+/// settings were varied are left out.
+std::vector<Sensitivity> sensitivities(const analysis::Summary& summary, const core::Settings& controls = {});
 
 /// How many settings change the outcome beyond the interval. Plain text, one sentence.
 std::string sensitivity_sentence(const Sensitivity& sensitivity);

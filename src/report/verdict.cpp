@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "report/controls.hpp"
 #include "report/locks.hpp"
 #include "traffic/step_length.hpp"
 
@@ -206,13 +207,13 @@ std::string sentence_of_parts(const char* what, const std::vector<analysis::Idle
     return text.empty() ? text : fmt::format(" {}: {}.", what, text);
 }
 
-/// The locks of a condition and of its baseline, before the effects that they may decide.
+/// ` Locks: none (baseline: 2 locks in 1 of 20 runs).`, or empty where there are none.
 std::string locks_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     const ConditionFacts* const baseline = scenario.baseline_of(condition);
     const std::string with = lock_words(condition);
     const std::string without = baseline == nullptr ? "" : lock_words(*baseline);
     if (with.empty() && without.empty()) return {};
-    return fmt::format("{} (baseline: {}); ", with.empty() ? "no lock" : with,
+    return fmt::format(" Locks: {} (baseline: {}).", with.empty() ? "none" : with,
                        without.empty() ? "none" : without);
 }
 
@@ -226,7 +227,7 @@ std::string locked_pairs_of(const ConditionFacts& condition, Script script) {
     return pairs.empty() ? pairs : fmt::format("; EV travel time, s: {}", pairs);
 }
 
-/// `3 EVs came to a closed road (baseline: 12, whose trips take -9.0 [-12.0, -6.0] s); `, or empty where none
+/// ` 3 EVs came to a closed road (baseline: 12, whose trips take -9.0 [-12.0, -6.0] s).`, or empty where none
 /// did in either.
 std::string incidents_of(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     const ConditionFacts* const baseline = scenario.baseline_of(condition);
@@ -237,7 +238,7 @@ std::string incidents_of(const ScenarioFacts& scenario, const ConditionFacts& co
     const std::string theirs =
         difference ? fmt::format(", whose trips take {} s", estimate(difference, {1, script, Sign::always}))
                    : "";
-    return fmt::format("{} came to a closed road (baseline: {}{}); ", counted(met, "EV"), met_before, theirs);
+    return fmt::format(" {} came to a closed road (baseline: {}{}).", counted(met, "EV"), met_before, theirs);
 }
 
 /// What trials of other units and other ways found, or empty without them.
@@ -246,12 +247,12 @@ std::string regrets_of(const ConditionFacts& condition, Script script) {
     const MaybeEstimate& wrong = condition.metric("wrong_unit_share").estimate;
     const MaybeEstimate& unit_s = condition.metric("unit_regret_s").estimate;
     if (wrong && unit_s)
-        text += fmt::format("the wrong unit in {} % of decisions, {} s lost each; ",
+        text += fmt::format(" The wrong unit in {} % of decisions, {} s lost each.",
                             number(100.0 * wrong->mean, {0, script}), estimate(unit_s, {1, script}));
     const MaybeEstimate& way_s = condition.metric("way_regret_s").estimate;
-    if (way_s) text += fmt::format("{} s lost on each way against the best; ", estimate(way_s, {1, script}));
+    if (way_s) text += fmt::format(" Against the best way, {} s lost on each.", estimate(way_s, {1, script}));
     if (const std::uint64_t missing = condition.count("units_missing"); missing > 0)
-        text += fmt::format("{} missing; ", counted(missing, "called unit"));
+        text += fmt::format(" {} missing.", counted(missing, "called unit"));
     return text;
 }
 
@@ -274,12 +275,14 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     Verdict words = lead(scenario, condition, script);
     words.finding = absent + cut_off_of(condition) + words.finding;
     std::string& text = words.figures;
-    text.insert(0, locks_of(scenario, condition) + incidents_of(scenario, condition, script) +
-                       regrets_of(condition, script));
     const std::string others = analysis::other_objections(condition.objections);
     if (!others.empty()) text += "; " + others;
     if (shown_interval(condition.difference(primary)) != nullptr) text += costs(scenario, condition, script);
     text += locked_pairs_of(condition, script) + ".";
+    if (const std::string controls = controls_sentence(scenario, condition, script); !controls.empty())
+        text += " " + controls;
+    text += incidents_of(scenario, condition, script) + regrets_of(condition, script) +
+            locks_of(scenario, condition);
     text += sentence_of_parts("Never acted", condition.idle_parts, &analysis::IdlePart::idle_runs);
     text += sentence_of_parts("Only changed the EV's own lane", condition.idle_parts,
                               &analysis::IdlePart::own_runs);
@@ -321,10 +324,7 @@ std::string coarse_step_sentence(const ScenarioFacts& scenario) {
         scenario.step_length_s, traffic::coarsest_trusted_step_s);
 }
 
-std::string few_seeds_sentence(const StudyFacts& study) {
-    std::uint64_t fewest = fewest_to_trust;
-    for (const ScenarioFacts& scenario : study.scenarios)
-        fewest = std::min(fewest, scenario.replications);
+std::string few_seeds_sentence(std::uint64_t fewest) {
     if (fewest < analysis::fewest_for_interval)
         return fmt::format("too few seeds: fewer than {} give no interval and no effect; see --seeds.",
                            analysis::fewest_for_interval);
@@ -333,6 +333,13 @@ std::string few_seeds_sentence(const StudyFacts& study) {
             "few seeds: means and intervals from fewer than {} seeds are unreliable; see --seeds.",
             fewest_to_trust);
     return "";
+}
+
+std::string few_seeds_sentence(const StudyFacts& study) {
+    std::uint64_t fewest = fewest_to_trust;
+    for (const ScenarioFacts& scenario : study.scenarios)
+        fewest = std::min(fewest, scenario.replications);
+    return few_seeds_sentence(fewest);
 }
 
 std::optional<double> percent_of_baseline(const ScenarioFacts& scenario, const ConditionFacts& condition) {
@@ -372,7 +379,9 @@ std::string headline(const StudyFacts& study) {
         std::size_t compared = 0;
         std::array<std::size_t, verdict_words.size()> seen = {};
         for (const ConditionFacts& condition : scenario.conditions) {
-            if (!condition.is_compared() || reference_of(study, scenario, condition) != nullptr) continue;
+            if (!condition.is_compared() || !condition.control_of.empty() ||
+                reference_of(study, scenario, condition) != nullptr)
+                continue;
             ++compared;
             ++seen[finding_of(condition)];
         }

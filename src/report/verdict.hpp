@@ -68,7 +68,9 @@ std::string coarse_step_sentence(const ScenarioFacts& scenario);
 /// With fewer seeds a mean and its interval change much when seeds are added: with three, a condition closed
 /// 56 % of the gap on a map that was imported, with twelve 17 %.
 inline constexpr std::uint64_t fewest_to_trust = 10;
-/// What to think of a study of few seeds; empty if every scenario has enough.
+/// What to think of as few seeds, or pairs of runs; empty for enough.
+std::string few_seeds_sentence(std::uint64_t fewest);
+/// The same of a study's scenarios.
 std::string few_seeds_sentence(const StudyFacts& study);
 
 /// One or two sentences for the whole study: how many settings matter where they were turned one at a time,

@@ -108,8 +108,11 @@ void require_continues(const Manifest& wanted, const Manifest& stored, const fs:
                                 "Choose another folder with --out, and see with `clearway compare` whether "
                                 "the builds differ; or "
                                 "continue with the build that made it"});
-    throw core::InputError({folder.string(), "holds another study: different " + differing, "",
-                            "Choose another folder with --out, or ask for the same study to resume it"});
+    throw core::InputError(
+        {folder.string(), "holds another study: different " + differing, "",
+         "Choose another folder with --out, or ask for the same study to resume it. A study "
+         "file can take over what is the same: `clearway study FILE --out NEW --reuse " +
+             folder.string() + "`"});
 }
 
 /// `It holds run folders: runs/equip-city/fresh-4f2a11 and 3 more`; empty where it holds none.

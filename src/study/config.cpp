@@ -119,6 +119,13 @@ std::string resolve(const std::string& scenario, const std::filesystem::path& st
     return is_name ? scenario : (study_file.parent_path() / path).string();
 }
 
+/// `my-city` of `./my-city`, of `./my-city/` and of `my-city/scenario.toml`.
+std::string folder_name(const std::filesystem::path& scenario) {
+    std::filesystem::path path = scenario.lexically_normal();
+    if (!path.has_filename() || path.extension() == ".toml") path = path.parent_path();
+    return path.filename().string();
+}
+
 void add_scenario(const std::string& path, const scenario::Options& options, const std::string& suffix,
                   Problems& problems, StudyConfig& config) {
     try {
@@ -185,11 +192,21 @@ void add_own_scenario(const toml::table& table, toml::table overrides, const det
         config.scenarios.back().name = name + detail::name_of(assignment, factors);
 }
 
-void read_scenarios(StrictTable& root, const detail::Factors& factors, TomlReading& reading,
-                    StudyConfig& config) {
+/// `instead` are the scenarios that take the place of the file's.
+// NOLINTNEXTLINE(readability-function-size): a table, what it is read with, and what it fills
+void read_scenarios(StrictTable& root, const detail::Factors& factors,
+                    const std::vector<std::string>& instead, TomlReading& reading, StudyConfig& config) {
     std::vector<std::string> names;
     root.texts("scenarios", names);
-    const std::vector<const toml::table*> own = root.tables("scenario");
+    std::ranges::transform(names, names.begin(),
+                           [&](const std::string& name) { return resolve(name, reading.file); });
+    std::vector<const toml::table*> own = root.tables("scenario");
+    if (!instead.empty()) {
+        names = instead;
+        own.clear();
+        for (const std::string& name : instead)
+            config.name += "-" + folder_name(name);
+    }
     if (names.empty() && own.empty())
         root.problem("scenarios", "the study has no scenario", "names of `clearway list`, folders or files",
                      "");
@@ -201,8 +218,7 @@ void read_scenarios(StrictTable& root, const detail::Factors& factors, TomlReadi
     for (const detail::Assignment& assignment : detail::combinations(factors, detail::Subject::scenarios)) {
         const scenario::Options options = options_with(overrides, assignment, reading);
         for (const std::string& name : names)
-            add_scenario(resolve(name, reading.file), options, detail::name_of(assignment, factors),
-                         reading.problems, config);
+            add_scenario(name, options, detail::name_of(assignment, factors), reading.problems, config);
         for (const toml::table* table : own)
             add_own_scenario(*table, overrides, assignment, factors, reading, config);
         for (const scenario::ScenarioConfig& scenario : config.scenarios) {
@@ -318,6 +334,10 @@ void resolve_parts(TomlReading& reading, StudyConfig& config) {
     }
 }
 
+bool has(const std::vector<std::string>& names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+}
+
 /// Reads `[titles]`, whose keys are conditions, with and without their factors, and texts that factors give
 /// them. `untouched` are the conditions as the file lists them.
 // NOLINTNEXTLINE(readability-function-size): a table, what its keys may name, and what it fills
@@ -339,9 +359,41 @@ void read_titles(StrictTable& root, const std::vector<experiment::ConditionSpec>
         const std::string name(key.str());
         reader->text(name, config.titles[name]);
         const bool left_out = extent == Extent::quick && name.find('+') != std::string::npos;
-        if (!left_out && std::ranges::find(known, name) == known.end())
+        if (!left_out && !has(known, name))
             reader->problem(name, "is no condition, and no text that a factor gives one", core::listed(known),
                             core::did_you_mean(name, known));
+    }
+}
+
+/// Reads `[controls]`, of conditions as the file lists them. What factors make of a control belongs to what
+/// the same factors make of its condition, or to the condition.
+void read_controls(StrictTable& root, const std::vector<experiment::ConditionSpec>& untouched,
+                   StudyConfig& config) {
+    const toml::table* const table = root.table("controls");
+    auto reader = root.below("controls");
+    if (!reader) return;
+    const std::vector<std::string> known = core::texts_of(untouched, &experiment::ConditionSpec::name);
+    const std::vector<std::string> made = core::texts_of(config.conditions, &experiment::ConditionSpec::name);
+    for (const auto& [key, node] : *table) {
+        const std::string control(key.str());
+        std::string of;
+        reader->text(control, of);
+        for (const std::string& name : {control, of}) {
+            if (!name.empty() && !has(known, name))
+                reader->problem(control, fmt::format("'{}' is not in the study", name), core::listed(known),
+                                core::did_you_mean(name, known));
+        }
+        if (table->contains(of))
+            reader->problem(control, fmt::format("'{}' is a control itself", of), "a condition that is none",
+                            "");
+        for (const std::string& name : made) {
+            if (name != control && !name.starts_with(control + "+")) continue;
+            const std::string same = of + name.substr(control.size());
+            if (has(made, same))
+                config.controls[name] = same;
+            else if (has(made, of))
+                config.controls[name] = of;
+        }
     }
 }
 
@@ -362,7 +414,7 @@ void read_precision(StrictTable& root, StudyConfig& config) {
     reader->integer<std::uint32_t>("at_most", least_replications, most_replications, target.at_most);
     reader->finish();
     const std::vector<std::string> names = metric_names();
-    if (std::ranges::find(names, target.metric) == names.end()) {
+    if (!has(names, target.metric)) {
         reader->problem("metric", fmt::format("'{}' is not a metric", target.metric), "columns of runs.csv",
                         core::did_you_mean(target.metric, names));
     }
@@ -384,16 +436,18 @@ void keep_named(StrictTable& quick, const char* key, std::vector<Element>& all) 
     if (kept.empty()) return;
     const std::vector<std::string> names = core::texts_of(all, &Element::name);
     for (const std::string& name : kept) {
-        if (std::ranges::find(names, name) != names.end()) continue;
+        if (has(names, name)) continue;
         quick.problem(key, fmt::format("'{}' is not in the study", name), core::listed(names),
                       core::did_you_mean(name, names));
     }
-    std::erase_if(
-        all, [&](const Element& element) { return std::ranges::find(kept, element.name) == kept.end(); });
+    std::erase_if(all, [&](const Element& element) { return !has(kept, element.name); });
 }
 
+/// Whose scenarios a study has: a command line can replace those of the file.
+enum class ScenariosOf : std::uint8_t { file, command_line };
+
 /// Always reads [quick], so that its errors show early; applies it only if it is wanted.
-void read_quick(StrictTable& root, Extent extent, StudyConfig& config) {
+void read_quick(StrictTable& root, Extent extent, ScenariosOf scenarios, StudyConfig& config) {
     auto reader = root.below("quick");
     if (!reader) {
         if (extent == Extent::quick)
@@ -408,7 +462,10 @@ void read_quick(StrictTable& root, Extent extent, StudyConfig& config) {
         reader->problem("seed", fmt::format("{} is that of the study, which has a plan", quick.seed),
                         "another seed", "Keep the study's seed for the study: a trial would use it up");
     reader->integer<std::uint32_t>("replications", 1, most_replications, quick.replications);
-    keep_named(*reader, "scenarios", quick.scenarios);
+    if (std::vector<std::string> replaced; scenarios == ScenariosOf::command_line)
+        reader->texts("scenarios", replaced);
+    else
+        keep_named(*reader, "scenarios", quick.scenarios);
     keep_named(*reader, "conditions", quick.conditions);
     reader->finish();
     if (extent == Extent::quick) config = std::move(quick);
@@ -422,7 +479,8 @@ std::filesystem::path study_file(const std::filesystem::path& name) {
     return own && std::filesystem::is_regular_file(*own) ? *own : name;
 }
 
-StudyConfig read_study(const std::filesystem::path& name, Extent extent, std::uint64_t most_runs) {
+StudyConfig read_study(const std::filesystem::path& name, Extent extent, std::uint64_t most_runs,
+                       const std::vector<std::string>& scenarios) {
     const std::filesystem::path file = study_file(name);
     if (std::filesystem::is_directory(file))
         throw core::InputError(
@@ -445,12 +503,13 @@ StudyConfig read_study(const std::filesystem::path& name, Extent extent, std::ui
     if (factor_table != nullptr)
         factors = detail::read_factors(*factor_table, {reading.file, parts_in(table)}, reading.problems);
     check_combinations(factors, reading, config);
-    read_scenarios(root, factors, reading, config);
+    read_scenarios(root, factors, scenarios, reading, config);
     read_conditions(root, reading, config);
     const std::vector<experiment::ConditionSpec> untouched = config.conditions;
-    read_quick(root, extent, config);
+    read_quick(root, extent, scenarios.empty() ? ScenariosOf::file : ScenariosOf::command_line, config);
     vary_conditions(factors, reading.problems, config);
     read_titles(root, untouched, factors, extent, config);
+    read_controls(root, untouched, config);
     resolve_parts(reading, config);
     detail::read_plan(root, extent, config);
     root.finish();

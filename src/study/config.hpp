@@ -22,7 +22,8 @@ struct StudyConfig {
     std::vector<scenario::ScenarioConfig> scenarios;
     std::map<std::string, core::Settings> scenario_factors;  ///< By scenario, for scenarios made by factors.
     std::vector<experiment::ConditionSpec> conditions;
-    core::Settings titles = {};  ///< For reports: of conditions, and of texts that factors give them.
+    core::Settings titles = {};    ///< For reports: of conditions, and of texts that factors give them.
+    core::Settings controls = {};  ///< For reports: a condition -> the one of which a part is off in it.
     /// Instead of a fixed number of replications; `replications` is then the number of the first round.
     std::optional<results::PrecisionTarget> precision;
     /// What it sets out to show; its seed must not have been used before (fresh_seeds.hpp).
@@ -88,6 +89,9 @@ std::filesystem::path study_file(const std::filesystem::path& name);
 ///     b20 = "One report in five"
 ///     "b20+lead_s=4" = "Early requests"
 ///
+///     [controls]                                  # a condition -> the one of which a part is off in it
+///     b20_no_repair = "b20"
+///
 ///     [plan]                                      # what the study is to show; optional
 ///     metric = "emergency_restricted_travel_time_s"
 ///     alpha = 0.05                                # over all comparisons, by Holm
@@ -106,8 +110,10 @@ std::filesystem::path study_file(const std::filesystem::path& name);
 ///     scenarios = ["merge"]                       # of the scenarios above, by name
 ///     conditions = ["baseline", "b20"]            # of the conditions above
 ///
-/// Extent::quick without [quick] in the file is a problem, too.
+/// Extent::quick without [quick] in the file is a problem, too. `scenarios`, names, folders or files, take
+/// the place of those of the file and lengthen the study's name.
 StudyConfig read_study(const std::filesystem::path& name, Extent extent = Extent::whole,
-                       std::uint64_t most_runs = results::usual_most_runs);
+                       std::uint64_t most_runs = results::usual_most_runs,
+                       const std::vector<std::string>& scenarios = {});
 
 }  // namespace clearway::study

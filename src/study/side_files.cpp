@@ -48,6 +48,15 @@ void write_counts(const scenario::ScenarioConfig& config, const roads::Network& 
     core::write_atomically(file, core::read_file(source));
 }
 
+/// Without texts there is no such file.
+void keep_texts(const std::filesystem::path& file, const core::Settings& texts) {
+    if (texts.empty()) {
+        std::filesystem::remove(file);
+    } else {
+        core::write_atomically(file, core::to_text(core::Json(texts)));
+    }
+}
+
 /// Makes what a scenario needs besides its network: a first demand, which finds unknown edges and unreachable
 /// destinations before any worker starts, its wide edges, street names, a map and a picture for the report.
 void complete_scenario(const scenario::ScenarioConfig& config, const experiment::RunJob& unit,
@@ -92,12 +101,11 @@ void keep_command(const results::Store& store, const std::string& command, Growt
 }
 
 void keep_titles(const results::Store& store, const core::Settings& titles) {
-    const std::filesystem::path file = store.folder() / "titles.json";
-    if (titles.empty()) {
-        std::filesystem::remove(file);
-    } else {
-        core::write_atomically(file, core::to_text(core::Json(titles)));
-    }
+    keep_texts(store.folder() / "titles.json", titles);
+}
+
+void keep_controls(const results::Store& store, const core::Settings& controls) {
+    keep_texts(store.folder() / "controls.json", controls);
 }
 
 void copy_trainings(const std::filesystem::path& source, const results::Store& store) {

@@ -22,6 +22,8 @@ void keep_command(const results::Store& store, const std::string& command, Growt
 /// Stores titles for the report in place of earlier ones: `titles.json`, a text by name. Without titles there
 /// is no such file.
 void keep_titles(const results::Store& store, const core::Settings& titles);
+/// The same for the conditions that are controls: `controls.json`.
+void keep_controls(const results::Store& store, const core::Settings& controls);
 
 /// Copies the outputs of trainings, `NAME/{losses.csv,summary.json}` in `source`, for the report's train-test
 /// curves. Throws core::EnvironmentError when it cannot write.

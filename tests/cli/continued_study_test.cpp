@@ -99,6 +99,44 @@ TEST_F(ContinuedStudyTest, a_study_file_with_more_replications_goes_on_in_its_fo
     EXPECT_THAT(read("runs/mine/runs.csv"), HasSubstr("line,baseline,2,ok"));
 }
 
+TEST_F(ContinuedStudyTest, a_study_with_a_changed_condition_takes_over_the_runs_of_the_others) {
+    const auto study = [](const char* policy) {
+        return fmt::format(
+            "name = \"mine\"\nreplications = 2\nscenarios = [\"./line\"]\n"
+            "conditions = [\"baseline\"]\n[[condition]]\nname = \"mine\"\npolicy = \"{}\"\n",
+            policy);
+    };
+    write("my.toml", study("clear_lane"));
+    ASSERT_EQ(clearway({"study", "my.toml"}).code, 0);
+    write("my.toml", study("corridor"));
+    EXPECT_THAT(clearway({"study", "my.toml"}).err,
+                AllOf(HasSubstr("different conditions"), HasSubstr("--reuse runs/mine")));
+    const Ended refused = clearway({"study", "my.toml", "--out", "runs/new", "--reuse", "nowhere"});
+    EXPECT_EQ(refused.code, 3) << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(folder() / "runs/new/manifest.json"));
+    const Ended ended = clearway({"study", "my.toml", "--out", "runs/new", "--reuse", "runs/mine"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("2 runs taken over from runs/mine; not those of mine, which differ"));
+    ASSERT_EQ(clearway({"study", "my.toml", "--out", "runs/whole"}).code, 0);
+    EXPECT_EQ(read("runs/new/runs.csv"), read("runs/whole/runs.csv"));
+    EXPECT_THAT(clearway({"verify", "runs/new", "--all"}).out, HasSubstr("4 verified: 4 same"));
+}
+
+TEST_F(ContinuedStudyTest, a_study_runs_on_another_scenario_than_its_own) {
+    write("my.toml",
+          "name = \"mine\"\nreplications = 1\nscenarios = [\"merge\"]\nconditions = [\"baseline\", "
+          "\"corridor\"]\n"
+          "[[condition]]\nname = \"still\"\npolicy = [\"clear_lane\"]\n[controls]\nstill = \"corridor\"\n");
+    const Ended ended = clearway({"study", "my.toml", "--scenario", "./line", "--json"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const auto told = nlohmann::json::parse(ended.out)["scenarios"][0];
+    EXPECT_EQ(told["name"], "line");
+    EXPECT_EQ(told["conditions"][2]["control_of"], "corridor");
+    EXPECT_EQ(told["conditions"][1]["controls"][0]["name"], "still");
+    EXPECT_TRUE(std::filesystem::exists(folder() / "runs/mine-line/controls.json"));
+    EXPECT_THAT(clearway({"study", "my.toml", "--scenario", "./lin"}).err, HasSubstr("./lin"));
+}
+
 void ContinuedStudyTest::interrupt_and_resume(int signal, int expected_code) const {
     const int seeds = 10;
     const core::Child child = start(two_conditions("out", seeds));

@@ -7,10 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "report/sample.hpp"
+#include "report/verdict.hpp"
 
 namespace clearway::report {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -238,6 +240,22 @@ TEST(JsonTables, survive_names_that_are_not_utf_8) {
     EXPECT_EQ(json["scenarios"].size(), 1u);
 }
 
+TEST(ConsoleTables, tell_of_a_control_under_its_condition_and_name_blocked_roads) {
+    StudyFacts study = tests::study({"merge"});
+    ScenarioFacts& scenario = study.scenarios[0];
+    scenario.roads.emplace().incidents = {{"e1", 80.0, 980.0, 60.0}};
+    ASSERT_GE(scenario.conditions.size(), 3U);
+    ConditionFacts& control = scenario.conditions[2];
+    ASSERT_TRUE(control.is_compared());
+    const std::string verdict = "\n" + control.label() + ": ";
+    EXPECT_THAT(console_tables(study, Tables::essential),
+                AllOf(HasSubstr(verdict), HasSubstr("Blocked: e1 from 80 to 980 s")));
+    control.control_of = scenario.conditions[1].name();
+    EXPECT_THAT(console_tables(study, Tables::essential),
+                AllOf(Not(HasSubstr(verdict)), HasSubstr("Controls, each with a part")));
+    EXPECT_THAT(console_tables(study, Tables::all), HasSubstr(verdict));
+}
+
 StudyFacts study_with_response() {
     StudyFacts study = tests::study({"merge"});
     ScenarioFacts& scenario = study.scenarios[0];
@@ -261,6 +279,10 @@ TEST(ConsoleTables, show_response_times_and_the_share_in_time) {
     for (const std::string& line : lines_of(text))
         EXPECT_LE(line.size(), 100u) << line;
     EXPECT_THAT(console_tables(tests::study({"merge"})), Not(HasSubstr("EV response time")));
+    StudyFacts few = study_with_response();
+    for (ConditionFacts& condition : few.scenarios[0].conditions)
+        condition.response.percentile_90_difference_s->n = fewest_to_trust - 1;
+    EXPECT_THAT(console_tables(few), HasSubstr("-21.5  [-30.0, -14.0] few seeds\n"));
 }
 
 TEST(ConsoleTables, show_how_signals_served_emergency_vehicles) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "report/controls.hpp"
 #include "report/sample.hpp"
 #include "report/verdict.hpp"
 
@@ -64,7 +65,7 @@ TEST_F(Overview, NamesTheLongestTripsAndTheLocks) {
         "Vehicles locked each other. baseline: 2 locks in 1 of 20 runs, the longest 300 s; 30 vehicles stood "
         "in them, 1 of them EV.");
     EXPECT_THAT(verdict(scenario_, corridor(), Script::plain).figures,
-                StartsWith("no lock (baseline: 2 locks in 1 of 20 runs"));
+                HasSubstr(" Locks: none (baseline: 2 locks in 1 of 20 runs"));
 }
 
 TEST_F(Overview, ClaimsNothingThatTheIntervalDoesNotShow) {
@@ -131,6 +132,76 @@ TEST_F(Overview, tells_those_apart_that_met_an_incident) {
     EXPECT_EQ(tile.meaning,
               "faster trips; 95 % interval -60 to -36 s; they are 34 of 60 EVs in baseline; 6 of "
               "them meet it with this condition");
+    corridor().condition.policies = {"navigate"};
+    EXPECT_THAT(incident_tile(scenario_, corridor(), Script::plain).meaning,
+                HasSubstr("studies/accident.toml"));
+}
+
+TEST_F(Overview, names_the_roads_that_are_blocked) {
+    EXPECT_EQ(incidents_sentence(scenario_, Script::plain), "");
+    scenario_.streets = {{"e1", "Long Street"}};
+    scenario_.roads.emplace().incidents = {{"e1", 80.0, 980.0, 60.0, 90.0}, {"e2", 5.0, 15.5, {}, 0.0}};
+    EXPECT_EQ(
+        incidents_sentence(scenario_, Script::plain),
+        "Blocked: Long Street (e1) from 80 to 980 s, in each run up to 90 s later, known 60 s after; e2 "
+        "from 5 to 16 s, known when a vehicle sees it.");
+    scenario_.roads->incidents.resize(5);
+    EXPECT_THAT(incidents_sentence(scenario_, Script::plain), HasSubstr("; and 2 more."));
+}
+
+/// `corridor` and two conditions in which a part of it is off.
+class Controls : public Overview {
+  protected:
+    Controls() {
+        corridor().least_relevant_s = 1.0;
+        for (const char* const name : {"deaf", "blind"}) {
+            scenario_.conditions.push_back(tests::condition(name, name, 70.0));
+            tests::compare(scenario_.conditions.back(), around(-30.0, 4.0), around(4.6, 1.0));
+            scenario_.conditions.back().control_of = "corridor";
+        }
+        set(corridor(), {70.0, 74.0, 75.0, 76.0, 75.0});
+        set(scenario_.conditions[2], {82.0, 87.0, 86.0, 89.0, 86.0});
+        set(scenario_.conditions[3], {71.0, 73.0, 77.0, 73.0, 76.0});
+        study_.scenarios = {scenario_};
+    }
+    static void set(ConditionFacts& facts, const analysis::Values& values) {
+        tests::metric(facts, info(primary).field).values = values;
+    }
+    std::string sentence() { return controls_sentence(scenario_, corridor(), Script::plain); }
+};
+
+TEST_F(Controls, tell_what_of_a_gain_goes_with_a_part) {
+    EXPECT_EQ(
+        sentence(),
+        "Controls, each with a part of it off: deaf: 12.0 [10.8, 13.2] s of the gain are gone; blind: no "
+        "loss is shown (0.0 [-2.5, 2.5] s).");
+    EXPECT_THAT(verdict(scenario_, corridor(), Script::plain).figures, HasSubstr(sentence()));
+    EXPECT_EQ(controls_sentence(scenario_, scenario_.conditions[2], Script::plain), "")
+        << "a control has none";
+    EXPECT_EQ(controls_note(scenario_, corridor(), Script::plain), sentence());
+    EXPECT_EQ(controls_note(scenario_, scenario_.conditions[0], Script::plain), "corridor: " + sentence());
+}
+
+TEST_F(Controls, tell_a_part_that_harms_one_that_never_acts_and_too_few_pairs) {
+    set(scenario_.conditions[2], {60.0, 65.0, 64.0, 67.0, 64.0});
+    scenario_.conditions[3].same_as = "baseline";
+    EXPECT_EQ(
+        sentence(),
+        "Controls, each with a part of it off: deaf: trips are faster by 10.0 [8.8, 11.2] s; blind: all of "
+        "the gain is gone, each run is that of the baseline.");
+    set(scenario_.conditions[2], {70.0, 74.1, 75.2, 76.1, 75.0});
+    scenario_.conditions[3].same_as.clear();
+    set(scenario_.conditions[3], {71.0, 73.0});
+    EXPECT_EQ(
+        sentence(),
+        "Controls, each with a part of it off: deaf: no relevant time is lost (0.1 [0.0, 0.2] s); blind: no "
+        "verdict (0.0 s).");
+}
+
+TEST_F(Controls, are_neither_featured_nor_counted) {
+    EXPECT_EQ(featured_condition(study_, study_.scenarios[0])->name(), "corridor") << "they gain more";
+    EXPECT_EQ(among_conditions(study_, study_.scenarios[0]), "");
+    EXPECT_EQ(report::headline(study_), "city: emergency vehicles faster under 1 of 1 condition.");
 }
 
 TEST_F(Overview, NamesFailedAndMissingRuns) {

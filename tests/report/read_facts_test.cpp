@@ -170,6 +170,13 @@ TEST_F(RunFolder, takes_titles_from_the_study) {
     EXPECT_THROW(static_cast<void>(read_facts(study())), core::InputError);
 }
 
+TEST_F(RunFolder, takes_controls_from_the_study) {
+    write("controls.json", R"({"graph_simulation": "baseline", "gone": "baseline"})");
+    EXPECT_EQ(read_facts(study()).scenarios[0].conditions[1].control_of, "baseline");
+    write("controls.json", "{\"graph_simulation\": 1}");
+    EXPECT_THROW(static_cast<void>(read_facts(study())), core::InputError);
+}
+
 TEST(GapClosed, is_a_dash_for_a_condition_that_lost_emergency_vehicles) {
     const support::TemporaryFolder folder;
     results::Manifest manifest;

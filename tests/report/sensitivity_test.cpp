@@ -72,6 +72,12 @@ TEST(Sensitivities, need_two_settings_turned_and_the_condition_with_none) {
     EXPECT_TRUE(sensitivities(one).empty());
 }
 
+TEST(Sensitivities, leave_controls_out) {
+    const auto summary = three_settings();
+    const std::string control = summary.scenarios[0].conditions[1].condition.name;
+    EXPECT_TRUE(sensitivities(summary, {{control, "corridor"}}).empty()) << "one setting is left";
+}
+
 TEST(Sensitivities, do_not_mix_conditions_of_another_recipe) {
     auto summary = three_settings();
     summary.scenarios[0].conditions[1].condition.failure = "B10";

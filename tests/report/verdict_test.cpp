@@ -86,9 +86,9 @@ TEST(Verdict, tells_who_met_an_incident_and_what_wrong_units_and_ways_cost) {
     set(scenario.conditions[1], "way_regret_s", {}, analysis::Estimate{5, 1.5, 0.0, {}});
     set(scenario.conditions[1], "units_missing", {1.0, 0.0}, {});
     EXPECT_THAT(text(),
-                HasSubstr("1 EV came to a closed road (baseline: 5, whose trips take -9.0 [-12.0, -6.0] s); "
-                          "the wrong unit in 25 % of decisions, 8.1 s "
-                          "lost each; 1.5 s lost on each way against the best; 1 called unit missing; "));
+                HasSubstr(" 1 EV came to a closed road (baseline: 5, whose trips take -9.0 [-12.0, -6.0] s). "
+                          "The wrong unit in 25 % of decisions, 8.1 s "
+                          "lost each. Against the best way, 1.5 s lost on each. 1 called unit missing."));
 }
 
 TEST(Verdict, does_not_call_a_fifth_of_a_second_help) {

@@ -35,12 +35,13 @@ class Config : public ScratchTest {
 };
 
 TEST_F(Config, shipped_scenarios_are_listed_and_load) {
-    EXPECT_THAT(list(), ElementsAre("arterial", "bologna", "bologna_stretch", "bologna_stretch_v2",
-                                    "bologna_v2", "city", "city_v2", "grid_signals", "grid_signals_v2",
-                                    "intersection", "merge", "motorway_jam", "motorway_jam_3km",
-                                    "motorway_jam_three_lanes", "motorway_jam_three_lanes_3km", "random_town",
-                                    "rural", "short_grid", "short_grid_v2", "short_ring", "short_ring_v2",
-                                    "short_town", "short_town_v2", "spider"));
+    EXPECT_THAT(
+        list(),
+        ElementsAre("arterial", "bologna", "bologna_stretch", "bologna_stretch_v2", "bologna_v2", "city",
+                    "city_accident", "city_v2", "grid_signals", "grid_signals_v2", "intersection", "merge",
+                    "motorway_jam", "motorway_jam_3km", "motorway_jam_three_lanes",
+                    "motorway_jam_three_lanes_3km", "random_town", "rural", "short_grid", "short_grid_v2",
+                    "short_ring", "short_ring_v2", "short_town", "short_town_v2", "spider"));
     for (const std::string& name : list()) {
         const ScenarioConfig config = load(name);
         EXPECT_EQ(config.name, name);
@@ -51,7 +52,7 @@ TEST_F(Config, shipped_scenarios_are_listed_and_load) {
 TEST_F(Config, v2_is_v1_but_for_vehicles_that_block_a_junction) {
     for (const std::string& name : list()) {
         const ScenarioConfig first = load(name);
-        if (first.version != "v1") continue;
+        if (first.version != "v1" || name == "city_accident") continue;  // younger than the cure
         EXPECT_FALSE(first.time.ignore_junction_blocker_s) << name;
         if (newest(name) == name) continue;
         ScenarioConfig second = load(newest(name));

@@ -35,7 +35,7 @@ expect_completion study clearway stu
 expect_completion 'status submit' clearway study s
 expect_completion --policy clearway run city --pol
 expect_completion corridor clearway run city --policy corr
-expect_completion 'city city_v2' clearway run cit
+expect_completion 'city city_accident city_v2' clearway run cit
 expect_completion 'on off' clearway run city --safety-checks o
 expect_completion '' clearway run city --out ''
 expect_completion --json clearway study status --js

@@ -156,6 +156,55 @@ TEST_F(StudyFile, SaysWhatIsWrongWithQuick) {
     }
 }
 
+TEST_F(StudyFile, reads_which_conditions_are_controls_of_which) {
+    const std::string text = R"(
+scenarios = ["merge"]
+conditions = ["baseline"]
+condition = [{name = "b10", failure = "B10", policy = ["corridor"]}, {name = "blind", failure = "B40", policy = ["corridor"]}]
+[controls]
+blind = "b10"
+)";
+    EXPECT_EQ(read(text).controls, (core::Settings{{"blind", "b10"}}));
+    const StudyConfig varied = read(text + "[factors]\npreempt_signals.lead_s = [4, 8]\n");
+    EXPECT_EQ(varied.controls,
+              (core::Settings{{"blind+lead_s=4", "b10+lead_s=4"}, {"blind+lead_s=8", "b10+lead_s=8"}}));
+    const auto quick =
+        folder_.write("quick.toml", text + "[quick]\nconditions = [\"baseline\", \"blind\"]\n");
+    EXPECT_TRUE(read_study(quick, Extent::quick).controls.empty()) << "what it is a control of does not run";
+    EXPECT_THAT(problems(text + "b1 = \"b10\"\n"), HasSubstr("'b1' is not in the study"));
+    EXPECT_THAT(problems(text + "baseline = \"b1\"\n"),
+                testing::AllOf(HasSubstr("'b1' is not in the study"), HasSubstr("Did you mean 'b10'?")));
+    EXPECT_THAT(problems(text + "baseline = \"blind\"\n"), HasSubstr("'blind' is a control itself"));
+    EXPECT_THAT(problems(text + "b10 = \"b10\"\n"), HasSubstr("'b10' is a control itself"));
+}
+
+TEST_F(StudyFile, runs_on_other_scenarios_than_its_own) {
+    const std::string text = R"(
+name = "outages"
+scenarios = ["merge", "intersection"]
+conditions = ["baseline"]
+scenario = [{name = "thick", from = "merge", variant = "dense"}]
+[overrides]
+step_length_s = 0.1
+[quick]
+replications = 3
+scenarios = ["merge"]
+)";
+    const auto file = folder_.write("study.toml", text);
+    const StudyConfig config =
+        read_study(file, Extent::quick, results::usual_most_runs, {"spider", "city_v2"});
+    EXPECT_EQ(config.name, "outages-spider-city_v2-quick");
+    EXPECT_EQ(config.replications, 3U);
+    ASSERT_EQ(config.scenarios.size(), 2U);
+    EXPECT_EQ(config.scenarios[0].name, "spider");
+    EXPECT_DOUBLE_EQ(config.scenarios[0].time.step_length_s, 0.1);
+    const std::string scenario = std::string(CLEARWAY_SOURCE_DIR) + "/scenarios/spider/";
+    EXPECT_EQ(read_study(file, Extent::whole, results::usual_most_runs, {scenario}).name, "outages-spider");
+    EXPECT_EQ(read_study(file, Extent::whole, results::usual_most_runs, {scenario + "scenario.toml"}).name,
+              "outages-spider");
+    EXPECT_THROW(read_study(file, Extent::whole, results::usual_most_runs, {"spidr"}), core::InputError);
+}
+
 std::size_t runs_of(const StudyConfig& config) {
     return config.scenarios.size() * config.conditions.size() * config.replications;
 }

@@ -11,6 +11,7 @@ namespace clearway::report::detail {
 namespace {
 
 constexpr double letter_width = 6.3;  // of text of 12 units, mean; from Liberation Sans
+constexpr double bold = 1.15;         // wider than that
 constexpr double legend_row = 18.0;
 constexpr double legend_mark = 34.0;  // the mark and the gap behind it
 constexpr std::size_t longest_entry = 56;
@@ -133,16 +134,17 @@ void Canvas::legend(const std::vector<LegendEntry>& entries) {
     for (const LegendEntry& entry : entries) {
         const std::string words = shortened(entry.words, longest_entry);
         const double indent = entry.mark.empty() ? 0.0 : legend_mark;
+        const bool leads = entry.weight == Series::Weight::lead;
         const double entry_width =
-            indent + letter_width * static_cast<double>(core::characters_in(words)) + 12.0;
+            indent + (leads ? bold : 1.0) * letter_width * static_cast<double>(core::characters_in(words)) +
+            12.0;
         if (x > 8.0 && x + entry_width > width) {
             x = 8.0;
             height_ += legend_row;
         }
         fmt::format_to(std::back_inserter(svg_), "<g transform=\"translate({:.1f} {:.1f})\">{}</g>", x,
                        height_ - 14.0, entry.mark);
-        text(x + indent, height_ - 5.0, words, Anchor::start,
-             entry.weight == Series::Weight::lead ? "legend lead" : "legend");
+        text(x + indent, height_ - 5.0, words, Anchor::start, leads ? "legend lead" : "legend");
         x += entry_width;
     }
 }

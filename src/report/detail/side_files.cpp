@@ -24,6 +24,12 @@ auto read_json(const std::filesystem::path& file, const char* wanted, const From
     }
 }
 
+/// Texts by name; none if the file is missing.
+core::Settings texts_in(const std::filesystem::path& file, const char* wanted) {
+    return read_json(file, wanted, [](const json& object) { return object.get<core::Settings>(); })
+        .value_or(core::Settings());
+}
+
 std::vector<WideEdge> wide_edges_from(const json& rows) {
     std::vector<WideEdge> edges;
     for (const json& row : rows)
@@ -49,6 +55,14 @@ MapEdge edge_from(const json& row, std::size_t edges) {
     return edge;
 }
 
+MapIncident incident_from(const json& row) {
+    MapIncident incident{row.at("edge").get<std::string>(), row.at("from_s").get<double>(),
+                         row.at("to_s").get<double>()};
+    if (row.contains("known_after_s")) incident.known_after_s = row["known_after_s"].get<double>();
+    incident.spread_s = row.value("spread_s", 0.0);
+    return incident;
+}
+
 RoadMap roads_from(const json& object) {
     RoadMap map;
     for (const json& row : object.at("edges"))
@@ -60,8 +74,7 @@ RoadMap roads_from(const json& object) {
         map.stations.push_back({row.at("edge").get<std::string>(), row.at("kind").get<std::string>(),
                                 row.at("name").get<std::string>()});
     for (const json& row : object.value("incidents", json::array()))
-        map.incidents.push_back({row.at("edge").get<std::string>(), row.at("from_s").get<double>(),
-                                 row.at("to_s").get<double>()});
+        map.incidents.push_back(incident_from(row));
     for (const json& row : object.value("calls", json::array()))
         map.calls.push_back({row.at("edge").get<std::string>(), row.at("at_s").get<double>(),
                              row.at("units").get<std::uint64_t>()});
@@ -70,10 +83,12 @@ RoadMap roads_from(const json& object) {
 
 }  // namespace
 
-std::map<std::string, std::string> titles_in(const std::filesystem::path& file) {
-    return read_json(file, "an object of names and their titles",
-                     [](const json& object) { return object.get<std::map<std::string, std::string>>(); })
-        .value_or(std::map<std::string, std::string>());
+core::Settings titles_in(const std::filesystem::path& file) {
+    return texts_in(file, "an object of names and their titles");
+}
+
+core::Settings controls_in(const std::filesystem::path& file) {
+    return texts_in(file, "an object of controls and their conditions");
 }
 
 std::optional<std::vector<WideEdge>> wide_edges_in(const std::filesystem::path& file) {
@@ -81,9 +96,7 @@ std::optional<std::vector<WideEdge>> wide_edges_in(const std::filesystem::path& 
 }
 
 std::map<std::string, std::string> streets_in(const std::filesystem::path& file) {
-    return read_json(file, "an object of edges and their street names",
-                     [](const json& object) { return object.get<std::map<std::string, std::string>>(); })
-        .value_or(std::map<std::string, std::string>());
+    return texts_in(file, "an object of edges and their street names");
 }
 
 std::optional<RoadMap> roads_in(const std::filesystem::path& file) {

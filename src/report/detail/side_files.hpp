@@ -20,7 +20,10 @@ std::optional<std::vector<WideEdge>> wide_edges_in(const std::filesystem::path& 
 std::map<std::string, std::string> streets_in(const std::filesystem::path& file);
 
 /// `titles.json` of the study (StudyConfig::titles); empty if the file is missing.
-std::map<std::string, std::string> titles_in(const std::filesystem::path& file);
+core::Settings titles_in(const std::filesystem::path& file);
+
+/// `controls.json` of the study (StudyConfig::controls); empty if the file is missing.
+core::Settings controls_in(const std::filesystem::path& file);
 
 /// `roads.json`; nothing for folders of versions that did not write it.
 std::optional<RoadMap> roads_in(const std::filesystem::path& file);

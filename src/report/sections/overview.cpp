@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "report/controls.hpp"
 #include "report/detail/figures.hpp"
 #include "report/sections/sections.hpp"
 
@@ -27,8 +28,10 @@ void write_words(const StudyFacts& study, const ScenarioFacts& scenario, const C
     const Badge badge = badge_of(scenario, condition, script);
     writer.markup(fmt::format("<h3>{}{}</h3>\n<p class=\"headline\">{}</p>\n", escaped(scenario.name), title,
                               escaped(scenario_headline(scenario, condition, script))));
-    for (const std::string& note : {locks_sentence(scenario, condition), among_conditions(study, scenario),
-                                    worst_trips(scenario, condition, script)})
+    for (const std::string& note :
+         {controls_note(scenario, condition, script), incidents_sentence(scenario, script),
+          locks_sentence(scenario, condition), among_conditions(study, scenario),
+          worst_trips(scenario, condition, script)})
         if (!note.empty()) writer.markup(fmt::format("<p class=\"note\">{}</p>\n", escaped(note)));
     writer.markup(fmt::format("<p class=\"badge {}\">{}</p>\n",
                               badge.runs == Badge::Runs::enough ? "enough" : "few", escaped(badge.words)));

@@ -88,9 +88,12 @@ core::Json incidents_json(const roads::Network& network, const scenario::Scenari
     core::Json incidents = core::Json::array();
     for (const scenario::PlacedIncident& placed : scenario::place_incidents(config, network)) {
         const traffic::Incident& incident = placed.closed;
-        incidents.push_back({{"edge", network.edge(incident.edge).id},
-                             {"from_s", tenths(incident.from.value)},
-                             {"to_s", tenths(incident.to.value)}});
+        core::Json row = {{"edge", network.edge(incident.edge).id},
+                          {"from_s", tenths(incident.from.value)},
+                          {"to_s", tenths(incident.to.value)}};
+        if (incident.known_after) row["known_after_s"] = tenths(incident.known_after->value);
+        if (config.time.events_spread_s) row["spread_s"] = *config.time.events_spread_s;
+        incidents.push_back(std::move(row));
     }
     return incidents;
 }
