@@ -21,6 +21,7 @@
 #include "experiment/equipped_signals.hpp"
 #include "experiment/settings.hpp"
 #include "scenario/prepare.hpp"
+#include "study/reuse.hpp"
 
 namespace clearway::campaign {
 namespace {
@@ -125,14 +126,7 @@ void take_over(const study::Plan& plan, const results::Store& store) {
         results::Manifest alike = plan.manifest;
         alike.conditions = source.manifest().conditions;
         alike.replications = source.manifest().replications;
-        if (alike != source.manifest()) continue;
-        for (const study::PlannedUnit& planned : plan.units) {
-            for (const experiment::ConditionSpec& condition : planned.unit.conditions) {
-                const experiment::RunKey key{planned.unit.scenario, condition.name, planned.unit.replication};
-                const bool known = std::ranges::find(alike.conditions, condition) != alike.conditions.end();
-                if (known && source.complete(key) && !store.complete(key)) store.adopt(source, key);
-            }
-        }
+        if (alike == source.manifest()) study::reuse(store, folder);
     }
 }
 

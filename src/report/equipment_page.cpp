@@ -188,10 +188,7 @@ Figure candidates_figure(const EquipmentFacts& facts) {
 Figure equipment_map_figure(const EquipmentFacts& facts) {
     if (!facts.roads || !is_drawable(*facts.roads)) return {};
     MapCanvas canvas(fmt::format("{}: signals to equip first", facts.title), *facts.roads);
-    std::vector<const MapEdge*> edges;
-    for (const MapEdge& edge : facts.roads->edges)
-        edges.push_back(&edge);
-    canvas.edges(edges, "road");
+    canvas.edges(all_edges(*facts.roads), "road");
     canvas.scale_bar();
     canvas.stations(*facts.roads);
     draw_ranks(canvas, facts);
