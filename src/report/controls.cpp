@@ -10,32 +10,34 @@
 namespace clearway::report {
 namespace {
 
-/// What goes when the part is off.
-std::string loss_words(const ConditionFacts& condition, const Control& control, Script script) {
-    const std::string& title = control.condition->title;
-    if (!control.condition->same_as.empty() && control.condition->same_as == control.condition->baseline)
-        return fmt::format("{}: all of the gain is gone, each run is that of the baseline", title);
-    if (!control.part_s) return fmt::format("{}: no complete pair of runs", title);
-    MaybeEstimate lost = control.part_s;
-    lost->mean = -lost->mean;
-    if (lost->interval) lost->interval = analysis::Interval{-lost->interval->high, -lost->interval->low};
-    const std::string amount = estimate(lost, {1, script}) + " s";
-    switch (effect_of(control.part_s, Better::lower, condition.least_relevant(primary))) {
+/// What an effect adds to its figures.
+const char* words_of(Effect effect) {
+    switch (effect) {
         case Effect::better:
-            return fmt::format("{}: {} of the gain are gone", title, amount);
         case Effect::worse:
-            return fmt::format("{}: trips are faster by {}", title,
-                               estimate(control.part_s, {1, script}) + " s");
+            return "";
         case Effect::negligible:
-            return fmt::format("{}: no relevant time is lost ({})", title, amount);
+            return ", too small to matter";
         case Effect::none_shown:
-            return fmt::format("{}: no loss is shown ({})", title, amount);
+            return ", no difference shown";
         case Effect::too_few:
         case Effect::ruled_out:
         case Effect::undecided:
             break;
     }
-    return fmt::format("{}: no verdict ({})", title, amount);
+    return ", no verdict";
+}
+
+std::string words_of(const ConditionFacts& condition, const Control& control, Script script) {
+    const ConditionFacts& other = *control.condition;
+    if (!other.same_as.empty() && other.same_as == other.baseline)
+        return fmt::format("{}: every run is that of the baseline", other.title);
+    if (!control.difference_s) return fmt::format("{}: no complete pair of runs", other.title);
+    const std::string objection = analysis::emergency_objection_word(other.objections);
+    return fmt::format(
+        "{}{}: {}{}", other.title, objection.empty() ? "" : " (" + objection + ")",
+        estimate(control.difference_s, {1, script, Sign::always}),
+        words_of(effect_of(control.difference_s, Better::lower, condition.least_relevant(primary))));
 }
 
 }  // namespace
@@ -44,8 +46,8 @@ std::vector<Control> controls_of(const ScenarioFacts& scenario, const ConditionF
     std::vector<Control> controls;
     for (const ConditionFacts& other : scenario.conditions) {
         if (other.control_of != condition.name()) continue;
-        controls.push_back({&other, analysis::estimate_paired(condition.outcome(primary).values,
-                                                              other.outcome(primary).values,
+        controls.push_back({&other, analysis::estimate_paired(other.outcome(primary).values,
+                                                              condition.outcome(primary).values,
                                                               analysis::MetricKind::quantity)});
     }
     return controls;
@@ -54,9 +56,10 @@ std::vector<Control> controls_of(const ScenarioFacts& scenario, const ConditionF
 std::string controls_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     std::vector<std::string> parts;
     for (const Control& control : controls_of(scenario, condition))
-        parts.push_back(loss_words(condition, control, script));
+        parts.push_back(words_of(condition, control, script));
     if (parts.empty()) return {};
-    return fmt::format("Controls, each with a part of it off: {}.", fmt::join(parts, "; "));
+    return fmt::format("Controls, each with a part of it off; EV travel time minus its own, s: {}.",
+                       fmt::join(parts, "; "));
 }
 
 std::string controls_note(const ScenarioFacts& scenario, const ConditionFacts& featured, Script script) {

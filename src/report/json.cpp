@@ -157,8 +157,8 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
                                   {"travel_time_difference_s", to_json(met.difference_s, "replications")}};
     if (!condition.control_of.empty()) result["control_of"] = condition.control_of;
     for (const Control& control : controls_of(scenario, condition))
-        result["controls"].push_back(
-            {{"name", control.condition->name()}, {"part_s", to_json(control.part_s, "pairs")}});
+        result["controls"].push_back({{"name", control.condition->name()},
+                                      {"travel_time_difference_s", to_json(control.difference_s, "pairs")}});
     result["leases"] = to_json(condition.leases);
     if (!condition.factors.empty()) result["factors"] = detail::factors_json(condition.factors);
     if (condition.precision) {

@@ -325,11 +325,9 @@ StudyFacts facts_of(const results::Store& store, const results::Results& results
             conditions[{scenario.name, condition.name()}] = &condition;
     }
     const core::Settings controls = detail::controls_in(store.folder() / "controls.json");
-    for (const auto& [control, of] : controls) {
-        for (ScenarioFacts& scenario : study.scenarios)
-            if (ConditionFacts* const found = find(conditions, {scenario.name, control}))
-                found->control_of = of;
-    }
+    for (const auto& [key, condition] : conditions)
+        if (const auto of = controls.find(key.second); of != controls.end())
+            condition->control_of = of->second;
     add_distributions(results, conditions);
     add_nouns(results, study);
     add_errors(results, conditions);

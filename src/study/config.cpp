@@ -19,6 +19,7 @@
 #include "study/detail/factors.hpp"
 #include "study/detail/read_plan.hpp"
 #include "study/detail/read_settings.hpp"
+#include "study/detail/read_titles.hpp"
 
 namespace clearway::study {
 namespace {
@@ -338,65 +339,6 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
     return std::ranges::find(names, name) != names.end();
 }
 
-/// Reads `[titles]`, whose keys are conditions, with and without their factors, and texts that factors give
-/// them. `untouched` are the conditions as the file lists them.
-// NOLINTNEXTLINE(readability-function-size): a table, what its keys may name, and what it fills
-void read_titles(StrictTable& root, const std::vector<experiment::ConditionSpec>& untouched,
-                 const detail::Factors& factors, Extent extent, StudyConfig& config) {
-    const toml::table* const table = root.table("titles");
-    auto reader = root.below("titles");
-    if (!reader) return;
-    std::vector<std::string> known = core::texts_of(config.conditions, &experiment::ConditionSpec::name);
-    for (const experiment::ConditionSpec& condition : untouched)
-        known.push_back(condition.name);
-    for (const detail::Factor& factor : factors.list) {
-        for (const detail::FactorValue& value : factor.values)
-            if (factor.group == "condition") known.push_back(value.text);
-    }
-    std::ranges::sort(known);
-    known.erase(std::unique(known.begin(), known.end()), known.end());
-    for (const auto& [key, node] : *table) {
-        const std::string name(key.str());
-        reader->text(name, config.titles[name]);
-        const bool left_out = extent == Extent::quick && name.find('+') != std::string::npos;
-        if (!left_out && !has(known, name))
-            reader->problem(name, "is no condition, and no text that a factor gives one", core::listed(known),
-                            core::did_you_mean(name, known));
-    }
-}
-
-/// Reads `[controls]`, of conditions as the file lists them. What factors make of a control belongs to what
-/// the same factors make of its condition, or to the condition.
-void read_controls(StrictTable& root, const std::vector<experiment::ConditionSpec>& untouched,
-                   StudyConfig& config) {
-    const toml::table* const table = root.table("controls");
-    auto reader = root.below("controls");
-    if (!reader) return;
-    const std::vector<std::string> known = core::texts_of(untouched, &experiment::ConditionSpec::name);
-    const std::vector<std::string> made = core::texts_of(config.conditions, &experiment::ConditionSpec::name);
-    for (const auto& [key, node] : *table) {
-        const std::string control(key.str());
-        std::string of;
-        reader->text(control, of);
-        for (const std::string& name : {control, of}) {
-            if (!name.empty() && !has(known, name))
-                reader->problem(control, fmt::format("'{}' is not in the study", name), core::listed(known),
-                                core::did_you_mean(name, known));
-        }
-        if (table->contains(of))
-            reader->problem(control, fmt::format("'{}' is a control itself", of), "a condition that is none",
-                            "");
-        for (const std::string& name : made) {
-            if (name != control && !name.starts_with(control + "+")) continue;
-            const std::string same = of + name.substr(control.size());
-            if (has(made, same))
-                config.controls[name] = same;
-            else if (has(made, of))
-                config.controls[name] = of;
-        }
-    }
-}
-
 std::vector<std::string> metric_names() {
     std::vector<std::string> names;
     core::for_each_field<metrics::RunMetrics>([&](const auto& field) { names.emplace_back(field.name); });
@@ -508,8 +450,8 @@ StudyConfig read_study(const std::filesystem::path& name, Extent extent, std::ui
     const std::vector<experiment::ConditionSpec> untouched = config.conditions;
     read_quick(root, extent, scenarios.empty() ? ScenariosOf::file : ScenariosOf::command_line, config);
     vary_conditions(factors, reading.problems, config);
-    read_titles(root, untouched, factors, extent, config);
-    read_controls(root, untouched, config);
+    detail::read_titles(root, untouched, factors, extent, config);
+    detail::read_controls(root, untouched, config);
     resolve_parts(reading, config);
     detail::read_plan(root, extent, config);
     root.finish();

@@ -170,11 +170,11 @@ class Controls : public Overview {
     std::string sentence() { return controls_sentence(scenario_, corridor(), Script::plain); }
 };
 
-TEST_F(Controls, tell_what_of_a_gain_goes_with_a_part) {
+TEST_F(Controls, tell_what_a_part_is_worth) {
     EXPECT_EQ(
         sentence(),
-        "Controls, each with a part of it off: deaf: 12.0 [10.8, 13.2] s of the gain are gone; blind: no "
-        "loss is shown (0.0 [-2.5, 2.5] s).");
+        "Controls, each with a part of it off; EV travel time minus its own, s: deaf: +12.0 [10.8, 13.2]; "
+        "blind: 0.0 [-2.5, 2.5], no difference shown.");
     EXPECT_THAT(verdict(scenario_, corridor(), Script::plain).figures, HasSubstr(sentence()));
     EXPECT_EQ(controls_sentence(scenario_, scenario_.conditions[2], Script::plain), "")
         << "a control has none";
@@ -182,20 +182,18 @@ TEST_F(Controls, tell_what_of_a_gain_goes_with_a_part) {
     EXPECT_EQ(controls_note(scenario_, scenario_.conditions[0], Script::plain), "corridor: " + sentence());
 }
 
-TEST_F(Controls, tell_a_part_that_harms_one_that_never_acts_and_too_few_pairs) {
+TEST_F(Controls, tell_a_part_that_harms_one_that_never_acts_objections_and_too_few_pairs) {
     set(scenario_.conditions[2], {60.0, 65.0, 64.0, 67.0, 64.0});
     scenario_.conditions[3].same_as = "baseline";
-    EXPECT_EQ(
-        sentence(),
-        "Controls, each with a part of it off: deaf: trips are faster by 10.0 [8.8, 11.2] s; blind: all of "
-        "the gain is gone, each run is that of the baseline.");
+    EXPECT_THAT(sentence(),
+                testing::EndsWith("deaf: -10.0 [-11.2, -8.8]; blind: every run is that of the baseline."));
     set(scenario_.conditions[2], {70.0, 74.1, 75.2, 76.1, 75.0});
+    scenario_.conditions[2].objections.emergency = {.arrived = 17, .teleported = 3};
+    scenario_.conditions[2].objections.baseline_emergency = {.arrived = 20};
     scenario_.conditions[3].same_as.clear();
     set(scenario_.conditions[3], {71.0, 73.0});
-    EXPECT_EQ(
-        sentence(),
-        "Controls, each with a part of it off: deaf: no relevant time is lost (0.1 [0.0, 0.2] s); blind: no "
-        "verdict (0.0 s).");
+    EXPECT_THAT(sentence(), testing::EndsWith("deaf (lost EVs): +0.1 [0.0, 0.2], too small to matter; blind: "
+                                              "0.0, no verdict."));
 }
 
 TEST_F(Controls, are_neither_featured_nor_counted) {

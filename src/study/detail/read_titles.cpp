@@ -1,0 +1,74 @@
+#include "study/detail/read_titles.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace clearway::study::detail {
+namespace {
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(readability-function-size): a table, what its keys may name, and what it fills
+void read_titles(core::StrictTable& root, const std::vector<experiment::ConditionSpec>& untouched,
+                 const Factors& factors, Extent extent, StudyConfig& config) {
+    const toml::table* const table = root.table("titles");
+    auto reader = root.below("titles");
+    if (!reader) return;
+    std::vector<std::string> known = core::texts_of(config.conditions, &experiment::ConditionSpec::name);
+    for (const experiment::ConditionSpec& condition : untouched)
+        known.push_back(condition.name);
+    for (const Factor& factor : factors.list) {
+        for (const FactorValue& value : factor.values)
+            if (factor.group == "condition") known.push_back(value.text);
+    }
+    std::ranges::sort(known);
+    known.erase(std::unique(known.begin(), known.end()), known.end());
+    for (const auto& [key, node] : *table) {
+        const std::string name(key.str());
+        reader->text(name, config.titles[name]);
+        const bool left_out = extent == Extent::quick && name.find('+') != std::string::npos;
+        if (!left_out && !has(known, name))
+            reader->problem(name, "is no condition, and no text that a factor gives one", core::listed(known),
+                            core::did_you_mean(name, known));
+    }
+}
+
+void read_controls(core::StrictTable& root, const std::vector<experiment::ConditionSpec>& untouched,
+                   StudyConfig& config) {
+    const toml::table* const table = root.table("controls");
+    auto reader = root.below("controls");
+    if (!reader) return;
+    const std::vector<std::string> known = core::texts_of(untouched, &experiment::ConditionSpec::name);
+    const std::vector<std::string> made = core::texts_of(config.conditions, &experiment::ConditionSpec::name);
+    for (const auto& [key, node] : *table) {
+        const std::string control(key.str());
+        std::string of;
+        reader->text(control, of);
+        for (const std::string& name : {control, of}) {
+            if (!name.empty() && !has(known, name))
+                reader->problem(control, fmt::format("'{}' is not in the study", name), core::listed(known),
+                                core::did_you_mean(name, known));
+        }
+        if (table->contains(of))
+            reader->problem(control, fmt::format("'{}' is a control itself", of), "a condition that is none",
+                            "");
+        for (const std::string& name : made) {
+            if (name != control && !name.starts_with(control + "+")) continue;
+            const std::string same = of + name.substr(control.size());
+            if (has(made, same))
+                config.controls[name] = same;
+            else if (has(made, of))
+                config.controls[name] = of;
+        }
+    }
+}
+
+}  // namespace clearway::study::detail
