@@ -14,9 +14,11 @@
 #include "campaign/printout.hpp"
 #include "core/counted.hpp"
 #include "core/files.hpp"
+#include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
 #include "experiment/conditions.hpp"
 #include "scenario/network.hpp"
+#include "scenario/prepare.hpp"
 
 namespace clearway::campaign {
 namespace {
@@ -261,6 +263,20 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
     return findings;
 }
 
+/// Whether EVs come to where the incidents of a scenario are, in seeds of which only the first is run.
+Finding met_finding(const scenario::ScenarioConfig& scenario, const scenario::BuiltNetwork& built,
+                    std::uint64_t seed) {
+    constexpr std::uint32_t replications = 10;
+    std::string trips;
+    for (std::uint32_t replication = 0; replication < replications; ++replication) {
+        const core::TemporaryFolder folder;
+        scenario::prepare(scenario, built, core::StudySeed{seed}, core::Replication{replication},
+                          folder.path());
+        trips += core::read_file(folder.path() / "emergency.csv");
+    }
+    return detail::passing_finding(scenario, built.network, trips, replications);
+}
+
 Finding error_finding(const results::RunError& error, const std::filesystem::path& folder) {
     const bool aborted = error.cause == results::ErrorCause::signal;
     std::string text = error.message;
@@ -345,6 +361,7 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double a
         const scenario::BuiltNetwork built = scenario::open_network(scenario, roads);
         findings = findings_of(*record, {scenario, built.network, asked_density,
                                          store.scenario_folder(scenario.name) / "demand" / "0"});
+        if (!scenario.incidents.empty()) findings.push_back(met_finding(scenario, built, seed));
         findings.push_back({"speed", Grade::ok,
                             fmt::format("{:.1f} s a run, {:.1f} times real time, including loading", wall_s,
                                         record->metrics.simulated_s / wall_s)});

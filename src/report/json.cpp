@@ -151,7 +151,8 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
             to_json(response.percentile_90_difference_s, "pairs");
         result["response_in_time_1"]["difference"] = to_json(response.in_time_difference, "pairs");
     }
-    if (const analysis::MetIncident& met = condition.met_incident; met.vehicles > 0)
+    if (const analysis::MetIncident& met = condition.met_incident;
+        met.vehicles > 0 || !unmet_incident_sentence(scenario, condition).empty())
         result["met_incident"] = {{"emergency_vehicles", met.vehicles},
                                   {"still_meet_it", met.still},
                                   {"travel_time_difference_s", to_json(met.difference_s, "replications")}};

@@ -42,6 +42,7 @@ struct MapIncident {
     double to_s = 0.0;
     std::optional<double> known_after_s = {};  ///< Nothing: when a vehicle sees it.
     double spread_s = 0.0;                     ///< Each run has it later by up to this.
+    bool is_closed = false;                    ///< To emergency vehicles; not said by older run folders.
 };
 
 /// A place to which emergency vehicles are called.

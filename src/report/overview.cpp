@@ -222,12 +222,13 @@ const ConditionFacts* featured_condition(const StudyFacts& study, const Scenario
 }
 
 std::string scenario_headline(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+    const std::string unmet = unmet_incident_sentence(scenario, condition);
     std::string words = emergency_clause(scenario, condition, script);
     words = joined(std::move(words), others_clause(condition, script));
     words = joined(std::move(words), collisions_clause(scenario, condition));
     words = joined(std::move(words), missing_clause(condition));
     if (condition.is_unchecked()) words = joined(std::move(words), "the simulator's safety checks were off");
-    return words + ".";
+    return (unmet.empty() ? unmet : unmet + " ") + words + ".";
 }
 
 std::string worst_trips(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
@@ -321,6 +322,8 @@ Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& conditi
 
 Tile incident_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     const analysis::MetIncident& met = condition.met_incident;
+    if (met.vehicles == 0)
+        return {"Those that met the incident", "0", unmet_incident_sentence(scenario, condition)};
     const MaybeEstimate& difference = met.difference_s;
     const Effect effect = effect_of(difference, Better::lower, condition.least_relevant(primary));
     Tile tile{"Those that met the incident",
@@ -391,6 +394,9 @@ Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, S
             return {runs, fmt::format("{} runs: {} show that the difference is too small to matter{}",
                                       quantity, pairs, few)};
         case Effect::none_shown: {
+            if (const std::string unmet = unmet_incident_sentence(scenario, condition); !unmet.empty())
+                return {Badge::Runs::too_few,
+                        unmet + " Block a road that EVs pass: clearway scenario check names some."};
             const std::uint64_t needed = condition.precision ? condition.precision->needed : 0;
             const double counts_s = condition.least_relevant(primary);
             const std::string least = number(counts_s > 0.0 ? counts_s : usual_least_relevant_s, {1, script});

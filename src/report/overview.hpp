@@ -41,7 +41,7 @@ struct Tile {
     enum class Tone : std::uint8_t { neutral, better, worse } tone = Tone::neutral;
 };
 Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
-/// Of the EVs that came to a closed road in the baseline; `met_incident.vehicles` > 0.
+/// Of the EVs that came to a closed road in the baseline, or that none did.
 Tile incident_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
 Tile others_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
 Tile safety_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);

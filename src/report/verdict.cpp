@@ -256,6 +256,33 @@ std::string regrets_of(const ConditionFacts& condition, Script script) {
     return text;
 }
 
+/// Those who are called to an incident stop before it.
+bool blocks_the_way(const RoadMap& roads) {
+    return std::ranges::any_of(roads.incidents, [&](const MapIncident& incident) {
+        return incident.is_closed &&
+               std::ranges::find(roads.calls, incident.edge, &MapCall::edge) == roads.calls.end();
+    });
+}
+
+/// `0 of 30 in the baseline`: EVs that met an incident which blocks their way; empty where one did.
+std::string unmet_incident_words(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    const ConditionFacts* const baseline = scenario.baseline_of(condition);
+    if (baseline == nullptr || baseline->emergency.total() == 0 || !scenario.roads ||
+        !blocks_the_way(*scenario.roads))
+        return {};
+    const analysis::Values& met = baseline->metric("emergency_met_incident").values;
+    const bool is_counted = std::ranges::any_of(met, [](const auto& value) { return value.has_value(); });
+    if (!is_counted || baseline->count("emergency_met_incident") > 0) return {};
+    return fmt::format("0 of {} in the baseline", grouped(baseline->emergency.total()));
+}
+
+/// `no EV met the block (0 of 30 in the baseline), of which nothing is shown; `, or empty.
+std::string unmet_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    const std::string words = unmet_incident_words(scenario, condition);
+    if (words.empty()) return {};
+    return fmt::format("no EV met the block ({}), of which nothing is shown; ", words);
+}
+
 /// `2 EVs cut off by an incident; `, or empty.
 std::string cut_off_of(const ConditionFacts& condition) {
     const double cut_off = condition.total("emergency_cut_off");
@@ -273,7 +300,7 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     if (condition.missing_runs > 0)
         absent += fmt::format("{} of {} are missing; ", condition.missing_runs, counted(all, "run"));
     Verdict words = lead(scenario, condition, script);
-    words.finding = absent + cut_off_of(condition) + words.finding;
+    words.finding = absent + unmet_of(scenario, condition) + cut_off_of(condition) + words.finding;
     std::string& text = words.figures;
     const std::string others = analysis::other_objections(condition.objections);
     if (!others.empty()) text += "; " + others;
@@ -315,6 +342,12 @@ constexpr std::array<const char*, 10> verdict_words = {"emergency vehicles lost"
                                                        "no verdict"};
 
 }  // namespace
+
+std::string unmet_incident_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    const std::string words = unmet_incident_words(scenario, condition);
+    if (words.empty()) return {};
+    return fmt::format("No EV met the block ({}): these runs say nothing about it.", words);
+}
 
 std::string coarse_step_sentence(const ScenarioFacts& scenario) {
     if (scenario.step_length_s <= traffic::coarsest_trusted_step_s) return "";

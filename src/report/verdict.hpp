@@ -51,6 +51,11 @@ struct Verdict {
 };
 Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
 
+/// `No EV met the block (0 of 30 in the baseline): these runs say nothing about it.` Empty where one did,
+/// where no incident closes a road to EVs on their way, and without a complete run of the baseline. Plain
+/// text.
+std::string unmet_incident_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition);
+
 /// Difference in the primary measure as a share of the baseline's, %.
 std::optional<double> percent_of_baseline(const ScenarioFacts& scenario, const ConditionFacts& condition);
 

@@ -42,9 +42,39 @@ class WayFindings : public testing::Test {
                                 more);
     }
 
+    /// `ways`: edges of a trip each, `;` between.
+    Finding passing(const std::string& incident, const std::vector<std::string>& ways) const {
+        findings("");
+        const auto file =
+            folder_.write("blocked.toml",
+                          "name = \"way\"\nversion = \"test\"\n[network]\nnodes = \"way.nod.xml\"\n"
+                          "edges = \"way.edg.xml\"\n[time]\nhorizon_s = 900.0\n[[incident]]\n" +
+                              incident);
+        const scenario::ScenarioConfig config = scenario::load(file.string());
+        const scenario::BuiltNetwork built = scenario::build_network(config, folder_.path() / "net");
+        std::string csv = "id,type,kind,depart_s,depart_lane,depart_speed,edges\n";
+        for (const std::string& way : ways)
+            csv += "one,t,ambulance,60.00,best,max," + way + "\n";
+        return passing_finding(config, built.network, csv + csv.substr(0, csv.find('\n') + 1), 2);
+    }
+
   private:
     support::TemporaryFolder folder_;
 };
+
+TEST_F(WayFindings, say_how_many_pass_a_block_and_where_more_would) {
+    const std::vector<std::string> ways = {"gate main goal", "gate main goal", "gate up down goal"};
+    const Finding some = passing("edge = \"main\"\n", ways);
+    EXPECT_EQ(some.text, "2 of 3 EV trips of 2 seeds pass a blocked road");
+    EXPECT_EQ(some.grade, Grade::ok);
+    const Finding none = passing("edge = \"far\"\n", ways);
+    EXPECT_EQ(none.text, "0 of 3 EV trips of 2 seeds pass a blocked road");
+    EXPECT_EQ(none.grade, Grade::note);
+    EXPECT_EQ(none.advice,
+              "most pass, near their middles, with a way round: edge main, 2 trips; edge down, 1 trip");
+    const Finding called = passing("edge = \"goal\"\n", {"gate far"});
+    EXPECT_EQ(called.advice, "no road in the middle of an EV trip has a way round");
+}
 
 TEST_F(WayFindings, count_those_who_can_choose) {
     const auto found = findings("");

@@ -235,6 +235,19 @@ TEST(JsonTables, hold_every_measure_with_its_unit_in_the_name) {
     EXPECT_EQ(baseline["measures"].size(), measure_count);
 }
 
+TEST(JsonTables, say_that_no_one_met_an_incident) {
+    StudyFacts study = tests::study({"merge"});
+    ScenarioFacts& scenario = study.scenarios[0];
+    const auto met = [&] {
+        return nlohmann::json::parse(json_tables(study))["scenarios"][0]["conditions"][1].contains(
+            "met_incident");
+    };
+    EXPECT_FALSE(met());
+    scenario.roads.emplace().incidents = {{"e1", 80.0, 980.0, 60.0, 0.0, true}};
+    tests::set_total(scenario.conditions[0], "emergency_met_incident", 0);
+    EXPECT_TRUE(met());
+}
+
 TEST(JsonTables, survive_names_that_are_not_utf_8) {
     const auto json = nlohmann::json::parse(json_tables(tests::study({"\xff\xfe"})));
     EXPECT_EQ(json["scenarios"].size(), 1u);

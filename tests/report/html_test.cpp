@@ -74,6 +74,11 @@ TEST(Page, marks_blocked_roads_on_the_map) {
     const std::string page = page_of(study);
     EXPECT_EQ(count_of(page, "<circle class=\"block\""), 2u);  // One on the map, one in its legend.
     EXPECT_THAT(page, HasSubstr("road blocked for a while"));
+    EXPECT_THAT(page, Not(HasSubstr("No EV met the block")));
+    roads.incidents[0].is_closed = true;
+    tests::set_total(study.scenarios[0].conditions[0], "emergency_met_incident", 0);
+    EXPECT_THAT(page_of(study),
+                HasSubstr("<h4>Those that met the incident</h4><p class=\"figure\">0</p><p>No EV met"));
 }
 
 /// Of five streets of the sample's grid, of which the first and the last are on both ways.

@@ -9,6 +9,7 @@
 namespace clearway::report {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -135,6 +136,28 @@ TEST_F(Overview, tells_those_apart_that_met_an_incident) {
     corridor().condition.policies = {"navigate"};
     EXPECT_THAT(incident_tile(scenario_, corridor(), Script::plain).meaning,
                 HasSubstr("studies/accident.toml"));
+}
+
+TEST_F(Overview, says_before_all_else_that_no_one_met_the_incident) {
+    tests::compare(corridor(), around(-7.1, 9.0), around(0.4, 1.0));
+    scenario_.roads.emplace().incidents = {{"e1", 80.0, 980.0, 60.0, 0.0, true}};
+    EXPECT_THAT(headline(), StartsWith("No effect")) << "an older folder, which does not count them";
+    tests::set_total(scenario_.conditions[0], "emergency_met_incident", 0);
+    const std::string unmet =
+        "No EV met the block (0 of 60 in the baseline): these runs say nothing about it.";
+    EXPECT_THAT(headline(), StartsWith(unmet + " No effect of corridor"));
+    EXPECT_THAT(badge().words, AllOf(StartsWith(unmet), Not(HasSubstr("would show"))));
+    const Tile tile = incident_tile(scenario_, corridor(), Script::plain);
+    EXPECT_EQ(tile.figure, "0");
+    EXPECT_EQ(tile.meaning, unmet);
+    scenario_.roads->calls = {{"e1", 90.0, 1}};
+    EXPECT_THAT(headline(), StartsWith("No effect")) << "they are called to it";
+    scenario_.roads->calls.clear();
+    scenario_.roads->incidents[0].is_closed = false;
+    EXPECT_THAT(headline(), StartsWith("No effect")) << "they may pass";
+    scenario_.roads->incidents[0].is_closed = true;
+    tests::set_total(scenario_.conditions[0], "emergency_met_incident", 1);
+    EXPECT_THAT(headline(), StartsWith("No effect"));
 }
 
 TEST_F(Overview, names_the_roads_that_are_blocked) {

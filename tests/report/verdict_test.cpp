@@ -66,6 +66,15 @@ TEST(Verdict, says_first_whom_an_incident_cut_off) {
                 StartsWith("3 EVs cut off by an incident; helped: "));
 }
 
+TEST(Verdict, says_first_that_no_one_met_an_incident) {
+    ScenarioFacts scenario = tests::scenario("merge");
+    scenario.roads.emplace().incidents = {{"e1", 80.0, 980.0, 60.0, 0.0, true}};
+    tests::set_total(scenario.conditions[0], "emergency_met_incident", 0);
+    EXPECT_THAT(
+        verdict(scenario, scenario.conditions[1], Script::plain).text(),
+        StartsWith("no EV met the block (0 of 60 in the baseline), of which nothing is shown; helped: "));
+}
+
 TEST(Verdict, tells_who_met_an_incident_and_what_wrong_units_and_ways_cost) {
     ScenarioFacts scenario = tests::scenario("merge");
     const auto text = [&] { return verdict(scenario, scenario.conditions[1], Script::plain).text(); };

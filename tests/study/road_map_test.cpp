@@ -74,8 +74,11 @@ TEST_F(RoadMap, NamesRoadsThatAreBlocked) {
     scenario::Incident& incident = config.incidents.emplace_back();
     incident.edge = "east";
     incident.from_s = 60.0;
-    EXPECT_EQ(map(config).at("incidents"),
-              json::parse(R"([{"edge": "east", "from_s": 60.0, "to_s": 900.0}])"));
+    EXPECT_EQ(
+        map(config).at("incidents"),
+        json::parse(R"([{"edge": "east", "from_s": 60.0, "to_s": 900.0, "closed_to_emergency": true}])"));
+    incident.emergency_passes = 1;
+    EXPECT_FALSE(map(config).at("incidents").at(0).at("closed_to_emergency").get<bool>());
     EXPECT_TRUE(map().at("incidents").empty());
 }
 

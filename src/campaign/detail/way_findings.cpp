@@ -1,7 +1,11 @@
 #include "campaign/detail/way_findings.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,6 +26,7 @@ namespace {
 struct Trip {
     std::string id;
     core::EdgeIndex from, to;
+    std::vector<core::EdgeIndex> way = {};  ///< As planned, with both ends.
 };
 
 /// The id is the first column, the edges are the last one.
@@ -32,9 +37,11 @@ std::vector<Trip> trips_of(const roads::Network& network, const std::string& csv
     std::getline(lines, line);
     while (std::getline(lines, line)) {
         const std::string edges = line.substr(line.rfind(',') + 1);
-        const auto from = network.find_edge(edges.substr(0, edges.find(' ')));
-        const auto to = network.find_edge(edges.substr(edges.rfind(' ') + 1));
-        if (from && to) trips.push_back({line.substr(0, line.find(',')), *from, *to});
+        std::vector<core::EdgeIndex> way;
+        std::istringstream words(edges);
+        for (std::string word; words >> word;)
+            if (const auto edge = network.find_edge(word)) way.push_back(*edge);
+        if (!way.empty()) trips.push_back({line.substr(0, line.find(',')), way.front(), way.back(), way});
     }
     return trips;
 }
@@ -94,6 +101,58 @@ Finding incident_finding(roads::RouteSearch& search, const std::vector<Trip>& tr
     return {"incidents", Grade::falls_short,
             fmt::format("{}: no way round while all last for {}", count, core::listed(cut_off)),
             "another edge, other lanes, or emergency_passes = 1; else these EVs wait until it is over"};
+}
+
+/// Of those who are called to an edge, none passes it.
+bool passes(const Trip& trip, core::EdgeIndex edge) {
+    const bool is_called = trip.id.starts_with(scenario::called_prefix);
+    return std::ranges::find(trip.way, edge) != trip.way.end() && !(is_called && edge == trip.to);
+}
+
+/// The edges in the middle third of a trip's length where a queue has room before a block in their middle.
+std::vector<core::EdgeIndex> middle_of(const Trip& trip, const roads::Network& network) {
+    constexpr float least_length_m = 30.0F;  // docs/guides/accident.md: 15 m before the block
+    float length_m = 0.0F;
+    for (const core::EdgeIndex edge : trip.way)
+        length_m += network.edge(edge).length_m;
+    std::vector<core::EdgeIndex> middle;
+    float driven_m = 0.0F;
+    for (const core::EdgeIndex edge : trip.way) {
+        const float edge_m = network.edge(edge).length_m;
+        const float at_m = driven_m + edge_m / 2.0F;
+        driven_m += edge_m;
+        const bool is_inside = at_m >= length_m / 3.0F && at_m <= length_m * 2.0F / 3.0F;
+        const bool is_end = edge == trip.from || edge == trip.to;
+        if (is_inside && !is_end && edge_m >= least_length_m) middle.push_back(edge);
+    }
+    return middle;
+}
+
+/// Up to three roads by how many trips with a way round pass them near their middles.
+std::vector<std::string> often_passed(const std::vector<Trip>& trips, const roads::Network& network) {
+    roads::RouteSearch search(network, roads::Driver::emergency);
+    std::map<core::EdgeIndex, std::size_t> counts;
+    std::vector<core::EdgeIndex> way;
+    for (const Trip& trip : trips) {
+        for (const core::EdgeIndex edge : middle_of(trip, network)) {
+            const auto open_s = [&](core::EdgeIndex one, double) {
+                return one == edge ? roads::no_way_s : search.free_s(one);
+            };
+            if (search.search({trip.from, trip.to}, open_s, way) != roads::no_way_s) ++counts[edge];
+        }
+    }
+    std::vector<std::pair<core::EdgeIndex, std::size_t>> edges(counts.begin(), counts.end());
+    std::ranges::stable_sort(edges, std::greater{}, &std::pair<core::EdgeIndex, std::size_t>::second);
+    constexpr std::size_t most_named = 3;
+    std::vector<std::string> words;
+    std::set<std::string> streets;
+    for (const auto& [index, count] : edges) {
+        const roads::Edge& edge = network.edge(index);
+        if (words.size() == most_named) break;
+        if (!edge.name.empty() && !streets.insert(edge.name).second) continue;
+        words.push_back(fmt::format("{}, {}", road_words(edge), core::counted(count, "trip")));
+    }
+    return words;
 }
 
 /// How often the station that is nearest in a straight line is not the one that is there first at free flow.
@@ -186,6 +245,27 @@ std::vector<Finding> way_findings(const scenario::ScenarioConfig& config, const 
     findings.push_back(incident_finding(search, trips, incidents, network));
     findings.push_back(teleport_finding(config, incidents));
     return findings;
+}
+
+Finding passing_finding(const scenario::ScenarioConfig& config, const roads::Network& network,
+                        const std::string& emergency_csv, std::size_t replications) {
+    constexpr double few = 0.1;  // Assumed: of ten trips, one tells little of a block.
+    const std::vector<Trip> trips = trips_of(network, emergency_csv);
+    const std::vector<scenario::PlacedIncident> incidents = scenario::place_incidents(config, network);
+    const auto passing = static_cast<std::size_t>(std::ranges::count_if(trips, [&](const Trip& trip) {
+        return std::ranges::any_of(incidents,
+                                   [&](const auto& incident) { return passes(trip, incident.closed.edge); });
+    }));
+    const std::string text =
+        fmt::format("{} of {} of {} {} a blocked road", passing, core::counted(trips.size(), "EV trip"),
+                    core::counted(replications, "seed"), trips.size() == 1 ? "passes" : "pass");
+    if (static_cast<double>(passing) >= few * static_cast<double>(trips.size()) && passing > 0)
+        return {"met", Grade::ok, text};
+    const std::vector<std::string> roads = often_passed(trips, network);
+    return {"met", Grade::note, text,
+            roads.empty()
+                ? "no road in the middle of an EV trip has a way round"
+                : fmt::format("most pass, near their middles, with a way round: {}", fmt::join(roads, "; "))};
 }
 
 }  // namespace clearway::campaign::detail

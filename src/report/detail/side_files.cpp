@@ -60,6 +60,7 @@ MapIncident incident_from(const json& row) {
                          row.at("to_s").get<double>()};
     if (row.contains("known_after_s")) incident.known_after_s = row["known_after_s"].get<double>();
     incident.spread_s = row.value("spread_s", 0.0);
+    incident.is_closed = row.value("closed_to_emergency", false);
     return incident;
 }
 

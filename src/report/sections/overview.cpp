@@ -35,8 +35,9 @@ void write_words(const StudyFacts& study, const ScenarioFacts& scenario, const C
         if (!note.empty()) writer.markup(fmt::format("<p class=\"note\">{}</p>\n", escaped(note)));
     writer.markup(fmt::format("<p class=\"badge {}\">{}</p>\n",
                               badge.runs == Badge::Runs::enough ? "enough" : "few", escaped(badge.words)));
-    const std::string incident =
-        condition.met_incident.vehicles > 0 ? tile_markup(incident_tile(scenario, condition, script)) : "";
+    const bool has_block =
+        condition.met_incident.vehicles > 0 || !unmet_incident_sentence(scenario, condition).empty();
+    const std::string incident = has_block ? tile_markup(incident_tile(scenario, condition, script)) : "";
     writer.markup("<div class=\"tiles\">\n" + tile_markup(emergency_tile(scenario, condition, script)) +
                   incident + tile_markup(others_tile(scenario, condition, script)) +
                   tile_markup(safety_tile(scenario, condition, script)) + "</div>\n");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/json.hpp"
+#include "roads/closure.hpp"
 
 namespace clearway::study::detail {
 namespace {
@@ -90,7 +91,8 @@ core::Json incidents_json(const roads::Network& network, const scenario::Scenari
         const traffic::Incident& incident = placed.closed;
         core::Json row = {{"edge", network.edge(incident.edge).id},
                           {"from_s", tenths(incident.from.value)},
-                          {"to_s", tenths(incident.to.value)}};
+                          {"to_s", tenths(incident.to.value)},
+                          {"closed_to_emergency", roads::closes_to_emergency(network, incident)}};
         if (incident.known_after) row["known_after_s"] = tenths(incident.known_after->value);
         if (config.time.events_spread_s) row["spread_s"] = *config.time.events_spread_s;
         incidents.push_back(std::move(row));
