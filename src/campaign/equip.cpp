@@ -200,6 +200,7 @@ report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipReq
     facts.command = request.run.command;
     facts.seed = config.seed;
     facts.replications = config.replications;
+    facts.step_length_s = config.scenarios.front().time.step_length_s;
     facts.budget = request.budget;
     facts.signals = signals.built.network.signals().size();
     facts.met = signals.candidates.met;

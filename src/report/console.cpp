@@ -337,7 +337,7 @@ void append_measures(const ScenarioFacts& scenario, Tables tables, std::string& 
 
 void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& text) {
     append_head(scenario, text);
-    append_wrapped(coarse_step_sentence(scenario), text);
+    append_wrapped(coarse_step_sentence(scenario.step_length_s), text);
     append_wrapped(incidents_sentence(scenario, Script::plain), text);
     append_runs(scenario, text);
     if (const std::string caption = published_caption(scenario); !caption.empty()) {

@@ -12,6 +12,7 @@
 #include "report/detail/json.hpp"
 #include "report/detail/side_files.hpp"
 #include "report/text.hpp"
+#include "report/verdict.hpp"
 
 namespace clearway::report {
 namespace {
@@ -381,6 +382,8 @@ std::string equipment_text(const EquipmentFacts& facts) {
         paragraph({fmt::format("{}: which signals to equip first, {}, {}", printable(facts.title),
                                facts.condition, counted(facts.replications, "replication"))}) +
         paragraph({facts.met.words()});
+    if (const std::string coarse = coarse_step_sentence(facts.step_length_s); !coarse.empty())
+        text += paragraph({coarse});
     if (!facts.candidates.empty())
         text += "\n" + detail::text_of(detail::candidate_sheet(facts)) +
                 paragraph({detail::candidate_legend(facts)});
@@ -401,6 +404,7 @@ std::string equipment_json(const EquipmentFacts& facts) {
                        {"seed", facts.seed},
                        {"fresh_seed", facts.fresh_seed},
                        {"replications", facts.replications},
+                       {"step_length_s", facts.step_length_s},
                        {"share_of_trips_with_signals", detail::json_of(facts.met.share())},
                        {"signals_per_trip", detail::json_of(facts.met.mean())},
                        {"budget", facts.budget},

@@ -73,6 +73,7 @@ struct EquipmentFacts {
     std::uint64_t seed = 0;        ///< Of the runs that decide.
     std::uint64_t fresh_seed = 0;  ///< Of those that estimate.
     std::uint32_t replications = 0;
+    double step_length_s = 0.0;  ///< Of the simulation.
     std::size_t budget = 0;
     SignalsMet met = {};
     std::size_t signals = 0;     ///< Of the network.

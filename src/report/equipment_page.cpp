@@ -211,7 +211,8 @@ void write_equipment_page(const EquipmentFacts& facts, std::ostream& page) {
     using detail::to_html;
     const std::vector<std::string> findings = detail::findings_of(facts);
     const std::string answer =
-        paragraphs({findings.front()}, "headline") + paragraphs({findings.begin() + 1, findings.end()}, "") +
+        paragraphs({findings.front()}, "headline") + detail::coarse_step_note(facts.step_length_s) +
+        paragraphs({findings.begin() + 1, findings.end()}, "") +
         figures({detail::equipment_map_figure(facts), detail::curve_figure(facts)}) +
         to_html(detail::data_table_of(detail::ranked_sheet(facts, detail::LastRow::all))) +
         note(detail::ranked_legend(facts));

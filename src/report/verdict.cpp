@@ -349,12 +349,12 @@ std::string unmet_incident_sentence(const ScenarioFacts& scenario, const Conditi
     return fmt::format("No EV met the block ({}): these runs say nothing about it.", words);
 }
 
-std::string coarse_step_sentence(const ScenarioFacts& scenario) {
-    if (scenario.step_length_s <= traffic::coarsest_trusted_step_s) return "";
+std::string coarse_step_sentence(double step_length_s) {
+    if (step_length_s <= traffic::coarsest_trusted_step_s) return "";
     return fmt::format(
         "steps of {:g} s: use them only to compare with figures made with such steps. Vehicles react late, "
         "pass signals differently than at {:g} s, and some collide.",
-        scenario.step_length_s, traffic::coarsest_trusted_step_s);
+        step_length_s, traffic::coarsest_trusted_step_s);
 }
 
 std::string few_seeds_sentence(std::uint64_t fewest) {

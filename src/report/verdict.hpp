@@ -68,7 +68,7 @@ const ConditionFacts* reference_of(const StudyFacts& study, const ScenarioFacts&
 bool stands_out(const ConditionFacts& condition, const ConditionFacts& reference);
 
 /// Marks results of steps above 0.25 s; empty for others.
-std::string coarse_step_sentence(const ScenarioFacts& scenario);
+std::string coarse_step_sentence(double step_length_s);
 
 /// With fewer seeds a mean and its interval change much when seeds are added: with three, a condition closed
 /// 56 % of the gap on a map that was imported, with twelve 17 %.

@@ -345,5 +345,17 @@ TEST(Equipment, HasAPageWithAnswerMapTablesAndCommand) {
                                  Not(HasSubstr(std::string(53, '1')))));
 }
 
+TEST(Equipment, marks_coarse_steps_on_the_console_and_the_page) {
+    EquipmentFacts facts = two_of_twelve();
+    facts.step_length_s = 0.25;
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("steps of")));
+    facts.step_length_s = 1.0;
+    const std::string words = "steps of 1 s: use them only to compare";
+    EXPECT_THAT(flat_text(facts), HasSubstr(words));
+    std::ostringstream page;
+    write_equipment_page(facts, page);
+    EXPECT_THAT(page.str(), HasSubstr("<p class=\"note\">(!) " + words));
+}
+
 }  // namespace
 }  // namespace clearway::report

@@ -42,6 +42,13 @@ TEST(Page, holds_verdict_tables_figures_outcomes_and_reproduction) {
     EXPECT_THAT(page, HasSubstr(">58</td>"));
 }
 
+TEST(Page, marks_coarse_steps_on_the_first_screen_and_at_the_verdicts) {
+    StudyFacts study = tests::study({"merge"});
+    EXPECT_THAT(page_of(study), Not(HasSubstr("(!) steps of")));
+    study.scenarios[0].step_length_s = 1.0;
+    EXPECT_EQ(count_of(page_of(study), "<p class=\"note\">(!) steps of 1 s: use them only"), 2U);
+}
+
 TEST(Page, leaves_out_sections_that_have_nothing_to_show) {
     const std::string page = page_of(tests::study({"merge"}));
     EXPECT_THAT(page, Not(HasSubstr("id=\"networks\"")));

@@ -123,10 +123,10 @@ TEST(Verdict, of_no_effect_says_that_the_network_has_no_signals) {
 TEST(CoarseSteps, are_marked_above_a_quarter_of_a_second) {
     StudyFacts study = tests::study({"merge"});
     study.scenarios.front().step_length_s = 0.25;
-    EXPECT_EQ(coarse_step_sentence(study.scenarios.front()), "");
+    EXPECT_EQ(coarse_step_sentence(study.scenarios.front().step_length_s), "");
     EXPECT_THAT(console_tables(study), Not(HasSubstr("steps of")));
     study.scenarios.front().step_length_s = 1.0;
-    EXPECT_THAT(coarse_step_sentence(study.scenarios.front()),
+    EXPECT_THAT(coarse_step_sentence(study.scenarios.front().step_length_s),
                 StartsWith("steps of 1 s: use them only to compare"));
     EXPECT_THAT(console_tables(study), HasSubstr("steps of 1 s: use them only to compare"));
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/terminal.hpp"
+#include "report/verdict.hpp"
 
 namespace clearway::report::detail {
 namespace {
@@ -91,6 +92,11 @@ std::string condition_label(const ConditionFacts& condition) {
     std::string html = escaped(condition.title);
     if (condition.is_unchecked()) html += " <span class=\"unsafe\">safety checks off</span>";
     return html;
+}
+
+std::string coarse_step_note(double step_length_s) {
+    const std::string words = coarse_step_sentence(step_length_s);
+    return words.empty() ? words : fmt::format("<p class=\"note\">(!) {}</p>\n", escaped(words));
 }
 
 }  // namespace clearway::report::detail

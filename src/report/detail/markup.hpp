@@ -17,6 +17,9 @@ struct DataTable {
 };
 std::string to_html(const DataTable& table);
 
+/// `coarse_step_sentence` as a marked paragraph; empty for finer steps.
+std::string coarse_step_note(double step_length_s);
+
 /// CSS classes of tables that become lists, a line for each cell, and the width in px up to which they do.
 /// Cells of such tables carry the words of their column in `data-label`.
 struct TableWidth {

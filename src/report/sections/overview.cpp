@@ -28,6 +28,7 @@ void write_words(const StudyFacts& study, const ScenarioFacts& scenario, const C
     const Badge badge = badge_of(scenario, condition, script);
     writer.markup(fmt::format("<h3>{}{}</h3>\n<p class=\"headline\">{}</p>\n", escaped(scenario.name), title,
                               escaped(scenario_headline(scenario, condition, script))));
+    writer.markup(coarse_step_note(scenario.step_length_s));
     for (const std::string& note :
          {controls_note(scenario, condition, script), incidents_sentence(scenario, script),
           locks_sentence(scenario, condition), among_conditions(study, scenario),

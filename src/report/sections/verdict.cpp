@@ -69,8 +69,7 @@ std::string verdict_card(const StudyFacts& study, const ScenarioFacts& scenario)
     entries += fold(null_count, "without a shown effect on EVs or others", null);
     entries += fold(alike_count, "with a setting turned alone, whose finding on EVs is the same", alike);
     if (entries.empty()) entries = "<p>No condition was compared with a baseline.</p>";
-    const std::string mark = coarse_step_sentence(scenario);
-    if (!mark.empty()) entries = fmt::format("<p class=\"note\">(!) {}</p>", escaped(mark)) + entries;
+    entries = coarse_step_note(scenario.step_length_s) + entries;
     return fmt::format("<div class=\"card\"><h3>{}</h3><small>{}</small>{}</div>\n", escaped(scenario.name),
                        counted(scenario.replications, "replication"), entries);
 }
