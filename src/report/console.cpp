@@ -346,6 +346,7 @@ void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& 
     }
     append_measures(scenario, tables, text);
     text += '\n';
+    append_wrapped(printable(uneven_runs_sentence(scenario)), text);
     if (tables == Tables::all) append_censored(scenario, text);
     const std::string wide = wide_edges_sentence(scenario);
     if (tables == Tables::all && !wide.empty()) append_wrapped(wide, text);

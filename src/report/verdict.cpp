@@ -357,6 +357,27 @@ std::string coarse_step_sentence(double step_length_s) {
         step_length_s, traffic::coarsest_trusted_step_s);
 }
 
+std::string uneven_runs_sentence(const ScenarioFacts& scenario) {
+    constexpr std::size_t most_named = 3;
+    std::vector<std::string> uneven;
+    for (const ConditionFacts& condition : scenario.conditions) {
+        const ConditionFacts* const baseline = scenario.baseline_of(condition);
+        if (baseline == nullptr || baseline->complete_runs == condition.complete_runs) continue;
+        const MaybeEstimate& difference = condition.difference(primary);
+        uneven.push_back(fmt::format("{} {}, {} {}, {}", baseline->label(), baseline->complete_runs,
+                                     condition.label(), condition.complete_runs,
+                                     counted(difference ? difference->n : 0, "pair")));
+    }
+    if (uneven.empty()) return "";
+    const std::size_t unnamed = uneven.size() - std::min(uneven.size(), most_named);
+    uneven.resize(uneven.size() - unnamed);
+    if (unnamed > 0) uneven.push_back(fmt::format("and {} more", unnamed));
+    return fmt::format(
+        "Means are over the runs that there are, differences over pairs of runs with the same seed alone, so "
+        "they need not agree: {}.",
+        fmt::join(uneven, "; "));
+}
+
 std::string few_seeds_sentence(std::uint64_t fewest) {
     if (fewest < analysis::fewest_for_interval)
         return fmt::format("too few seeds: fewer than {} give no interval and no effect; see --seeds.",

@@ -70,6 +70,10 @@ bool stands_out(const ConditionFacts& condition, const ConditionFacts& reference
 /// Marks results of steps above 0.25 s; empty for others.
 std::string coarse_step_sentence(double step_length_s);
 
+/// `Means are over ...`: why differences of a scenario's tables are not those of its means, where conditions
+/// have fewer or more runs than their baseline; empty otherwise. Plain text.
+std::string uneven_runs_sentence(const ScenarioFacts& scenario);
+
 /// With fewer seeds a mean and its interval change much when seeds are added: with three, a condition closed
 /// 56 % of the gap on a map that was imported, with twelve 17 %.
 inline constexpr std::uint64_t fewest_to_trust = 10;

@@ -213,6 +213,27 @@ TEST(ConsoleTables, end_on_the_verdicts_and_keep_the_legend_for_all_tables) {
     EXPECT_THAT(console_tables(tests::study({"city"}), Tables::all), HasSubstr("diff.: mean of the"));
 }
 
+TEST(ConsoleTables, say_over_which_runs_means_and_differences_are) {
+    StudyFacts study = tests::study({"merge"});
+    const auto text = [&] {
+        std::string tables = console_tables(study, Tables::essential);
+        std::ranges::replace(tables, '\n', ' ');
+        return tables;
+    };
+    EXPECT_THAT(text(), Not(HasSubstr("Means are over the runs")));
+    ScenarioFacts& scenario = study.scenarios[0];
+    for (ConditionFacts& condition : scenario.conditions)
+        condition.complete_runs = 4;
+    scenario.conditions[1].complete_runs = 2;
+    tests::difference(scenario.conditions[1], primary)->n = 2;
+    EXPECT_EQ(
+        uneven_runs_sentence(scenario),
+        "Means are over the runs that there are, differences over pairs of runs with the same seed alone, so "
+        "they need not agree: " +
+            scenario.conditions[0].label() + " 4, " + scenario.conditions[1].label() + " 2, 2 pairs.");
+    EXPECT_THAT(text(), HasSubstr("Means are over the runs that there are"));
+}
+
 TEST(ConsoleTables, let_no_name_steer_the_terminal) {
     StudyFacts study = tests::study({"\x1b[2Jcity"});
     EXPECT_THAT(console_tables(study), Not(HasSubstr("\x1b")));

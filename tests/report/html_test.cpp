@@ -49,6 +49,13 @@ TEST(Page, marks_coarse_steps_on_the_first_screen_and_at_the_verdicts) {
     EXPECT_EQ(count_of(page_of(study), "<p class=\"note\">(!) steps of 1 s: use them only"), 2U);
 }
 
+TEST(Page, says_at_the_tables_over_which_runs_means_are) {
+    StudyFacts study = tests::study({"merge"});
+    EXPECT_THAT(page_of(study), Not(HasSubstr("Means are over the runs")));
+    --study.scenarios[0].conditions[1].complete_runs;
+    EXPECT_THAT(page_of(study), HasSubstr("<p class=\"note\">Means are over the runs that there are"));
+}
+
 TEST(Page, leaves_out_sections_that_have_nothing_to_show) {
     const std::string page = page_of(tests::study({"merge"}));
     EXPECT_THAT(page, Not(HasSubstr("id=\"networks\"")));

@@ -201,6 +201,8 @@ void tables_section(const StudyFacts& study, Writer& writer) {
     for (const ScenarioFacts& scenario : study.scenarios) {
         const std::string caption = published_caption(scenario);
         writer.heading(scenario.name);
+        if (const std::string uneven = uneven_runs_sentence(scenario); !uneven.empty())
+            writer.markup(fmt::format("<p class=\"note\">{}</p>\n", escaped(uneven)));
         writer.table(measures_of(
             scenario, published_columns, "waiting",
             caption.empty() ? scenario.name + ": waiting time and depart delay" : caption, !caption.empty()));
