@@ -155,9 +155,25 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
     return is_one ? *std::ranges::find_if(candidates, begins) : best;
 }
 
+namespace {
+
+/// `157719652#0` for `157719652`: the first part of a road that imports cut; empty if there is none.
+std::string first_part(const std::string& word, const std::vector<std::string>& candidates) {
+    const std::string* first = nullptr;
+    for (const std::string& candidate : candidates) {
+        if (!candidate.starts_with(word + "#")) continue;
+        const auto order = [](const std::string& text) { return std::pair(text.size(), text); };
+        if (first == nullptr || order(candidate) < order(*first)) first = &candidate;
+    }
+    return first == nullptr ? "" : *first;
+}
+
+}  // namespace
+
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates,
                          const std::string& otherwise) {
-    std::string near = nearest(word, candidates);
+    std::string near = first_part(word, candidates);
+    if (near.empty()) near = nearest(word, candidates);
     if (counts_runs(word)) {
         const auto same = std::ranges::find_if(candidates, counts_runs);
         near = same == candidates.end() ? "" : *same;

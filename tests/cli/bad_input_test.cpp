@@ -318,6 +318,25 @@ TEST_F(BadInputTest, a_dry_run_checks_the_roads_too) {
     EXPECT_EQ(ended.out, "");
 }
 
+TEST_F(BadInputTest, a_dry_run_refuses_the_incidents_that_a_run_refuses) {
+    write_line_scenario();
+    write("my.toml", "name = \"mine\"\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n");
+    const std::string wrong = "the network has no edge \"nowhere\"";
+    std::vector<std::string> words = {"run",   "./line", "--seeds",    "1",
+                                      "--out", "out",    "--incident", "edge=nowhere,from_s=5"};
+    const Ended real = clearway(words);
+    EXPECT_EQ(real.code, 3);
+    EXPECT_THAT(real.err, HasSubstr(wrong));
+    words.emplace_back("--dry-run");
+    const Ended dry = clearway(words);
+    EXPECT_EQ(dry.code, 3) << dry.out;
+    EXPECT_EQ(dry.err, real.err);
+    write("line/scenario.toml", read("line/scenario.toml") + "\n[[incident]]\nedge = \"nowhere\"\n");
+    const Ended study = clearway({"study", "my.toml", "--dry-run"});
+    EXPECT_EQ(study.code, 3);
+    EXPECT_THAT(study.err, HasSubstr(wrong));
+}
+
 constexpr const char* planned_study =
     "name = \"mine\"\nseed = 77\nreplications = 2\nscenarios = [\"./line\"]\n"
     "conditions = [\"baseline\", \"corridor\", \"solo\"]\n[plan]\n[[plan.comparison]]\n"

@@ -79,6 +79,12 @@ TEST(DidYouMean, NamesWhatContainsTheWordWhereNothingIsNear) {
     EXPECT_EQ(did_you_mean("tim", metrics, "no"), "no") << "three letters are in too many words";
 }
 
+TEST(DidYouMean, PrefersThePartsOfARoadThatWasCut) {
+    const std::vector<std::string> edges = {"157719692", "157719652#10", "157719652#2", "157719652#1"};
+    EXPECT_EQ(did_you_mean("157719652", edges), "Did you mean '157719652#1'?");
+    EXPECT_EQ(did_you_mean("15771965", edges), "Did you mean '157719692'?");
+}
+
 TEST(DidYouMean, KnowsThatSeedsAreReplicationsAndNeverTheSeed) {
     EXPECT_EQ(did_you_mean("seeds", {"seed", "replications"}), "Did you mean 'replications'?");
     EXPECT_EQ(did_you_mean("--replications", {"--seed", "--seeds"}), "Did you mean '--seeds'?");

@@ -10,6 +10,8 @@
 #include "experiment/settings.hpp"
 #include "roads/network.hpp"
 #include "roads/shoulder.hpp"
+#include "scenario/call.hpp"
+#include "scenario/incident.hpp"
 #include "scenario/mean_times.hpp"
 #include "scenario/network.hpp"
 #include "scenario/vehicle_types.hpp"
@@ -156,6 +158,18 @@ void check_mean_times(const std::vector<ConditionSpec>& conditions, const scenar
     }
 }
 
+namespace {
+
+/// Incidents and calls that do not fit the network.
+void check_events(const scenario::ScenarioConfig& scenario, const roads::Network& network,
+                  std::vector<core::Problem>& problems) try {
+    scenario::place_calls(scenario, network, scenario::place_incidents(scenario, network));
+} catch (const core::InputError& error) {
+    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+}
+
+}  // namespace
+
 void check_roads(const std::vector<ConditionSpec>& conditions, const scenario::ScenarioConfig& scenario,
                  std::vector<core::Problem>& problems) {
     std::optional<roads::Network> network;
@@ -166,6 +180,7 @@ void check_roads(const std::vector<ConditionSpec>& conditions, const scenario::S
         }
         return *network;
     };
+    if (!scenario.incidents.empty() || !scenario.calls.empty()) check_events(scenario, built(), problems);
     for (const ConditionSpec& condition : conditions) {
         const std::vector<std::string> pulling_over =
             experiment::policies_with(condition, traffic::Trait::shoulder);
