@@ -20,7 +20,6 @@
 #include "core/json.hpp"
 #include "core/leftovers.hpp"
 #include "core/own_output.hpp"
-#include "core/progress.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
 #include "experiment/conditions.hpp"
@@ -271,22 +270,27 @@ RunCost cost_of(const Search& search, const EquipRequest& request) {
     return cost;
 }
 
-/// ` In 15 minutes: --seeds 8 --budget 1.`, the most seeds and then places, where what is asked for takes
-/// longer; else empty. A run adds `run_s` to the time.
+/// What a first look of a quarter of an hour could be, the most seeds and then places, where what is asked
+/// for takes longer; else empty. A run adds `run_s` to the time.
 std::string short_plan(const EquipRounds& rounds, const EquipRequest& request, std::size_t candidates,
                        double run_s) {
     constexpr std::size_t minutes = 15;
-    const auto fits = [&](const EquipForecast& runs) {
-        return static_cast<double>(runs.likely()) * run_s <= 60.0 * minutes;
+    const auto seconds = [&](const EquipForecast& runs) {
+        return static_cast<double>(runs.likely()) * run_s;
     };
-    if (fits(rounds.forecast())) return "";
+    const auto fits = [&](const EquipForecast& runs) { return seconds(runs) <= 60.0 * minutes; };
+    if (candidates == 0 || fits(rounds.forecast())) return "";
     for (std::uint32_t seeds = request.replications; seeds >= analysis::fewest_for_interval; --seeds) {
         for (std::size_t budget = std::min(request.budget, candidates); budget > 0; --budget)
             if (fits(rounds.forecast(budget, seeds)))
-                return fmt::format(" In {} minutes: --seeds {} --budget {}.", minutes, seeds, budget);
+                return fmt::format(" A first look, in {} minutes: --seeds {} --budget {}.", minutes, seeds,
+                                   budget);
     }
-    return fmt::format(" {} minutes are too few to show anything of {}: try fewer, with --candidates.",
-                       minutes, report::counted(candidates, "candidate"));
+    const EquipForecast least = rounds.forecast(1, analysis::fewest_for_interval);
+    return fmt::format(
+        " The smallest plan that can show something of {} takes about {}: --seeds {} --budget 1.{}",
+        report::counted(candidates, "candidate"), clock_words(seconds(least)), analysis::fewest_for_interval,
+        candidates > 1 ? " Fewer --candidates take less." : "");
 }
 
 }  // namespace
@@ -336,14 +340,14 @@ core::ExitCode equip_dry_run(EquipRequest request) {
     };
     const auto clock = [&](std::size_t count) {
         const core::Json left_s = seconds(count);
-        return left_s.is_null() ? "-" : core::clock_text(left_s.get<double>());
+        return left_s.is_null() ? "-" : clock_words(left_s.get<double>());
     };
     Table table{"stages",
                 {{"stage", "stage"},
                  {"runs", "runs"},
                  {"most_runs", "at most"},
                  {"estimated_time_s", ""},
-                 {"", "about, h:m:s"}},
+                 {"", "about"}},
                 {}};
     const auto add = [&](const std::string& stage, std::size_t likely, std::size_t most) {
         table.rows.push_back({{stage, likely, most, seconds(likely), clock(likely)}});

@@ -10,7 +10,6 @@
 
 #include "campaign/detail/run_cost.hpp"
 #include "core/counted.hpp"
-#include "core/progress.hpp"
 #include "core/terminal.hpp"
 #include "experiment/settings.hpp"
 #include "results/store.hpp"
@@ -159,7 +158,7 @@ Printout plan_printout(const study::Plan& plan, const std::filesystem::path& fol
                     plan.units.size() == 1 ? "1 process" : fmt::format("{} processes", plan.units.size()),
                     rest.complete, folder.string());
     std::string text = "the rest: ";
-    text += rest.wall_s ? fmt::format("about {} (h:m:s)", core::clock_text(*rest.wall_s))
+    text += rest.wall_s ? fmt::format("about {}", clock_words(*rest.wall_s))
                         : "time unknown: the route files of measured demand cannot be read";
     text += fmt::format(", about {} on the disk ({})", size_text(rest.disk_bytes),
                         rest.measured ? "from runs of these scenarios here" : rough_words);

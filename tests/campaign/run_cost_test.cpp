@@ -52,5 +52,10 @@ TEST(RunCost, that_was_noted_is_used_beside_it_for_runs_in_traffic) {
     EXPECT_EQ(cost("a", TrafficModel::standard).wall_s, 1.5);
 }
 
+TEST(ClockWords, name_the_units_that_they_show) {
+    EXPECT_EQ(clock_words(298.0), "4:58 (m:s)");
+    EXPECT_EQ(clock_words(3599.7), "1:00:00 (h:m:s)");
+}
+
 }  // namespace
 }  // namespace clearway::campaign

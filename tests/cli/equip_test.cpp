@@ -1,4 +1,5 @@
 // Which signals to equip first, as a user asks for it.
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -128,18 +129,26 @@ TEST_F(EquipTest, says_before_it_runs_how_many_runs_it_makes) {
 
 TEST_F(EquipTest, says_before_it_runs_what_a_quarter_of_an_hour_would_do) {
     clearway({"scenario", "check", "./crossings"});
-    const auto plan = [&](double run_s) {
+    const auto plan = [&](double run_s, const std::string& candidates = "2") {
         auto costs = nlohmann::json::parse(read("runs/run-costs.json"));
         costs.front().front() = run_s;
         write("runs/run-costs.json", costs.dump());
-        return clearway({"equip", "./crossings", "--budget", "2", "--seeds", "8", "--dry-run", "--jobs", "1",
-                         "--out", "runs/equip"})
-            .out;
+        std::string text = clearway({"equip", "./crossings", "--budget", "2", "--seeds", "8", "--dry-run",
+                                     "--jobs", "1", "--out", "runs/equip", "--candidates", candidates})
+                               .out;
+        std::ranges::replace(text, '\n', ' ');
+        return text;
     };
-    EXPECT_THAT(plan(1.0), AllOf(HasSubstr("runs likely"), Not(HasSubstr("15 minutes"))));
+    EXPECT_THAT(plan(1.0), AllOf(HasSubstr("runs likely"), HasSubstr("(m:s)"), Not(HasSubstr("15 minutes")),
+                                 Not(HasSubstr("smallest plan"))));
     // None and each alone on 5 seeds; then baseline, none, all, alone and one rank.
-    EXPECT_THAT(plan(900.0 / 40.0), HasSubstr("In 15 minutes: --seeds 5 --budget 1."));
-    EXPECT_THAT(plan(23.0), HasSubstr("15 minutes are too few to show"));
+    EXPECT_THAT(plan(900.0 / 40.0), HasSubstr("A first look, in 15 minutes: --seeds 5 --budget 1."));
+    EXPECT_THAT(plan(23.0),
+                HasSubstr("The smallest plan that can show something of 2 candidates takes about 15:20 "
+                          "(m:s): --seeds 5 --budget 1. Fewer --candidates take less."));
+    EXPECT_THAT(plan(400.0, "1"),
+                AllOf(HasSubstr("something of 1 candidate takes about"), HasSubstr("(h:m:s): --seeds 5"),
+                      Not(HasSubstr("Fewer --candidates"))));
 }
 
 TEST_F(EquipTest, tries_only_the_signals_that_most_emergency_vehicles_pass_where_that_is_wanted) {

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/progress.hpp"
 
 namespace clearway::campaign {
 namespace {
@@ -124,6 +125,11 @@ bool holds_runs(const fs::path& folder) {
 }
 
 }  // namespace
+
+std::string clock_words(double seconds) {
+    const std::string clock = core::clock_text(seconds);
+    return clock + (std::ranges::count(clock, ':') > 1 ? " (h:m:s)" : " (m:s)");
+}
 
 RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::TrafficModel traffic_model) {
     const scenario::Demand& demand = config.demand;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/json.hpp"
@@ -21,6 +22,9 @@ struct RunCost {
 /// What is said of it.
 inline constexpr const char* rough_words =
     "rough: to a factor of three, more where traffic jams; clearway scenario check times a run";
+
+/// `4:58 (m:s)`, `1:02:03 (h:m:s)`: a time that a forecast names.
+std::string clock_words(double seconds);
 
 /// The cost of a run before any was made, accurate to a factor of about three where traffic flows: 10 us per
 /// vehicle and step for 120 s on the road plus 0.2 s (no time if measured demand cannot be read), and on the
