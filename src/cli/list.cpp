@@ -146,11 +146,32 @@ struct Arguments {
     bool with_reasons = false;
 };
 
+std::vector<Section> all_sections() {
+    return {scenarios(), conditions(), failures(),
+            parts("predictors", "Predictors (run --predictor NAME)", prediction::predictors()),
+            parts("policies", "Policies (run --policy NAME ...)", policy::policies())};
+}
+
+void print_sections(const std::vector<Section>& sections, Printing printing) {
+    printing == Printing::json ? print_json(sections) : print_text(sections);
+}
+
+/// Whether a word means a section: `policies`, or `policy` as the option has it.
+bool is_meant(const Section& section, const std::string& word) {
+    const std::string key = section.key;
+    const bool ends_in_ies = key.ends_with("ies");
+    return word == key ||
+           word == key.substr(0, key.size() - (ends_in_ies ? 3 : 1)) + (ends_in_ies ? "y" : "");
+}
+
 /// What is wrong with `clearway list WORD`.
-core::InputError unknown_list(const std::string& word, const std::vector<ReferencePage>& pages) {
+core::InputError unknown_list(const std::string& word, const std::vector<ReferencePage>& pages,
+                              const std::vector<Section>& sections) {
     std::vector<std::string> known = {"settings"};
     for (const ReferencePage& page : pages)
         known.emplace_back(page.name);
+    for (const Section& section : sections)
+        known.emplace_back(section.key);
     const std::string allowed = core::listed(known);
     if (word.empty()) return core::InputError({"list", "--markdown needs the name of a page", allowed, ""});
     return core::InputError({"list", fmt::format("`{}` cannot be listed alone", word), allowed,
@@ -175,10 +196,22 @@ void list_settings(const Arguments& arguments) {
     }
 }
 
-void list_page(const ReferencePage& page, const Arguments& arguments) {
+void refuse_second_word(const Arguments& arguments, const char* name) {
     if (arguments.words.size() > 1)
         throw core::InputError({"list", fmt::format("`{}` is one word too many", arguments.words.back()),
-                                fmt::format("list {}", page.name), ""});
+                                fmt::format("list {}", name), ""});
+}
+
+void list_section(const Section& section, const Arguments& arguments) {
+    refuse_second_word(arguments, section.key);
+    if (arguments.as_markdown)
+        throw core::InputError({"--markdown", fmt::format("has no page of {}", section.key),
+                                "list settings, columns or scenario-keys", "Leave it out"});
+    print_sections({section}, arguments.printing);
+}
+
+void list_page(const ReferencePage& page, const Arguments& arguments) {
+    refuse_second_word(arguments, page.name);
     if (arguments.as_markdown) {
         fmt::print("{}", to_markdown(page));
     } else if (arguments.printing == Printing::json) {
@@ -195,8 +228,11 @@ void list_alone(const Arguments& arguments) {
     if (word == "settings") return list_settings(arguments);
     const std::vector<ReferencePage> pages = reference_pages();
     const auto found = std::ranges::find(pages, word, &ReferencePage::name);
-    if (found == pages.end()) throw unknown_list(word, pages);
-    list_page(*found, arguments);
+    if (found != pages.end()) return list_page(*found, arguments);
+    const std::vector<Section> sections = all_sections();
+    const auto section = std::ranges::find_if(sections, [&](const auto& one) { return is_meant(one, word); });
+    if (section == sections.end()) throw unknown_list(word, pages, sections);
+    list_section(*section, arguments);
 }
 
 }  // namespace
@@ -204,10 +240,12 @@ void list_alone(const Arguments& arguments) {
 Action configure_list(App& app) {
     const auto arguments = std::make_shared<Arguments>();
     app.footer(app.get_footer() + "\n  clearway list settings preempt_signals");
-    app.add_option("what", arguments->words,
-                   "Settings of conditions, columns of tables, or keys of scenario.toml, in full")
+    app.add_option(
+           "what", arguments->words,
+           "Names of one kind, such as policies; or settings of conditions, columns of tables, or keys "
+           "of scenario.toml, in full")
         .expected(0, 2)
-        .option_text("settings [NAME]|columns|scenario-keys [the names alone]");
+        .option_text("KIND|settings [NAME]|columns|scenario-keys [the names alone]");
     add_json_option(app, arguments->printing, "the lists");
     app.add_flag("--markdown", arguments->as_markdown,
                  "Print them as the page of docs/reference has them [off]")
@@ -221,11 +259,7 @@ Action configure_list(App& app) {
             list_alone(*arguments);
             return core::ExitCode::ok;
         }
-        const std::vector<Section> sections = {
-            scenarios(), conditions(), failures(),
-            parts("predictors", "Predictors (run --predictor NAME)", prediction::predictors()),
-            parts("policies", "Policies (run --policy NAME ...)", policy::policies())};
-        arguments->printing == Printing::json ? print_json(sections) : print_text(sections);
+        print_sections(all_sections(), arguments->printing);
         return core::ExitCode::ok;
     };
 }

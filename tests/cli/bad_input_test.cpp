@@ -228,6 +228,18 @@ TEST_F(BadInputTest, settings_and_models_are_checked_before_anything_runs) {
     EXPECT_THAT(clearway({"list", "setings"}).err, HasSubstr("cannot be listed alone"));
 }
 
+TEST_F(BadInputTest, names_of_one_kind_can_be_listed_alone) {
+    const Ended policies = clearway({"list", "policies"});
+    ASSERT_EQ(policies.code, 0) << policies.err;
+    EXPECT_THAT(policies.out, AllOf(HasSubstr("preempt_signals"), Not(HasSubstr("Predictors"))));
+    EXPECT_EQ(clearway({"list", "policy"}).out, policies.out);
+    EXPECT_THAT(clearway({"list", "predictor"}).out, HasSubstr("Predictors"));
+    EXPECT_THAT(clearway({"list", "scenarios", "--json"}).out, HasSubstr("\"scenarios\""));
+    EXPECT_EQ(clearway({"list", "policies", "corridor"}).code, 3);
+    EXPECT_EQ(clearway({"list", "policies", "--markdown"}).code, 3);
+    EXPECT_THAT(clearway({"list", "polices"}).err, HasSubstr("Did you mean 'policies'?"));
+}
+
 TEST_F(BadInputTest, a_name_without_a_condition_and_options_for_several_are_refused) {
     write_line_scenario();
     const auto refused = [&](std::vector<std::string> words, const std::string& message) {
