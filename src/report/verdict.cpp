@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "experiment/settings.hpp"
 #include "report/controls.hpp"
 #include "report/locks.hpp"
 #include "traffic/step_length.hpp"
@@ -29,8 +30,10 @@ std::string difference_text(const ScenarioFacts& scenario, const ConditionFacts&
 }
 
 /// Why a condition may have no effect; empty if nothing is known.
-const char* reason_for_none(const ScenarioFacts& scenario) {
-    return scenario.roads && scenario.roads->signals.empty()
+const char* reason_for_none(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    const bool has_no_signals = scenario.roads && scenario.roads->signals.empty();
+    return has_no_signals &&
+                   !experiment::policies_with(condition.condition, traffic::Trait::asks_signals).empty()
                ? "; the network has no signals, so signal policies have no effect"
                : "";
 }
@@ -52,10 +55,11 @@ Verdict lead(const ScenarioFacts& scenario, const ConditionFacts& condition, Scr
         case Effect::worse:
             return {"harmed", amount};
         case Effect::negligible:
-            return {"no relevant effect", fmt::format("{}, where {} s would count{}", amount,
-                                                      number(least, {1, script}), reason_for_none(scenario))};
+            return {"no relevant effect",
+                    fmt::format("{}, where {} s would count{}", amount, number(least, {1, script}),
+                                reason_for_none(scenario, condition))};
         case Effect::none_shown:
-            return {"no effect shown", amount + reason_for_none(scenario)};
+            return {"no effect shown", amount + reason_for_none(scenario, condition)};
         case Effect::too_few:
             return {"no verdict", fmt::format("too few seeds, {} of at least {} ({})", difference->n,
                                               analysis::fewest_for_interval, amount)};

@@ -57,9 +57,9 @@ std::string user_among_files(const StudyConfig& config, const fs::path& file) {
 /// The manifest of a run folder, if it is one. What cannot be read is added to `unread`.
 std::optional<results::Manifest> manifest_in(const fs::path& folder, std::vector<core::Problem>& unread) {
     const fs::path file = folder / "manifest.json";
-    std::error_code error;
-    if (!fs::exists(file, error)) {
-        if (error) unread.push_back({file.string(), "cannot be read: " + error.message(), "", ""});
+    std::error_code unknown;
+    if (!fs::exists(file, unknown)) {
+        if (unknown) unread.push_back({file.string(), "cannot be read: " + unknown.message(), "", ""});
         return std::nullopt;
     }
     try {

@@ -49,6 +49,11 @@ void expect_legal_links(core::SignalIndex signal, const std::vector<std::uint16_
             << "the signal has no such link: count from 0, as the network does";
 }
 
+/// Of the test that runs.
+int failure_count() {
+    return ::testing::UnitTest::GetInstance()->current_test_info()->result()->total_part_count();
+}
+
 }  // namespace
 
 OwnScenes::OwnScenes(PolicyScenes scenes) {
@@ -100,8 +105,11 @@ void PolicyRun::act() {
     for (const traffic::Lease& lease : leases)
         note_request(lease);
     leases = delivered(leases);
+    constexpr int most_told = 3;
     for (const traffic::Lease& lease : leases) {
-        expect_legal(lease);
+        const int failures = failure_count();
+        if (illegal_ < most_told) expect_legal(lease);
+        illegal_ += failure_count() > failures ? 1 : 0;
         leases_.push_back(describe(lease));
     }
     bench_.actuator.accept(leases, bench_.now);
@@ -152,12 +160,22 @@ void PolicyRun::remove(core::VehicleKey vehicle) {
     bench_.on_road.erase(vehicle);
 }
 
+void PolicyRun::expect_own_name(const std::string& name) const {
+    const std::string own(policy_->name());
+    const policy::PolicyEntry* const entry = policy::policies().find(own);
+    EXPECT_TRUE(name == own ||
+                (entry != nullptr && std::ranges::find(entry->components, name) != entry->components.end()))
+        << "'" << name
+        << "' stands in the lease, and counts of what a policy did go by that: give LeaseWriter '" << own
+        << "', its name()";
+}
+
 void PolicyRun::expect_legal(const traffic::Lease& lease) {
     SCOPED_TRACE(describe(lease));
     EXPECT_GT(lease.expiry, bench_.now) << "it ends before it begins: add a lifetime to the belief's time";
     EXPECT_LE(lease.expiry.value, bench_.now.value + 60.0) << "renew a shorter one instead";
     EXPECT_STRNE(lease.reason, "") << "say why in a few words";
-    EXPECT_STRNE(lease.policy, "") << "set it to name()";
+    expect_own_name(lease.policy);
     if (const auto* signal = std::get_if<core::SignalIndex>(&lease.target)) {
         ASSERT_LT(signal->value, two_crossings().signals().size()) << "take a signal of the EV's approaches";
         if (const auto* hold = std::get_if<traffic::HoldGreen>(&lease.action)) {
@@ -176,7 +194,8 @@ void PolicyRun::expect_legal(const traffic::Lease& lease) {
     if (const auto* drive = std::get_if<traffic::DriveAt>(&lease.action)) {
         EXPECT_TRUE(std::isfinite(drive->speed.value)) << "look for a division by 0";
         EXPECT_GE(drive->speed.value, 0.0) << "0 stops a vehicle; none drives backwards";
-        EXPECT_LE(drive->speed.value, lane.speed_limit_mps + 1e-6) << "above the limit of its lane";
+        EXPECT_LE(drive->speed.value, lane.speed_limit_mps + 1e-6)
+            << "above the limit of its lane: View::allowed_speed is the most that it may be asked";
     }
     if (const auto* change = std::get_if<traffic::ChangeLane>(&lease.action)) {
         EXPECT_LT(change->lane_number, two_crossings().edge(lane.edge).lane_count)

@@ -72,10 +72,12 @@ class PolicyRun {
     void act();
     void note_request(const traffic::Lease& lease);
     std::vector<traffic::Lease> delivered(const std::vector<traffic::Lease>& leases) const;
+    void expect_own_name(const std::string& name) const;
     void expect_legal(const traffic::Lease& lease);
 
     std::unique_ptr<policy::Policy> policy_;
     ActuationBench& bench_;
+    int illegal_ = 0;  ///< Leases that failed the test; after a few it has said enough.
     std::vector<std::string> leases_;
     std::vector<traffic::Command> commands_;
     std::optional<double> shortest_request_s_;

@@ -114,6 +114,9 @@ TEST(Verdict, of_no_effect_says_that_the_network_has_no_signals) {
     const auto of_four = [&] { return verdict(scenario, scenario.conditions[4], Script::plain).text(); };
     EXPECT_THAT(of_four(), Not(HasSubstr("signals")));
     scenario.roads->signals.clear();
+    scenario.conditions[4].condition.policies = {"clear_lane"};
+    EXPECT_THAT(of_four(), Not(HasSubstr("signals"))) << "it asks for none";
+    scenario.conditions[4].condition.policies = {"clear_lane", "preempt_signals"};
     EXPECT_THAT(of_four(),
                 StartsWith("no effect shown: EV travel time -0.6 s [-3.4, 2.2], -1 %; the network has "
                            "no signals, so signal policies have no effect;"));
