@@ -265,7 +265,7 @@ RunCost cost_of(const Search& search, const EquipRequest& request) {
         cost =
             CostBook(folder).of(config.scenarios.front(), plan.manifest.scenarios.front().configuration_hash,
                                 request.condition.traffic_model);
-        if (cost.measured) break;
+        if (cost.basis == CostBasis::measured) break;
     }
     return cost;
 }
@@ -371,8 +371,7 @@ core::ExitCode equip_dry_run(EquipRequest request) {
             : "";
     const std::string time =
         cost.wall_s ? fmt::format("About {} with {}, warm-ups left out ({}).", clock(runs.likely()),
-                                  report::counted(processes, "worker"),
-                                  cost.measured ? "from runs of this scenario here" : rough_words)
+                                  report::counted(processes, "worker"), words(cost.basis))
                     : "Time unknown: a run of this scenario beside that folder tells.";
     const std::string few = request.budget > candidates
                                 ? fmt::format(" The budget is {}, and {} could gain.", request.budget,
@@ -388,7 +387,7 @@ core::ExitCode equip_dry_run(EquipRequest request) {
             {"runs", runs.likely()},
             {"most_runs", runs.most()},
             {"estimated_time_s", seconds(runs.likely())},
-            {"estimate_measured", cost.measured}},
+            {"estimate_measured", cost.basis == CostBasis::measured}},
            {table},
            core::wrapped(size + few + vain, 0) + "\n" + core::wrapped(time + shorter, 0) + "\n",
            core::wrapped(met.words(), 0) + "\n\n"},

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <set>
 #include <sstream>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -87,14 +89,19 @@ RouteCount traffic_routes(const std::string& xml) {
     return count;
 }
 
-/// The edges are the last column.
-RouteCount emergency_routes(const std::string& csv) {
-    RouteCount count;
+/// Calls with the edges of each, which are the last column.
+template <class Visitor>
+void for_each_emergency_route(const std::string& csv, const Visitor& visit) {
     std::istringstream lines(csv);
     std::string line;
     std::getline(lines, line);
     while (std::getline(lines, line))
-        count.add(line.substr(line.rfind(',') + 1));
+        visit(line.substr(line.rfind(',') + 1));
+}
+
+RouteCount emergency_routes(const std::string& csv) {
+    RouteCount count;
+    for_each_emergency_route(csv, [&](const std::string& edges) { count.add(edges); });
     return count;
 }
 
@@ -131,12 +138,42 @@ Finding jams_finding(const metrics::RunMetrics& run, const RoadUse& use, const C
                                         : density_advice(checked, use.factor)};
 }
 
-Finding signals_finding(const roads::Network& network) {
+/// Of the EVs' routes, those that pass a signal.
+std::size_t routes_with_signals(const roads::Network& network, const std::string& csv) {
+    std::set<std::string, std::less<>> before_signals;
+    for (const roads::Signal& signal : network.signals())
+        for (const std::vector<roads::SignalLink>& links : signal.links)
+            for (const roads::SignalLink& link : links)
+                before_signals.insert(network.edge(network.lane(link.from).edge).id);
+    std::size_t count = 0;
+    for_each_emergency_route(csv, [&](const std::string& edges) {
+        const std::size_t last = edges.rfind(' ');
+        std::istringstream passed(last == std::string::npos ? "" : edges.substr(0, last));
+        bool has_signal = false;
+        for (std::string edge; !has_signal && passed >> edge;)
+            has_signal = before_signals.contains(edge);
+        count += has_signal ? 1 : 0;
+    });
+    return count;
+}
+
+Finding signals_finding(const roads::Network& network, const std::filesystem::path& demand) {
     const std::size_t count = network.signals().size();
-    if (count > 0) return {"signals", Grade::ok, fmt::format("{} in the network", count)};
-    return {"signals", Grade::note,
+    if (count == 0)
+        return {
+            "signals", Grade::note,
             "0 in the network: signal policies have no effect here; only policies that make vehicles give "
             "way can help"};
+    const std::string csv = core::read_file(demand / "emergency.csv");
+    const std::size_t routes = emergency_routes(csv).all;
+    const std::size_t with_signals = routes_with_signals(network, csv);
+    const bool are_few = 2 * with_signals < routes;
+    return {
+        "signals", are_few ? Grade::note : Grade::ok,
+        fmt::format("{} in the network; {} of {} pass one", count, with_signals, core::counted(routes, "EV")),
+        are_few ? "studies/parts.toml with --scenario: corridor also clears lanes and holds crossing "
+                  "traffic back where there is no signal, and the study says what each part brings"
+                : ""};
 }
 
 double lane_km(const roads::Network& network) {
@@ -255,7 +292,7 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
                                      emergency_finding(record, less),
                                      routes_finding(checked.demand),
                                      jams_finding(run, use, checked),
-                                     signals_finding(checked.network)};
+                                     signals_finding(checked.network, checked.demand)};
     std::ranges::move(detail::way_findings(checked.config, checked.network,
                                            core::read_file(checked.demand / "emergency.csv")),
                       std::back_inserter(findings));
@@ -368,7 +405,7 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double a
         const results::RunTiming timing = store.read_timing(key).value_or(results::RunTiming{});
         findings.push_back({"memory", Grade::ok, fmt::format("{} MiB", timing.peak_kib / 1024)});
         const std::string& hash = plan.manifest.scenarios.front().configuration_hash;
-        note_cost(options.folder.parent_path(), hash,
+        note_cost(options.folder.parent_path(), scenario, hash,
                   CostBook(options.folder).of(scenario, hash, experiment::TrafficModel::standard));
         remove_runs(options.folder);
         if (lock_trials > 0) {

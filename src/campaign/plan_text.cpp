@@ -66,7 +66,7 @@ struct Rest {
     std::size_t complete = 0;
     std::optional<double> wall_s = 0.0;  ///< Nothing when it is unknown for a cell.
     double disk_bytes = 0.0;
-    bool measured = true;
+    CostBasis basis = CostBasis::measured;  ///< The weakest.
 };
 
 Rest rest_of(const std::vector<Cell>& cells, unsigned workers) {
@@ -78,8 +78,8 @@ Rest rest_of(const std::vector<Cell>& cells, unsigned workers) {
         if (open == 0.0) continue;
         rest.disk_bytes += open * cell.cost.disk_bytes;
         // An empty road costs little, and no check times it.
-        rest.measured = rest.measured && (cell.cost.measured || cell.condition.traffic_model ==
-                                                                    experiment::TrafficModel::free_flow);
+        if (cell.condition.traffic_model != experiment::TrafficModel::free_flow)
+            rest.basis = std::min(rest.basis, cell.cost.basis);
         if (rest.wall_s && cell.cost.wall_s) {
             *rest.wall_s += open * *cell.cost.wall_s / processes;
         } else {
@@ -142,7 +142,8 @@ Table table_of(const std::vector<Cell>& cells) {
               condition.settings, condition.model_file, condition.predictor, condition.policies,
               experiment::name(condition.safety_checks), cell.runs, cell.complete,
               fmt::format("{}, {}, {}", condition.failure, condition.predictor, policy_of(condition)),
-              core::to_json_value(cell.cost.wall_s), cell.cost.disk_bytes, cell.cost.measured}});
+              core::to_json_value(cell.cost.wall_s), cell.cost.disk_bytes,
+              cell.cost.basis == CostBasis::measured}});
     }
     return table;
 }
@@ -160,8 +161,7 @@ Printout plan_printout(const study::Plan& plan, const std::filesystem::path& fol
     std::string text = "the rest: ";
     text += rest.wall_s ? fmt::format("about {}", clock_words(*rest.wall_s))
                         : "time unknown: the route files of measured demand cannot be read";
-    text += fmt::format(", about {} on the disk ({})", size_text(rest.disk_bytes),
-                        rest.measured ? "from runs of these scenarios here" : rough_words);
+    text += fmt::format(", about {} on the disk ({})", size_text(rest.disk_bytes), words(rest.basis));
     text = "\n" + core::wrapped(head, 4) + "\n" + core::wrapped(text, 4) + "\n";
     if (plan.manifest.precision) text += core::wrapped(precision_text(*plan.manifest.precision), 4) + "\n";
     return {{{"study", plan.manifest.study},

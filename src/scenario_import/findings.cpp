@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/counted.hpp"
 #include "core/terminal.hpp"
 #include "scenario_import/import.hpp"
 
@@ -36,16 +37,23 @@ std::string filled(const std::string& lines) {
     return text;
 }
 
+/// What the signals come from, where a map has any.
+std::string map_signals_text(const Findings& findings) {
+    if (findings.map_signals == 0) return "";
+    return fmt::format(" (from {} of the map: a junction may have several)",
+                       core::counted(findings.map_signals, "node"));
+}
+
 }  // namespace
 
 std::string to_text(const Findings& findings) {
     std::string text = fmt::format(
         "{}\n  edges            {} ({} open to cars)\n  lanes for cars   {}\n  roads for cars   {:.1f} km, "
-        "{:.1f} km of lane\n  signals          {}\n  connected        {:.1f} % of the car edges reach each "
+        "{:.1f} km of lane\n  signals          {}{}\n  connected        {:.1f} % of the car edges reach each "
         "other\n  traffic drives   on the {}, {}\n",
         findings.name, findings.edges, findings.car_edges, findings.lanes, findings.road_km, findings.lane_km,
-        findings.signals, 100.0 * findings.connected_share, findings.left_hand ? "left" : "right",
-        findings.side_reason);
+        findings.signals, map_signals_text(findings), 100.0 * findings.connected_share,
+        findings.left_hand ? "left" : "right", findings.side_reason);
     if (!findings.sites.empty()) text += fmt::format("  EV sites         {}\n", counts_text(findings.sites));
     text += fmt::format("  demand           {:.0f} vehicles/h: {}\n                   {}\n",
                         findings.vehicles_per_hour, counts_text(findings.vehicles), findings.demand);
@@ -72,6 +80,7 @@ std::string to_json(const Findings& findings) {
                                    {"car_roads_km", findings.road_km},
                                    {"car_lanes_km", findings.lane_km},
                                    {"signals", findings.signals},
+                                   {"map_signals", findings.map_signals},
                                    {"connected_share", findings.connected_share},
                                    {"left_hand", findings.left_hand},
                                    {"left_hand_reason", findings.side_reason},

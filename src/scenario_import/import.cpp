@@ -24,6 +24,7 @@
 #include "scenario_import/detail/synthetic_demand.hpp"
 #include "scenario_import/osm/driving_side.hpp"
 #include "scenario_import/osm/map.hpp"
+#include "scenario_import/osm/map_signals.hpp"
 #include "scenario_import/osm/sites.hpp"
 #include "scenario_import/sumo/configuration.hpp"
 #include "scenario_import/sumo/demand.hpp"
@@ -240,6 +241,8 @@ void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
                      "a map with crossings or with such roads", "leave it out"});
     config.network.attribution = "Map data (c) OpenStreetMap contributors, ODbL 1.0";
     detail::choose_trips(import, config, network);
+    import.findings.map_signals = map.signals.size();
+    detail::account_for_signals(map.signals, network, import.left_out);
     config.emergency_sites = detail::place_sites(map.sites, network, config.trips, import.left_out);
     for (const scenario::EmergencySite& site : config.emergency_sites)
         for (const auto& [kind, name] : scenario::spellings(scenario::SiteKind{}))

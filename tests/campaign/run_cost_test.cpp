@@ -36,20 +36,45 @@ TEST(RunCost, that_was_noted_is_used_beside_it_for_runs_in_traffic) {
     const auto cost = [&](const std::string& hash, TrafficModel model) {
         return CostBook(folder.path() / "mine").of(config, hash, model);
     };
-    note_cost(folder.path(), "a", {.wall_s = 4.5, .disk_bytes = 7.0});
-    note_cost(folder.path(), "b", {.wall_s = 90.0, .disk_bytes = 8.0});
-    note_cost(folder.path(), "b", {.wall_s = 9.0, .disk_bytes = 8.0});
+    note_cost(folder.path(), config, "a", {.wall_s = 4.5, .disk_bytes = 7.0});
+    note_cost(folder.path(), config, "b", {.wall_s = 90.0, .disk_bytes = 8.0});
+    note_cost(folder.path(), config, "b", {.wall_s = 9.0, .disk_bytes = 8.0});
     EXPECT_EQ(cost("a", TrafficModel::standard).wall_s, 4.5);
     EXPECT_EQ(cost("b", TrafficModel::sublane).wall_s, 9.0);
-    EXPECT_TRUE(cost("b", TrafficModel::standard).measured);
-    EXPECT_FALSE(cost("b", TrafficModel::free_flow).measured);
-    EXPECT_FALSE(cost("c", TrafficModel::standard).measured);
+    EXPECT_EQ(cost("b", TrafficModel::standard).basis, CostBasis::measured);
+    EXPECT_EQ(cost("b", TrafficModel::free_flow).basis, CostBasis::rough);
+    EXPECT_EQ(cost("c", TrafficModel::standard).basis, CostBasis::rough);
     for (const char* const damaged : {"[", "[]", R"({"a": 3})", R"({"a": ["x", 1]})"}) {
         folder.write("run-costs.json", damaged);
-        EXPECT_FALSE(cost("a", TrafficModel::standard).measured) << damaged;
+        EXPECT_EQ(cost("a", TrafficModel::standard).basis, CostBasis::rough) << damaged;
     }
-    note_cost(folder.path(), "a", {.wall_s = 1.5, .disk_bytes = 7.0});
+    note_cost(folder.path(), config, "a", {.wall_s = 1.5, .disk_bytes = 7.0});
     EXPECT_EQ(cost("a", TrafficModel::standard).wall_s, 1.5);
+}
+
+TEST(RunCost, of_a_copy_with_other_traffic_follows_from_a_run_on_the_same_roads) {
+    const support::TemporaryFolder folder;
+    scenario::ScenarioConfig checked;
+    checked.network.file = folder.write("town.net.xml", "<net/>").string();
+    note_cost(folder.path(), checked, "checked", {.wall_s = 12.0, .disk_bytes = 7.0});
+    const double rough_s = rough_cost(checked, experiment::TrafficModel::standard).wall_s.value();
+
+    scenario::ScenarioConfig copy = checked;
+    copy.network.file = folder.write("copy.net.xml", "<net/>").string();
+    copy.demand.density *= 0.5;
+    const auto cost = [&](const scenario::ScenarioConfig& config, experiment::TrafficModel model) {
+        return CostBook(folder.path() / "mine").of(config, "other", model);
+    };
+    const RunCost found = cost(copy, experiment::TrafficModel::standard);
+    EXPECT_EQ(found.basis, CostBasis::same_roads);
+    EXPECT_NEAR(found.wall_s.value(),
+                12.0 / rough_s * rough_cost(copy, experiment::TrafficModel::standard).wall_s.value(), 1e-9);
+    EXPECT_EQ(cost(copy, experiment::TrafficModel::free_flow).basis, CostBasis::rough);
+
+    copy.network.file = folder.write("other.net.xml", "<net></net>").string();
+    EXPECT_EQ(cost(copy, experiment::TrafficModel::standard).basis, CostBasis::rough);
+    copy.network.file = (folder.path() / "missing.net.xml").string();
+    EXPECT_EQ(cost(copy, experiment::TrafficModel::standard).basis, CostBasis::rough);
 }
 
 TEST(ClockWords, name_the_units_that_they_show) {

@@ -176,6 +176,14 @@ TEST_F(CityTest, a_network_without_projection_gives_csv_alone) {
     EXPECT_EQ(clearway({"export", "trajectories", "nowhere"}).code, 3);
 }
 
+TEST_F(CityTest, check_says_how_many_emergency_vehicles_pass_a_signal) {
+    EXPECT_THAT(
+        clearway({"scenario", "check", "intersection"}).out,
+        AllOf(testing::ContainsRegex("ok +signals +1 in the network; ([0-9]+) of [0-9]+ EVs pass one"),
+              Not(HasSubstr("parts.toml"))));
+    EXPECT_THAT(clearway({"scenario", "check", "city_v2"}).out, HasSubstr("EVs pass one"));
+}
+
 TEST_F(CityTest, check_says_whether_there_are_emergency_vehicles) {
     write_line_scenario();
     const Ended fit = clearway({"scenario", "check", "line"});

@@ -121,7 +121,7 @@ TEST_F(EquipTest, says_before_it_runs_how_many_runs_it_makes) {
     const Ended text = equip({"--dry-run"});
     EXPECT_THAT(text.out, testing::StartsWith("100 % of the EVs' trips pass at least one signal; a trip"));
     EXPECT_THAT(text.out,
-                AllOf(HasSubstr("55 runs likely, 55 at most"), HasSubstr("from runs of this scenario")));
+                AllOf(HasSubstr("55 runs likely, 55 at most"), HasSubstr("from runs of these scenarios")));
     std::istringstream lines(text.out);
     for (std::string line; std::getline(lines, line);)
         EXPECT_LE(line.size(), 80U) << line;

@@ -72,6 +72,21 @@ TEST_F(MapImport, makes_a_scenario_that_loads_with_sites_signals_and_a_level) {
     }
 }
 
+TEST_F(MapImport, accounts_for_every_signal_of_the_map) {
+    std::string map = town_map();
+    const std::string between =
+        "<node id='200' version='1' lat='51.0' lon='13.001'>"
+        "<tag k='highway' v='traffic_signals'/></node>\n";
+    map.insert(map.find("<node id='100'"), between);
+    const Findings findings = run(request({write("town.osm", map)}));
+    EXPECT_EQ(findings.signals, 1U);
+    EXPECT_EQ(findings.map_signals, 2U);
+    EXPECT_THAT(findings.left_out,
+                ElementsAre(AllOf(testing::StartsWith("1 signals of the map between junctions"),
+                                  HasSubstr("(Straße 0)"))));
+    EXPECT_THAT(to_text(findings), HasSubstr("1 (from 2 nodes of the map"));
+}
+
 TEST_F(MapImport, pedestrians_bring_sidewalks_and_crossings_and_walk_at_the_signal) {
     ImportRequest asked = request({write("town.osm", town_map(13.0, 51.0, "residential"))});
     asked.pedestrians_per_hour = 60.0;

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <exception>
 #include <string_view>
+#include <utility>
 
 #include <sys/stat.h>
 
@@ -68,7 +69,8 @@ std::optional<RunCost> measured_in(const results::Store& store, const std::strin
     }
     if (count == 0) return std::nullopt;
     const auto runs = static_cast<double>(count);
-    return RunCost{.wall_s = *sum.wall_s / runs, .disk_bytes = sum.disk_bytes / runs, .measured = true};
+    return RunCost{
+        .wall_s = *sum.wall_s / runs, .disk_bytes = sum.disk_bytes / runs, .basis = CostBasis::measured};
 }
 
 /// Vehicles of a route file that depart within the window.
@@ -111,12 +113,33 @@ core::Json read_notes(const fs::path& runs) {
     return core::Json::object();
 }
 
-std::optional<RunCost> noted_cost(const core::Json& notes, const std::string& hash) {
-    const auto found = notes.find(hash);
+std::optional<std::pair<double, double>> noted_pair(const core::Json& notes, const std::string& key) {
+    const auto found = notes.find(key);
     if (found == notes.end() || !found->is_array() || found->size() != 2 || !found->front().is_number() ||
         !found->back().is_number())
         return std::nullopt;
-    return RunCost{found->front().get<double>(), found->back().get<double>(), true};
+    return std::pair(found->front().get<double>(), found->back().get<double>());
+}
+
+/// Of the network file, for what was noted of its roads; empty where there is none or it cannot be read.
+std::string roads_key(const scenario::ScenarioConfig& config) {
+    if (config.network.plain()) return "";
+    try {
+        return "roads " + core::content_hash(core::read_file(scenario::resolve(config, config.network.file)));
+    } catch (const core::Error&) {
+        return "";
+    }
+}
+
+/// The rough cost, corrected by what a run on the same roads took: noted are its time and its rough one.
+std::optional<RunCost> cost_on_same_roads(const core::Json& notes, const scenario::ScenarioConfig& config,
+                                          experiment::TrafficModel traffic_model) {
+    const auto noted = notes.empty() ? std::nullopt : noted_pair(notes, roads_key(config));
+    RunCost cost = rough_cost(config, traffic_model);
+    if (!noted || !cost.wall_s || noted->second <= 0.0) return std::nullopt;
+    *cost.wall_s *= noted->first / noted->second;
+    cost.basis = CostBasis::same_roads;
+    return cost;
 }
 
 bool holds_runs(const fs::path& folder) {
@@ -148,9 +171,25 @@ RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::TrafficMo
     return cost;
 }
 
-void note_cost(const fs::path& runs, const std::string& hash, const RunCost& cost) {
+const char* words(CostBasis basis) {
+    switch (basis) {
+        case CostBasis::measured:
+            return "from runs of these scenarios here";
+        case CostBasis::same_roads:
+            return "from a run on the same roads, by vehicles and steps";
+        case CostBasis::rough:
+            break;
+    }
+    return "rough: to a factor of three, or ten where traffic jams; clearway scenario check times a run";
+}
+
+void note_cost(const fs::path& runs, const scenario::ScenarioConfig& config, const std::string& hash,
+               const RunCost& cost) {
     core::Json notes = read_notes(runs);
     notes[hash] = {cost.wall_s.value(), cost.disk_bytes};
+    const std::string roads = roads_key(config);
+    const auto rough_s = rough_cost(config, experiment::TrafficModel::standard).wall_s;
+    if (!roads.empty() && rough_s) notes[roads] = {cost.wall_s.value(), *rough_s};
     core::write_atomically(notes_in(runs), core::to_text(notes));
 }
 
@@ -182,9 +221,10 @@ RunCost CostBook::of(const scenario::ScenarioConfig& config, const std::string& 
             // Its runs are damaged, or are being removed: whom they belong to is told, and not a neighbour.
         }
     }
-    if (traffic_model != experiment::TrafficModel::free_flow)
-        if (const auto noted = noted_cost(noted_, hash)) return *noted;
-    return rough_cost(config, traffic_model);
+    if (traffic_model == experiment::TrafficModel::free_flow) return rough_cost(config, traffic_model);
+    if (const auto noted = noted_pair(noted_, hash))
+        return {.wall_s = noted->first, .disk_bytes = noted->second, .basis = CostBasis::measured};
+    return cost_on_same_roads(noted_, config, traffic_model).value_or(rough_cost(config, traffic_model));
 }
 
 }  // namespace clearway::campaign

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,16 +13,22 @@
 
 namespace clearway::campaign {
 
+/// What an estimate rests on, the weakest first.
+enum class CostBasis : std::uint8_t {
+    rough,       ///< Vehicles and steps.
+    same_roads,  ///< A run on the same roads with other traffic, incidents or steps.
+    measured,    ///< Runs of this scenario on this disk.
+};
+
 /// What a run costs, shared warm-up excluded.
 struct RunCost {
     std::optional<double> wall_s;  ///< Nothing when it cannot be estimated.
     double disk_bytes = 0.0;
-    bool measured = false;  ///< From runs of this scenario on this disk; else rough.
+    CostBasis basis = CostBasis::rough;
 };
 
-/// What is said of it.
-inline constexpr const char* rough_words =
-    "rough: to a factor of three, more where traffic jams; clearway scenario check times a run";
+/// What is said of it, in brackets behind a time.
+const char* words(CostBasis basis);
 
 /// `4:58 (m:s)`, `1:02:03 (h:m:s)`: a time that a forecast names.
 std::string clock_words(double seconds);
@@ -32,8 +39,10 @@ std::string clock_words(double seconds);
 RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::TrafficModel traffic_model);
 
 /// Notes in a folder of run folders what a run of a scenario in traffic cost, so that forecasts of studies
-/// beside it need not guess. The run itself need not stay: its seed would count as used.
-void note_cost(const std::filesystem::path& runs, const std::string& hash, const RunCost& cost);
+/// beside it, and of others on the same roads, need not guess. The run itself need not stay: its seed would
+/// count as used.
+void note_cost(const std::filesystem::path& runs, const scenario::ScenarioConfig& config,
+               const std::string& hash, const RunCost& cost);
 
 /// Costs of runs, estimated from those in a run folder and its neighbours.
 class CostBook {
@@ -42,7 +51,8 @@ class CostBook {
     explicit CostBook(const std::filesystem::path& folder);
 
     /// Mean over the first ten runs of this scenario (by its hash in the manifest) with this traffic model.
-    /// Without such runs, what `note_cost` noted; without that, `rough_cost`.
+    /// Without such runs, what `note_cost` noted; without that, what it noted of the same network file, in
+    /// proportion to `rough_cost`; without that, `rough_cost`.
     RunCost of(const scenario::ScenarioConfig& config, const std::string& hash,
                experiment::TrafficModel traffic_model) const;
 

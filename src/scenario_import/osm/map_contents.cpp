@@ -118,6 +118,7 @@ class MapReader {
         north_sum_ += std::cos(place.longitude_deg * degree);
         latitude_sum_ += place.latitude_deg;
         nodes_[element.text("id")] = place;
+        if (tag(element, "highway") == "traffic_signals") contents_.signals.push_back(place);
         if (const auto kind = site_kind(element)) {
             contents_.sites.push_back({*kind, tag(element, "name"), place});
             known_.push_back(true);

@@ -34,6 +34,7 @@ struct MapContents {
     double car_roads_km = 0.0;   ///< Ways of the classes that cars drive on.
     double unlimited_km = 0.0;   ///< Of these, those without a limit that netconvert understands.
     std::vector<MapSite> sites;  ///< In the order of the file.
+    std::vector<roads::Coordinates> signals;  ///< Nodes with highway=traffic_signals: one or more a junction.
 };
 
 /// Reads the file of `extract_roads`. If it is not sorted, sites and road lengths are incomplete. Throws
