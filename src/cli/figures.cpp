@@ -89,7 +89,8 @@ core::ExitCode write(const Arguments& arguments) {
             {arguments.folder.string(), "is of clearway links evaluate", "a folder of run, study or equip",
              "Its tables are evaluation.tex and evaluation.csv, its figures are on links.html"});
     const bool all = arguments.formats == Formats::all;
-    const results::Manifest manifest = results::Store::open(arguments.folder).manifest();
+    const results::Store store = results::Store::open(arguments.folder);
+    const results::Manifest& manifest = store.manifest();
     const report::StudyFacts facts = report::read_facts(
         arguments.folder, arguments.least_relevant_s,
         campaign::reference_from(arguments.against, manifest.conditions, arguments.folder));
@@ -106,7 +107,13 @@ core::ExitCode write(const Arguments& arguments) {
                "are on index.html\n",
                arguments.output.string(), files.drawings.size(), all ? ", PDF and PNG" : "",
                files.tables.size(), files.typeset.size());
-    return core::ExitCode::ok;
+    const std::size_t ended = store.complete_runs().size() + store.failed_runs().size();
+    if (ended >= manifest.run_count()) return core::ExitCode::ok;
+    fmt::print(stderr,
+               "clearway: {} of {} are missing: the figures and captions are of those that are there; repeat "
+               "the command that started them to continue\n",
+               manifest.run_count() - ended, core::counted(manifest.run_count(), "run"));
+    return core::ExitCode::incomplete;
 }
 
 }  // namespace

@@ -62,6 +62,16 @@ TEST_F(FiguresTest, every_drawing_becomes_svg_pdf_and_png_and_every_table_csv_an
     EXPECT_THAT(read("new/figures/times-line.tex"), HasSubstr("\\toprule"));
 }
 
+TEST_F(FiguresTest, an_unfinished_study_is_told_as_by_report) {
+    run();
+    std::filesystem::remove_all(folder() / "study/runs/line/mine/00001");
+    const Ended ended = clearway({"export", "figures", "study", "--out", "figures", "--svg-only"});
+    EXPECT_EQ(ended.code, 5) << ended.err;
+    EXPECT_EQ(clearway({"report", "study"}).code, 5);
+    EXPECT_THAT(ended.err, HasSubstr("1 of 4 runs are missing"));
+    EXPECT_THAT(read("figures/index.html"), HasSubstr("; n = 1 pair"));
+}
+
 TEST_F(FiguresTest, an_export_replaces_the_last_one_and_nothing_else) {
     run();
     const std::vector<std::string> command = {"export", "figures", "study", "--out", "figures", "--svg-only"};

@@ -15,6 +15,7 @@ namespace clearway::report::detail {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -110,6 +111,9 @@ TEST(FigureFiles, HoldEveryFigureAndTableOfTheReport) {
     const std::string data = text_of(folder.path() / "figures" / "tradeoff-merge.csv");
     EXPECT_THAT(data,
                 HasSubstr("Graph made by simulation attributes,1,12.40,9.30,15.50,0.40,-0.80,1.60,20\n"));
+    EXPECT_THAT(text_of(folder.path() / "figures" / "replications-merge.csv"),
+                ContainsRegex("simulation attributes,20,6.0,[0-9.]*,141\n"))
+        << "the number of pairs also where an effect is shown";
     EXPECT_THAT(text_of(folder.path() / "figures" / "times-merge.tex"),
                 AllOf(HasSubstr("\\toprule"), HasSubstr("\\label{tab:times-merge}"), HasSubstr("\\num{")));
 }
@@ -180,12 +184,16 @@ TEST(FigureFiles, HaveTheGridOfFactorsWithItsIntervals) {
     add("B20", "geocast", 6.0);
     const core::TemporaryFolder folder;
     write_figures(study, folder.path());
-    EXPECT_EQ(text_of(folder.path() / "factors-emergency-grid.csv"),
-              "Condition,policy,perfect,low 95 %,high 95 %,B10,low 95 %,high 95 %,B20,low 95 %,high 95 %\n"
-              "\"merge, own\",corridor,-12.0,-13.5,-10.5,-8.0,-9.5,-6.5,-4.0,-5.5,-2.5\n"
-              "\"merge, own\",geocast,-14.0,-15.5,-12.5,,,,-6.0,-7.5,-4.5\n");
+    EXPECT_EQ(
+        text_of(folder.path() / "factors-emergency-grid.csv"),
+        "policy,perfect,perfect low 95 %,perfect high 95 %,B10,B10 low 95 %,B10 high 95 %,B20,B20 low 95 "
+        "%,B20 high 95 %\n"
+        "corridor,-12.0,-13.5,-10.5,-8.0,-9.5,-6.5,-4.0,-5.5,-2.5\n"
+        "geocast,-14.0,-15.5,-12.5,,,,-6.0,-7.5,-4.5\n")
+        << "what all rows have in common is left out";
     EXPECT_THAT(text_of(folder.path() / "factors-others-grid.tex"),
-                AllOf(HasSubstr("\\label{tab:factors-others-grid}"), HasSubstr("by failure"),
+                AllOf(HasSubstr("\\label{tab:factors-others-grid}"),
+                      HasSubstr("by failure; n = 20 pairs, 95 \\% intervals in brackets}"),
                       HasSubstr("0.5 & [\\num{0.3}, \\num{0.7}]")));
 }
 

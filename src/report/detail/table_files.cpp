@@ -178,10 +178,12 @@ std::string to_csv(const DataTable& table) {
         for (std::size_t column = 0; column < row.size(); ++column)
             wide[column] = wide[column] || interval_in(row[column]).has_value();
     }
+    const bool several = std::ranges::count(wide, true) > 1;
     std::vector<std::string> cells;
     for (std::size_t column = 0; column < table.head.size(); ++column) {
         cells.push_back(table.head[column]);
-        if (wide[column]) cells.insert(cells.end(), {"low 95 %", "high 95 %"});
+        const std::string of = several ? table.head[column] + " " : "";
+        if (wide[column]) cells.insert(cells.end(), {of + "low 95 %", of + "high 95 %"});
     }
     std::string text = line_of(cells);
     for (const auto& row : table.rows) {

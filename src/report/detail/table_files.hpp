@@ -8,7 +8,8 @@ namespace clearway::report::detail {
 
 /// A table as CSV (RFC 4180, lines end with \n), for programs: plain minus signs, no thousands separators, no
 /// signs before positive numbers, missing values empty. A column with intervals, `1.2 [0.9, 1.5]`, becomes
-/// three. The page's script writes the same bytes.
+/// three: `T`, `low 95 %` and `high 95 %`, or with several such columns `T`, `T low 95 %` and `T high 95 %`.
+/// The page's script writes the same bytes.
 std::string to_csv(const DataTable& table);
 
 /// A table as LaTeX, for the packages booktabs, graphicx and siunitx: a `table` no wider than the text, with

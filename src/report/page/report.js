@@ -56,7 +56,11 @@
     const [head, ...rows] = cellsOf(table);
     const wide = head.map((_, column) => rows.some(row => interval(row[column])));
     const quoted = text => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
-    const lines = [head.flatMap((text, column) => (wide[column] ? [text, 'low 95 %', 'high 95 %'] : [text]))];
+    const several = wide.filter(Boolean).length > 1;
+    const lines = [head.flatMap((text, column) => {
+      const of = several ? `${text} ` : '';
+      return wide[column] ? [text, `${of}low 95 %`, `${of}high 95 %`] : [text];
+    })];
     for (const row of rows) {
       lines.push(row.flatMap((text, column) => {
         if (!wide[column]) return [plain(text)];

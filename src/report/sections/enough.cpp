@@ -5,15 +5,12 @@
 #include "report/detail/axes.hpp"
 #include "report/detail/figures.hpp"
 #include "report/sections/sections.hpp"
-#include "report/verdict.hpp"
 
 namespace clearway::report::detail {
 namespace {
 
-/// A number only if no effect is shown: otherwise more replications are not needed.
 std::string replications_needed(const ConditionFacts& condition) {
-    const bool open = effect_of(condition, Measure::emergency_restricted_time) == Effect::none_shown;
-    if (!condition.precision || !open) return missing(Script::typeset);
+    if (!condition.precision) return missing(Script::typeset);
     const auto words = [](std::uint64_t needed) {
         return needed > most_replications_asked ? fmt::format("more than {}", most_replications_asked)
                                                 : grouped(needed);
@@ -66,10 +63,9 @@ Figure precision_figure(const ScenarioFacts& scenario, const Looks& looks) {
 DataTable precision_table(const ScenarioFacts& scenario) {
     const double wanted_s =
         scenario.least_relevant_s > 0.0 ? scenario.least_relevant_s : usual_least_relevant_s;
-    DataTable table{
-        {"Condition", "complete pairs", "deviation of the differences, s", "half width, s",
-         fmt::format("replications for \u00b1{} s, where no effect is shown", number(wanted_s, typeset(1)))},
-        {}};
+    DataTable table{{"Condition", "complete pairs", "deviation of the differences, s", "half width, s",
+                     fmt::format("replications for \u00b1{} s", number(wanted_s, typeset(1)))},
+                    {}};
     for (const ConditionFacts& condition : scenario.conditions) {
         if (!condition.is_compared()) continue;
         const MaybeEstimate& difference = condition.difference(Measure::emergency_restricted_time);
@@ -91,8 +87,8 @@ void enough_section(const StudyFacts& study, Writer& writer) {
     writer.markup(
         "<p>Half the width of the 95 % interval of the EV travel time difference, as replications were "
         "added. Where the curve is below the line, differences as small as the line can be detected. If an "
-        "effect is shown, n is enough from ten on, if it was chosen before; if none is, the last column "
-        "gives the number of replications needed "
+        "effect is shown, n is enough from ten on, if it was chosen before. The last column gives the number "
+        "of replications for an interval as narrow as the line "
         "(FHWA: n = (t s / e)\u00b2, at least 10).</p>\n");
     writer.figures(figures_of(study, precision_figure));
     for (const ScenarioFacts& scenario : study.scenarios)

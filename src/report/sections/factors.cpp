@@ -5,6 +5,7 @@
 #include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "report/detail/figures.hpp"
 #include "report/detail/grid.hpp"
@@ -88,13 +89,12 @@ std::string plain_name(const std::string& name) {
 }
 
 /// All that the axes of a grid do not say: scenario, condition and the levels of the other factors.
-std::string panel_of(const Made& made, const std::vector<Factor>& factors) {
-    std::string panel =
-        fmt::format("{}, {}", plain_name(made.scenario->name), plain_name(made.condition->name()));
+std::vector<std::string> off_the_axes(const Made& made, const std::vector<Factor>& factors) {
+    std::vector<std::string> parts = {plain_name(made.scenario->name), plain_name(made.condition->name())};
     for (std::size_t factor = 2; factor < factors.size(); ++factor)
-        panel +=
-            fmt::format(", {} {}", last_part(factors[factor].name), level_of(made, factors[factor].name));
-    return panel;
+        parts.push_back(
+            fmt::format("{} {}", last_part(factors[factor].name), level_of(made, factors[factor].name)));
+    return parts;
 }
 
 GridCell cell_of(const Made& made, Measure measure) {
@@ -111,11 +111,33 @@ GridCell cell_of(const Made& made, Measure measure) {
 
 using Panels = std::map<std::string, std::vector<Made>>;
 
+/// By headings of what is not the same in all of them; a single panel has the name of the scenario.
 Panels panels_of(const std::vector<Made>& made, const std::vector<Factor>& factors) {
+    const std::vector<std::string> first = off_the_axes(made.front(), factors);
+    std::vector<bool> differs(first.size(), false);
+    for (const Made& one : made) {
+        const std::vector<std::string> parts = off_the_axes(one, factors);
+        for (std::size_t part = 0; part < parts.size(); ++part)
+            differs[part] = differs[part] || parts[part] != first[part];
+    }
     Panels panels;
-    for (const Made& one : made)
-        panels[panel_of(one, factors)].push_back(one);
+    for (const Made& one : made) {
+        const std::vector<std::string> parts = off_the_axes(one, factors);
+        std::vector<std::string> heading;
+        for (std::size_t part = 0; part < parts.size(); ++part)
+            if (differs[part]) heading.push_back(parts[part]);
+        panels[heading.empty() ? first.front() : fmt::format("{}", fmt::join(heading, ", "))].push_back(one);
+    }
     return panels;
+}
+
+std::string pairs_of(const std::vector<Made>& made, Measure measure) {
+    std::vector<std::size_t> pairs;
+    for (const Made& one : made) {
+        const MaybeEstimate& difference = one.condition->difference(measure);
+        pairs.push_back(difference ? difference->n : 0);
+    }
+    return sample_text(pairs, "pair");
 }
 
 /// What a panel has at each level of the first factor, for one level of the second; null where nothing was
@@ -158,13 +180,16 @@ Table grid_table(const std::vector<Made>& made, const std::vector<Factor>& facto
                  const std::string& name) {
     const Factor down = down_of(factors);
     const bool has_down = factors.size() > 1;
-    DataTable table{{"Condition"}, {}};
+    const Panels panels = panels_of(made, factors);
+    const bool has_heading = panels.size() > 1 || !has_down;
+    DataTable table;
+    if (has_heading) table.head.emplace_back("Condition");
     if (has_down) table.head.push_back(last_part(down.name));
     table.head.insert(table.head.end(), factors[0].titles.begin(), factors[0].titles.end());
-    for (const auto& [heading, panel] : panels_of(made, factors)) {
+    for (const auto& [heading, panel] : panels) {
         for (std::size_t level = 0; level < down.levels.size(); ++level) {
             std::vector<std::string>& row = table.rows.emplace_back();
-            row.push_back(heading);
+            if (has_heading) row.push_back(heading);
             if (has_down) row.push_back(down.titles[level]);
             for (const Made* const one : row_of(panel, factors, down.levels[level]))
                 row.push_back(one == nullptr ? std::string()
@@ -172,10 +197,11 @@ Table grid_table(const std::vector<Made>& made, const std::vector<Factor>& facto
                                                                    typeset(1, Sign::always)));
         }
     }
-    return {
-        name + "-grid",
-        fmt::format("{}, by {}", labelled(measure, "difference to the baseline"), last_part(factors[0].name)),
-        table};
+    return {name + "-grid",
+            fmt::format("{}, by {}; {}, 95 % intervals in brackets",
+                        labelled(measure, "difference to the baseline"), last_part(factors[0].name),
+                        pairs_of(made, measure)),
+            table};
 }
 
 DataTable data_of(const std::vector<Made>& made, const std::vector<Factor>& factors, Measure measure) {
