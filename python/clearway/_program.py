@@ -177,6 +177,20 @@ class Told:
         return f"<{type(self).__name__}: {', '.join(sorted({one for one in dir(self) if not one.startswith('_')}))}>"
 
 
+#: An option in a message of the program; in a command, between backticks, it stays.
+_OPTION = re.compile(r"(`[^`]*`)|--([a-z][a-z-]*)")
+
+
+def in_python(error: ClearwayError, keywords: Iterable[str]) -> ClearwayError:
+    """The error of a program with the keywords of a call in place of options: ``out=`` for ``--out``."""
+    known = set(keywords)
+
+    def keyword(found: re.Match[str]) -> str:
+        name = (found[2] or "").replace("-", "_")
+        return f"{name}=" if name in known else found[0]
+    return type(error)(_OPTION.sub(keyword, str(error)), error.exit_code)
+
+
 def error_of(exit_code: int, message: str) -> ClearwayError:
     return _ERROR_OF.get(exit_code, ClearwayError)(message, exit_code)
 
@@ -238,14 +252,16 @@ def command(arguments: Iterable[str]) -> list[str]:
     return [str(programs() / "clearway"), *map(without_null, arguments)]
 
 
-def call(arguments: Sequence[str], *, progress: bool = False, accept: Sequence[int] = ()) -> tuple[int, str]:
+def call(arguments: Sequence[str], *, progress: bool | None = False, accept: Sequence[int] = ()) -> tuple[int, str]:
     """Calls ``clearway ARGUMENTS``; returns exit code and standard output.
 
-    ``progress`` passes its progress on to this process's standard error. Exit codes other than 0 that are not accepted are
+    ``progress`` passes its progress on to this process's standard error; None: if that is a terminal. Exit codes other than 0 that are not accepted are
     raised with what the program said. An interruption (Ctrl-C) ends the program, too: it closes its files and can continue. So does
     the end of this process, however it comes.
     """
     said: collections.deque[str] = collections.deque(maxlen=60)
+    if progress is None:
+        progress = sys.stderr is not None and sys.stderr.isatty()
     with subprocess.Popen([*_owned(), *command(arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           stdin=subprocess.DEVNULL, env=environment(), encoding="utf-8", errors="replace") as process:
         assert process.stdout is not None and process.stderr is not None

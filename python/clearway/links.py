@@ -50,13 +50,14 @@ def evaluate(scenarios: str | Path | Sequence[str | Path] = (), predictors: Part
              validation_seeds: int | range | None = None, seed: int | None = None, quick: bool = False, split: str | None = None,
              exits: str | None = None, against: Part | None = None, set: Mapping[str, Any] | None = None,
              models: Mapping[str, str | Path] | None = None, link_radius_m: float | None = None, automated_links: bool = False,
-             out: str | Path | None = None, jobs: int = 0, progress: bool = False, **overrides: Any) -> LinkScores:
+             out: str | Path | None = None, jobs: int = 0, progress: bool | None = None, **overrides: Any) -> LinkScores:
     """Scores predictors by their links, on seeds kept for this purpose; what is None is as ``clearway links evaluate`` has it.
 
     ``predictors`` are names of ``clearway list``, classes, ``FILE.py:Class`` or ``FILE.pt``. ``seeds`` and ``validation_seeds`` (on
     which F1 thresholds are chosen) are numbers of replications, or ``range(20, 30)``; tune settings on ``split="validation"``. A
     ``benchmark`` brings scenarios, failures and seeds of its own. ``set`` holds settings (``{"kalman.link_threshold": 0.4}``),
-    ``models`` files by predictor, ``overrides`` are those of ``clearway.run``. Runs that ``out`` holds are not repeated.
+    ``models`` files by predictor, ``overrides`` are those of ``clearway.run``. Runs that ``out`` holds are not repeated. ``progress`` is
+    that of ``clearway.run``.
     """
     _program.require_first_load("clearway.links.evaluate")
     given = dict(benchmark=benchmark, exits=exits, against=None if against is None else part_name(against), split=split, seed=seed,
@@ -72,7 +73,8 @@ def evaluate(scenarios: str | Path | Sequence[str | Path] = (), predictors: Part
     out = _files.path_of("out", out or Path("runs") / (Path(benchmark).stem if benchmark else "links"))
     try:
         _, said = _program.call([*words, "--out", str(out), "--json"], progress=progress)
-    except _program.InputError as error:
+    except _program.ClearwayError as error:
+        error = _program.in_python(error, _program.keywords_of(evaluate))
         raise _program.unknown_override("clearway.links.evaluate", error, overrides, _program.keywords_of(evaluate)) from None
     return LinkScores(out, json.loads(said))
 

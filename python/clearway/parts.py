@@ -64,7 +64,7 @@ class _Rows(Told):
         return array
 
     def __dir__(self) -> list[str]:
-        return [*self._names, *super().__dir__()]
+        return list({*self._names, *super().__dir__()})  # an array that was asked for is an attribute, too
 
     def _forget(self) -> None:
         """Lets arrays be asked for anew."""
@@ -382,6 +382,9 @@ class Observation(_Rows):
     ``x_m``, ``y_m``, ``heading_rad``, ``speed_mps``, ``lane``, ``lane_position_m``; as reported: ``last_x_m``, ``last_y_m``.
     Of observed links: ``link_left``, ``link_right`` (rows; ``edge_index`` has both ways). Of candidates: ``pair_left``,
     ``pair_right`` (rows; ``pairs`` has both), ``pair_last_seen_m``, ``pair_dead_reckoned_m``.
+
+    Predictors of Clearway may also see routes with their ends and the states of signals. Here, of routes only the dead-reckoned
+    places tell, and of signals ``network`` where they stand.
     """
 
     _names = ("key", "vehicle_class", "age_s", "known", "sensor_sigma_m", "x_m", "y_m", "heading_rad", "speed_mps", "lane",

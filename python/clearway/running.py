@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import dataclasses
-import hashlib
 import inspect
 import json
 import os
@@ -81,14 +80,15 @@ def policy_names(policy: Part | Sequence[Part]) -> list[str]:
 
 
 def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor",), seeds: int | range = 10, *, seed: int = 1,
-        out: str | Path | None = None, jobs: int = 0, record: bool = False, baseline: bool = True, progress: bool = False,
+        out: str | Path | None = None, jobs: int = 0, record: bool = False, baseline: bool = True, progress: bool | None = None,
         run_time_limit: float | None = None, memory_limit: int | None = None, **overrides: Any) -> Results:
     """Runs a scenario under conditions over paired seeds and opens the results.
 
     ``conditions`` are names of ``clearway list`` or ``Condition``; ``baseline`` adds the one that they are compared with. ``seeds``
     is the number of replications, from 0 on: 10, or ``range(10)``. ``overrides`` are those of a study file: ``variant="dense"``,
-    ``step_length_s=0.1``, ... ``out`` is the run folder; without it, one below ``runs/`` that follows from what is run. Runs that
-    are there already are not repeated; one that takes longer than ``run_time_limit``, s, or more than ``memory_limit``, MiB, is ended
+    ``step_length_s=0.1``, ... ``out`` is the run folder; without it, one below ``runs/`` that follows from what is run, code included, as
+    the command ``clearway run`` names it: edited code gets a new one. ``progress``: on standard error; None: if that is a terminal.
+    Runs that are there already are not repeated; one that takes longer than ``run_time_limit``, s, or more than ``memory_limit``, MiB, is ended
     (None: as ``clearway run``). Runs that failed are a warning, and rows of ``results.errors``.
     """
     _program.require_first_load("clearway.run")
@@ -111,22 +111,27 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
     place = _files.path_of("scenario", scenario)
     scenario_word = str(place.resolve()) if os.path.exists(place) else str(scenario)
     text = _study_text(scenario_word, place.stem, names, own, seeds, seed, overrides)
-    if out is None:
-        name = re.sub(r"[^A-Za-z0-9_-]+", "-", place.stem)
-        here = text.replace(f"{Path.cwd().resolve()}/", "")  # the same files elsewhere are the same study
-        out = Path("runs") / f"{name}-{hashlib.sha256(here.encode()).hexdigest()[:6]}"
     with tempfile.TemporaryDirectory(prefix="clearway-") as folder:
         file = Path(folder) / "study.toml"
         file.write_text(text + _titles_text(own), encoding="utf-8")  # other titles are no other study
         try:
+            if out is None:
+                out = _folder_of(file, re.sub(r"[^A-Za-z0-9_-]+", "-", place.stem))
             return study(file, out=out, jobs=jobs, record=record, progress=progress, run_time_limit=run_time_limit,
                          memory_limit=memory_limit)
         except _program.ClearwayError as error:
             # Nobody wrote that file, and it is gone: its name and lines tell nothing.
             said = re.sub(re.escape(str(file)) + r"(:\d+)*: ", "", str(error))
             of_condition = {key.name: f"conditions=[clearway.Condition(NAME, {key.name}=...)]" for key in dataclasses.fields(Condition)}
-            raise _program.unknown_override("clearway.run", type(error)(said, error.exit_code), overrides, _program.keywords_of(run),
+            error = _program.in_python(type(error)(said, error.exit_code), _program.keywords_of(run))
+            raise _program.unknown_override("clearway.run", error, overrides, _program.keywords_of(run),
                                             **of_condition) from None
+
+
+def _folder_of(study: Path, name: str) -> Path:
+    """``runs/NAME-xxxxxx``, a hash of what is run, wherever the user's files are: as ``clearway run`` names it."""
+    plan = _program.call_json(["study", str(study), "--dry-run", "--out", str(study.with_name("none"))])
+    return Path("runs") / f"{name}-{plan['study_hash'][:6]}"
 
 
 def _seed_count(seeds: Any) -> int:
@@ -143,7 +148,7 @@ def _seed_count(seeds: Any) -> int:
 
 @_program.tells_keywords("clearway.study", cure="The file says what is run, and how often")
 def study(file: str | Path, *, out: str | Path | None = None, jobs: int = 0, record: bool = False, quick: bool = False,
-          progress: bool = False, run_time_limit: float | None = None, memory_limit: int | None = None) -> Results:
+          progress: bool | None = None, run_time_limit: float | None = None, memory_limit: int | None = None) -> Results:
     """Runs a study file (docs/reference/study-file.md), or what of it is missing, and opens the results. Limits are those of ``run``."""
     _program.require_first_load("clearway.study")
     file = _files.path_of("file", file)
@@ -157,11 +162,17 @@ def study(file: str | Path, *, out: str | Path | None = None, jobs: int = 0, rec
     words += ["--quick"] if quick else []
     words += [] if run_time_limit is None else ["--run-time-limit", str(run_time_limit)]
     words += [] if memory_limit is None else ["--memory-limit", str(memory_limit)]
-    code, _ = _program.call(words, progress=progress, accept=(_program.RUNS_FAILED,))
+    try:
+        code, _ = _program.call(words, progress=progress, accept=(_program.RUNS_FAILED,))
+    except _program.ClearwayError as error:
+        raise _program.in_python(error, _STUDY_KEYWORDS) from None
     results = Results(out)
     if code == _program.RUNS_FAILED:
         warnings.warn(f"{_program.counted(results.errors.row_count, 'run')} failed; see `errors` of these results", RuntimeWarning, stacklevel=2)
     return results
+
+
+_STUDY_KEYWORDS = _program.keywords_of(study)
 
 
 def _study_name(file: Path) -> str:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "core/terminal.hpp"
 #include "experiment/settings.hpp"
 #include "results/store.hpp"
+#include "study/reuse.hpp"
 
 namespace clearway::campaign {
 namespace {
@@ -23,7 +25,8 @@ struct Cell {
     experiment::ConditionSpec condition;
     std::size_t runs = 0;
     std::size_t complete = 0;
-    RunCost cost;  ///< Of one run.
+    std::size_t reused = 0;  ///< Not complete, and taken over from another run folder.
+    RunCost cost;            ///< Of one run.
 };
 
 /// The store in `folder` if it holds this study with at most as many replications.
@@ -34,7 +37,16 @@ std::optional<results::Store> existing_store(const study::Plan& plan, const std:
     return store;
 }
 
-std::vector<Cell> cells_of(const study::Plan& plan, const std::filesystem::path& folder) {
+/// The runs that are taken over from the folder `from`; none where that is empty.
+std::set<experiment::RunKey> reused_runs(const study::Plan& plan, const std::filesystem::path& from) {
+    if (from.empty()) return {};
+    const auto runs = study::reusable_runs(plan.manifest, results::Store::open(from));
+    return {runs.begin(), runs.end()};
+}
+
+std::vector<Cell> cells_of(const study::Plan& plan, const std::filesystem::path& folder,
+                           const std::filesystem::path& from = {}) {
+    const std::set<experiment::RunKey> reused = reused_runs(plan, from);
     const std::optional<results::Store> store = existing_store(plan, folder);
     const CostBook book(folder);
     std::vector<Cell> cells;
@@ -55,7 +67,10 @@ std::vector<Cell> cells_of(const study::Plan& plan, const std::filesystem::path&
             Cell& cell = cells[rows.at({planned.unit.scenario, condition.name})];
             ++cell.runs;
             const experiment::RunKey key{planned.unit.scenario, condition.name, planned.unit.replication};
-            if (store && store->complete(key)) ++cell.complete;
+            if (store && store->complete(key))
+                ++cell.complete;
+            else if (reused.contains(key))
+                ++cell.reused;
         }
     }
     return cells;
@@ -64,6 +79,7 @@ std::vector<Cell> cells_of(const study::Plan& plan, const std::filesystem::path&
 /// What is left of a plan.
 struct Rest {
     std::size_t complete = 0;
+    std::size_t reused = 0;
     std::optional<double> wall_s = 0.0;  ///< Nothing when it is unknown for a cell.
     double disk_bytes = 0.0;
     CostBasis basis = CostBasis::measured;  ///< The weakest.
@@ -74,7 +90,8 @@ Rest rest_of(const std::vector<Cell>& cells, unsigned workers) {
     const unsigned processes = workers > 0 ? workers : std::max(1U, std::thread::hardware_concurrency());
     for (const Cell& cell : cells) {
         rest.complete += cell.complete;
-        const auto open = static_cast<double>(cell.runs - cell.complete);
+        rest.reused += cell.reused;
+        const auto open = static_cast<double>(cell.runs - cell.complete - cell.reused);
         if (open == 0.0) continue;
         rest.disk_bytes += open * cell.cost.disk_bytes;
         // An empty road costs little, and no check times it.
@@ -130,6 +147,7 @@ Table table_of(const std::vector<Cell>& cells) {
                  {"safety_checks", ""},
                  {"runs", "runs"},
                  {"complete_runs", "complete"},
+                 {"reused_runs", ""},
                  {"", "failure, predictor, policy"},
                  {"estimated_run_s", ""},
                  {"estimated_run_disk_bytes", ""},
@@ -140,7 +158,7 @@ Table table_of(const std::vector<Cell>& cells) {
         table.rows.push_back(
             {{cell.scenario, condition.name, experiment::name(condition.traffic_model), condition.failure,
               condition.settings, condition.model_file, condition.predictor, condition.policies,
-              experiment::name(condition.safety_checks), cell.runs, cell.complete,
+              experiment::name(condition.safety_checks), cell.runs, cell.complete, cell.reused,
               fmt::format("{}, {}, {}", condition.failure, condition.predictor, policy_of(condition)),
               core::to_json_value(cell.cost.wall_s), cell.cost.disk_bytes,
               cell.cost.basis == CostBasis::measured}});
@@ -150,14 +168,18 @@ Table table_of(const std::vector<Cell>& cells) {
 
 }  // namespace
 
-Printout plan_printout(const study::Plan& plan, const std::filesystem::path& folder, unsigned workers) {
-    const std::vector<Cell> cells = cells_of(plan, folder);
-    const Rest rest = rest_of(cells, workers);
+Printout plan_printout(const study::Plan& plan, const RunOptions& options) {
+    const std::filesystem::path& folder = options.folder;
+    const std::vector<Cell> cells = cells_of(plan, folder, options.reused);
+    const Rest rest = rest_of(cells, options.workers);
     const std::string head =
-        fmt::format("{}, {} in {}, {} complete in {}", core::counted(cells.size(), "cell"),
+        fmt::format("{}, {} in {}, {} complete in {}{}", core::counted(cells.size(), "cell"),
                     core::counted(plan.run_count(), "run"),
                     plan.units.size() == 1 ? "1 process" : fmt::format("{} processes", plan.units.size()),
-                    rest.complete, folder.string());
+                    rest.complete, folder.string(),
+                    options.reused.empty()
+                        ? ""
+                        : fmt::format(", {} taken over from {}", rest.reused, options.reused.string()));
     std::string text = "the rest: ";
     text += rest.wall_s ? fmt::format("about {}", clock_words(*rest.wall_s))
                         : "time unknown: the route files of measured demand cannot be read";
@@ -166,10 +188,12 @@ Printout plan_printout(const study::Plan& plan, const std::filesystem::path& fol
     if (plan.manifest.precision) text += core::wrapped(precision_text(*plan.manifest.precision), 4) + "\n";
     return {{{"study", plan.manifest.study},
              {"folder", folder.string()},
+             {"study_hash", results::study_hash(plan.manifest)},
              {"study_seed", plan.manifest.study_seed},
              {"replications", plan.manifest.replications},
              {"runs", plan.run_count()},
              {"complete_runs", rest.complete},
+             {"reused_runs", rest.reused},
              {"estimated_time_left_s", core::to_json_value(rest.wall_s)},
              {"estimated_disk_left_bytes", rest.disk_bytes}},
             {table_of(cells)},
@@ -182,7 +206,7 @@ core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, 
     study::check_roads(plan);
     study::keep_shard(plan, shard);
     results::Store::require_fits(options.folder, plan.manifest);
-    print(plan_printout(plan, options.folder, options.workers), options.publish.printing);
+    print(plan_printout(plan, options), options.publish.printing);
     return core::ExitCode::ok;
 }
 

@@ -10,9 +10,9 @@
 
 namespace clearway::campaign {
 
-/// What a plan would do, for `--dry-run`: cells, runs, those already in `folder`, and the estimated time and
-/// disk space of the rest with `workers` processes (0: one per core).
-Printout plan_printout(const study::Plan& plan, const std::filesystem::path& folder, unsigned workers);
+/// What a plan would do, for `--dry-run`: cells, runs, those already in the folder and those taken over from
+/// another, and the estimated time and disk space of the rest.
+Printout plan_printout(const study::Plan& plan, const RunOptions& options);
 /// Prints that of a shard of a study, after the checks that precede its runs.
 core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, RunOptions options);
 /// Estimated wall time of the rest of a plan with `workers` processes, s; nothing when it cannot be

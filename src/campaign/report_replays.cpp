@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "campaign/detail/replay_trips.hpp"
+#include "campaign/stored_folder.hpp"
 #include "campaign/worker_jobs.hpp"
 #include "core/counted.hpp"
 #include "core/error.hpp"
@@ -90,6 +91,7 @@ class MissingRecordings {
         const std::string name =
             fmt::format("replay-{}-{:05}-{}", key.scenario, key.replication, key.condition);
         experiment::RunJob job = stored_job(store_, key, folder);
+        job.conditions = {with_files_found(job.conditions.front(), store_.folder())};
         job.recording = experiment::StepRecording::on;
         jobs_.push_back({.label = experiment::to_text(key),
                          .job = job,

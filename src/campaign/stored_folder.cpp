@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "experiment/code_parts.hpp"
 #include "python/part_name.hpp"
 #include "results/table_reader.hpp"
 #include "results/table_writer.hpp"
@@ -27,6 +28,13 @@ void require_trust(const std::vector<experiment::ConditionSpec>& conditions, con
             check(condition, policy);
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
+}
+
+experiment::ConditionSpec with_files_found(const experiment::ConditionSpec& condition,
+                                           const std::filesystem::path& run_folder) {
+    const std::filesystem::path folder = std::filesystem::absolute(run_folder / ".").lexically_normal();
+    return experiment::located(condition, {folder.parent_path().parent_path(), folder, "."},
+                               fmt::format("{}: condition {}: ", run_folder.string(), condition.name));
 }
 
 void renew_edited_tables(const results::Store& store) {

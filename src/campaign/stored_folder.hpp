@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,11 @@ enum class CodeTrust : std::uint8_t { none, trusted };
 /// Throws core::InputError, naming each part in Python that a condition of `where` has, unless it is trusted.
 void require_trust(const std::vector<experiment::ConditionSpec>& conditions, const std::string& where,
                    CodeTrust trust);
+
+/// The condition of a run folder with the user's files where they are now (experiment::located): at their own
+/// place, beside the run folder, in it, or in the current folder. Throws core::InputError.
+experiment::ConditionSpec with_files_found(const experiment::ConditionSpec& condition,
+                                           const std::filesystem::path& run_folder);
 
 /// Writes the tables of a run folder anew where somebody edited one of them, and says so on standard error. A
 /// folder that cannot be written is left alone with a warning. Throws core::InputError for a damaged record.

@@ -139,14 +139,17 @@ Chosen chosen_runs(const VerifyRequest& request) {
     return {std::move(store), std::move(keys)};
 }
 
-/// A plan that repeats these runs from the scenarios and networks of the folder.
+/// A plan that repeats these runs from the scenarios and networks of the folder. `conditions`: those of the
+/// runs, with the files of the user where they are now.
 study::Plan plan_of(const results::Store& store, const std::vector<experiment::RunKey>& keys,
+                    const std::vector<experiment::ConditionSpec>& conditions,
                     const std::filesystem::path& out) {
     study::Plan plan;
     plan.manifest = store.manifest();
     std::map<std::string, std::size_t> unit_of;
     for (const experiment::RunKey& key : keys) {
         experiment::RunJob job = stored_job(store, key, out);
+        job.conditions = {*std::ranges::find(conditions, key.condition, &experiment::ConditionSpec::name)};
         if (std::filesystem::exists(trace::recording_file(store.folder(), key)))
             job.recording = experiment::StepRecording::on;
         const std::string name =
@@ -306,8 +309,9 @@ void require_elsewhere(const results::Store& stored, const std::string& out) {
 /// Makes runs again in `out`. The exit code tells an interruption.
 std::pair<results::Store, core::ExitCode> repeat(const results::Store& stored,
                                                  const std::vector<experiment::RunKey>& keys,
+                                                 const std::vector<experiment::ConditionSpec>& conditions,
                                                  const std::filesystem::path& out, unsigned jobs) {
-    const study::Plan plan = plan_of(stored, keys, out);
+    const study::Plan plan = plan_of(stored, keys, conditions, out);
     results::Store again = results::Store::create(out, plan.manifest);
     core::Progress progress("runs", keys.size(), core::Progress::style_for_stderr());
     WorkersOptions options;
@@ -320,12 +324,15 @@ std::pair<results::Store, core::ExitCode> repeat(const results::Store& stored,
     return {std::move(again), result.exit_code};
 }
 
+/// Those of the runs, with the files of the user where they are now.
 std::vector<experiment::ConditionSpec> conditions_of(const results::Store& store,
                                                      const std::vector<experiment::RunKey>& keys) {
     std::vector<experiment::ConditionSpec> conditions = store.manifest().conditions;
     std::erase_if(conditions, [&](const experiment::ConditionSpec& condition) {
         return std::ranges::find(keys, condition.name, &experiment::RunKey::condition) == keys.end();
     });
+    for (experiment::ConditionSpec& condition : conditions)
+        condition = with_files_found(condition, store.folder());
     return conditions;
 }
 
@@ -344,15 +351,17 @@ core::ExitCode verify_runs(const VerifyRequest& request) {
     if (request.signals) return audit(request);
     const auto [stored, keys] = chosen_runs(request);
     require_elsewhere(stored, request.out);
-    require_trust(conditions_of(stored, keys), stored.folder().string(), request.trust);
+    const std::vector<experiment::ConditionSpec> conditions = conditions_of(stored, keys);
+    require_trust(conditions, stored.folder().string(), request.trust);
     // Another version may read the same scenario in another way.
     require_same_versions(stored.manifest());
     require_unchanged(stored, keys);
     renew_edited_tables(stored);
     std::optional<core::TemporaryFolder> temporary;
     if (request.out.empty()) temporary.emplace();
-    const auto [again, code] = repeat(
-        stored, keys, temporary ? temporary->path() : std::filesystem::path(request.out), request.workers);
+    const auto [again, code] =
+        repeat(stored, keys, conditions, temporary ? temporary->path() : std::filesystem::path(request.out),
+               request.workers);
     if (is_interrupted(code)) return code;
     std::vector<Verification> verifications;
     for (const experiment::RunKey& key : keys)

@@ -65,9 +65,24 @@ struct Arguments {
     Printing printing = Printing::text;
 };
 
+/// What the replay keeps of the recorded condition, with the files of the user where they are now. What the
+/// command line names, the user has chosen.
+experiment::ConditionSpec kept_of(const trace::RecordingInfo& info, const Arguments& arguments) {
+    experiment::ConditionSpec kept = info.condition;
+    if (arguments.predictor) {
+        kept.predictor.clear();
+        kept.model_file.clear();
+    }
+    if (arguments.policies) kept.policies.clear();
+    return campaign::with_files_found(kept, campaign::run_folder_of(arguments.file));
+}
+
 /// Drops the settings of policies and predictors that the replay replaces.
-void drop_what_is_gone(const experiment::ConditionSpec& recorded, experiment::ConditionSpec& condition) {
-    if (condition.predictor != recorded.predictor) {
+void drop_what_is_gone(const experiment::ConditionSpec& recorded, const Arguments& arguments,
+                       experiment::ConditionSpec& condition) {
+    if (arguments.predictor && condition.predictor == recorded.predictor)
+        condition.model_file = recorded.model_file;
+    if (arguments.predictor && condition.predictor != recorded.predictor) {
         condition.model_file.clear();
         condition.model_hash.clear();
     }
@@ -105,12 +120,12 @@ void refuse_idle_settings(const Arguments& arguments, const experiment::Conditio
 }
 
 experiment::ConditionSpec condition_of(const trace::RecordingInfo& info, const Arguments& arguments) {
-    experiment::ConditionSpec condition = info.condition;
+    experiment::ConditionSpec condition = kept_of(info, arguments);
     if (arguments.failure) condition.failure = *arguments.failure;
     if (arguments.predictor) condition.predictor = *arguments.predictor;
     if (arguments.policies) condition.policies = *arguments.policies;
     experiment::resolve_parts(condition, {}, "--");
-    drop_what_is_gone(info.condition, condition);
+    drop_what_is_gone(info.condition, arguments, condition);
     refuse_idle_settings(arguments, condition);
     apply_settings(arguments.settings, arguments.model, condition);
     campaign::check_names({condition});
@@ -296,11 +311,7 @@ core::ExitCode replay_file(Arguments arguments) {
         throw core::InputError({"--from, --to", "work only with --csv and --view", "",
                                 "A replay needs the recording from its beginning"});
     const trace::RecordingInfo& info = recording.info();
-    // What the command line names, the user has chosen.
-    experiment::ConditionSpec kept = info.condition;
-    if (arguments.predictor) kept.predictor.clear();
-    if (arguments.policies) kept.policies.clear();
-    campaign::require_trust({kept}, arguments.file, arguments.trust);
+    campaign::require_trust({kept_of(info, arguments)}, arguments.file, arguments.trust);
     const experiment::ConditionSpec condition = condition_of(info, arguments);
     const roads::Network network = campaign::recorded_network(info, arguments.file, arguments.network);
     const trace::ReplayResult result =

@@ -75,6 +75,16 @@ std::string resolved(const std::string& word, const std::filesystem::path& folde
     return to_text(*name);
 }
 
+std::string located(const std::string& word, const std::vector<std::filesystem::path>& folders,
+                    const std::string& where) {
+    std::optional<PartName> name = part_name_from(word);
+    if (!name || name->hash.empty()) return word;
+    name->file = located_file(name->file, name->hash, folders, where, [&](const std::filesystem::path& file) {
+        return hash_of(sources_of(file, where));
+    });
+    return to_text(*name);
+}
+
 std::string short_name(std::string_view word) {
     const std::optional<PartName> name = part_name_from(word);
     if (!name) return std::string(word);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace clearway::python {
 
@@ -26,6 +27,12 @@ std::string to_text(const PartName& name);
 /// Throws core::InputError, saying `where`, for a file that is not there, and for one whose content does not
 /// have the hash that the word states.
 std::string resolved(const std::string& word, const std::filesystem::path& folder, const std::string& where);
+
+/// A resolved word with the file where it is now: its own place or, where that does not hold it, the first of
+/// `folders` with a file of this name; the content has the hash that the word states. Other words as they
+/// are. Throws core::InputError, saying `where`, when no place has it.
+std::string located(const std::string& word, const std::vector<std::filesystem::path>& folders,
+                    const std::string& where);
 
 /// What leases, folders and tables call the part: the class, or the file's stem; other words as they are.
 std::string short_name(std::string_view word);

@@ -1,7 +1,9 @@
 #include "python/sources.hpp"
 
 #include <csignal>
+#include <set>
 #include <sstream>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -45,6 +47,35 @@ std::vector<fs::path> sources_of(const fs::path& file, const std::string& where)
     for (std::string line; std::getline(lines, line);)
         files.emplace_back(line);
     return files;
+}
+
+fs::path located_file(const fs::path& file, const std::string& hash, const std::vector<fs::path>& folders,
+                      const std::string& where, const std::function<std::string(const fs::path&)>& hash_of) {
+    const std::string name = file.filename().string();
+    std::vector<fs::path> places = {file};
+    for (const fs::path& folder : folders)
+        places.push_back(fs::absolute(folder / name).lexically_normal());
+    std::vector<std::string> others;
+    std::set<std::string> searched;
+    for (const fs::path& place : places) {
+        std::error_code unknown;
+        if (!fs::is_regular_file(place, unknown)) {
+            searched.insert(place.parent_path().string());
+            continue;
+        }
+        if (hash_of(place) == hash) return place;
+        others.push_back(place.string());
+    }
+    const std::string found =
+        others.empty()
+            ? fmt::format("{} is in none of {}", name, core::listed({searched.begin(), searched.end()}))
+            : fmt::format("{} is not the file of the run: it, or a file that it imports, was changed",
+                          core::listed(others));
+    throw core::InputError(
+        {where, found, "content hash " + hash,
+         fmt::format("Copy the run's {} and the files that it imports from its folder beside "
+                     "the run folder, or into the current folder",
+                     name)});
 }
 
 std::string hash_of(const std::vector<fs::path>& files) {

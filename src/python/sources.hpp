@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,14 @@ namespace clearway::python {
 /// is imported from other folders or only while it runs (`importlib`), and files of data, are not among them.
 /// Throws core::InputError, saying `where`, when Python cannot be started.
 std::vector<std::filesystem::path> sources_of(const std::filesystem::path& file, const std::string& where);
+
+/// Where a file of the user is now: at `file` or, where that does not have the hash, in the first of
+/// `folders` that has a file of this name with it. Throws core::InputError, saying `where`, when none has: it
+/// tells which files have another content.
+std::filesystem::path located_file(const std::filesystem::path& file, const std::string& hash,
+                                   const std::vector<std::filesystem::path>& folders,
+                                   const std::string& where,
+                                   const std::function<std::string(const std::filesystem::path&)>& hash_of);
 
 /// Hash of the content of one file, or of the contents and places of several.
 std::string hash_of(const std::vector<std::filesystem::path>& files);

@@ -95,23 +95,31 @@ void check_format(const core::Json& object, const std::string& where) {
          fmt::format("{}", known.format), "Read this folder with the version of Clearway that wrote it"});
 }
 
-/// `conditions (Soft: soft.py has changed; extra is new)`, at most three of them.
+/// `conditions (old is not asked for; Soft: soft.py has changed)`, at most three of them. New ones, which a
+/// folder may take, are told only where nothing else differs.
 std::string differing_conditions(const Manifest& left, const Manifest& right) {
     constexpr std::size_t most = 3;
     std::vector<std::string> found;
-    for (const experiment::ConditionSpec& one : right.conditions) {
-        const auto same = std::ranges::find(left.conditions, one.name, &experiment::ConditionSpec::name);
-        if (same == left.conditions.end())
-            found.push_back(one.name + " is new");
-        else if (*same != one)
-            found.push_back(one.name + ": " + experiment::what_differs(*same, one));
-    }
+    std::vector<std::string> added;
+    std::vector<std::string> order;
     for (const experiment::ConditionSpec& one : left.conditions) {
         if (std::ranges::find(right.conditions, one.name, &experiment::ConditionSpec::name) ==
             right.conditions.end())
             found.push_back(one.name + " is not asked for");
+        else
+            order.push_back(one.name);
     }
-    if (found.empty()) return "order of conditions";
+    auto next = order.begin();
+    for (const experiment::ConditionSpec& one : right.conditions) {
+        const auto same = std::ranges::find(left.conditions, one.name, &experiment::ConditionSpec::name);
+        if (same == left.conditions.end())
+            added.push_back(one.name + " is new");
+        else if (*same != one)
+            found.push_back(one.name + ": " + experiment::what_differs(*same, one));
+        if (next != order.end() && *next == one.name) ++next;
+    }
+    if (found.empty() && next != order.end()) return "order of conditions";
+    if (found.empty()) found = std::move(added);
     const std::size_t more = found.size() - std::min(found.size(), most);
     found.resize(std::min(found.size(), most));
     return fmt::format("conditions ({}{})", fmt::join(found, "; "),

@@ -86,10 +86,19 @@ void require_planned(const RunRecord& record, const Manifest& manifest, const st
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }
 
+/// The wanted study without the replications and conditions by which it may extend the stored one.
+Manifest without_growth(Manifest wanted, const Manifest& stored) {
+    Manifest grown = stored;
+    grown.conditions = wanted.conditions;
+    if (continues(grown, stored)) wanted.conditions = stored.conditions;
+    wanted.replications = std::min(wanted.replications, stored.replications);
+    return wanted;
+}
+
 /// Throws core::InputError, naming what differs, if a folder's study cannot be extended to the wanted one.
 void require_continues(const Manifest& wanted, const Manifest& stored, const fs::path& folder) {
     if (continues(wanted, stored)) return;
-    const std::string differing = differences(stored, wanted);
+    const std::string differing = differences(stored, without_growth(wanted, stored));
     if (differing == "replications")
         throw core::InputError(
             {folder.string(),

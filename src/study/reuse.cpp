@@ -37,31 +37,42 @@ void require_comparable(const results::Manifest& ours, const results::Manifest& 
 
 }  // namespace
 
+std::vector<experiment::RunKey> reusable_runs(const results::Manifest& study, const results::Store& source) {
+    const results::Manifest& theirs = source.manifest();
+    const std::string from = source.folder().string();
+    require_comparable(study, theirs, from);
+    const std::set<std::string> scenarios = shared(study.scenarios, theirs.scenarios);
+    const std::set<std::string> conditions = shared(study.conditions, theirs.conditions);
+    for (const auto& [names, what] : {std::pair(&scenarios, "scenario"), std::pair(&conditions, "condition")})
+        if (names->empty())
+            throw core::InputError({from, fmt::format("has no {} of this study", what),
+                                    "the run folder of a study that shares some",
+                                    "Leave --reuse out, or name another folder"});
+    std::vector<experiment::RunKey> runs = source.complete_runs();
+    std::erase_if(runs, [&](const experiment::RunKey& key) {
+        return !scenarios.contains(key.scenario) || !conditions.contains(key.condition) ||
+               key.replication >= study.replications;
+    });
+    std::ranges::sort(runs);
+    return runs;
+}
+
 Reused reuse(const results::Store& store, const std::filesystem::path& from) {
     core::require_plain_files(from);
     const results::Store source = results::Store::open(from);
-    const results::Manifest& ours = store.manifest();
     const results::Manifest& theirs = source.manifest();
-    require_comparable(ours, theirs, from.string());
-    const std::set<std::string> scenarios = shared(ours.scenarios, theirs.scenarios);
-    const std::set<std::string> conditions = shared(ours.conditions, theirs.conditions);
-    for (const auto& [names, what] : {std::pair(&scenarios, "scenario"), std::pair(&conditions, "condition")})
-        if (names->empty())
-            throw core::InputError({from.string(), fmt::format("has no {} of this study", what),
-                                    "the run folder of a study that shares some",
-                                    "Leave --reuse out, or name another folder"});
+    const std::vector<experiment::RunKey> runs = reusable_runs(store.manifest(), source);
     Reused result;
-    for (const experiment::ConditionSpec& condition : ours.conditions) {
-        const bool named = std::ranges::find(theirs.conditions, condition.name,
-                                             &experiment::ConditionSpec::name) != theirs.conditions.end();
-        if (named && !conditions.contains(condition.name)) result.other_conditions.push_back(condition.name);
+    for (const experiment::ConditionSpec& condition : store.manifest().conditions) {
+        const auto named =
+            std::ranges::find(theirs.conditions, condition.name, &experiment::ConditionSpec::name);
+        if (named != theirs.conditions.end() && *named != condition)
+            result.other_conditions.push_back(condition.name);
     }
     const FolderLock lock(store.folder());
     std::vector<experiment::RunKey> adopted;
-    for (const experiment::RunKey& key : source.complete_runs()) {
-        const bool wanted = scenarios.contains(key.scenario) && conditions.contains(key.condition) &&
-                            key.replication < ours.replications && !store.complete(key);
-        if (!wanted) continue;
+    for (const experiment::RunKey& key : runs) {
+        if (store.complete(key)) continue;
         try {
             store.adopt(source, key);
             adopted.push_back(key);

@@ -16,6 +16,10 @@ struct Reused {
     std::vector<std::string> damaged;           ///< Whole sentences on runs that were left out.
 };
 
+/// Complete runs of `source` of which scenario and condition are the same in a study, sorted. Throws
+/// core::InputError as `reuse` does.
+std::vector<experiment::RunKey> reusable_runs(const results::Manifest& study, const results::Store& source);
+
 /// Adopts the complete runs of the run folder `from` of which scenario and condition are the same in the
 /// study of `store`; what `store` has already stays. Throws core::InputError when seed, SUMO or the build of
 /// Clearway differ, so that no run can be the same, and when no scenario or no condition is.

@@ -114,6 +114,16 @@ TEST_F(ContinuedStudyTest, a_study_with_a_changed_condition_takes_over_the_runs_
     const Ended refused = clearway({"study", "my.toml", "--out", "runs/new", "--reuse", "nowhere"});
     EXPECT_EQ(refused.code, 3) << refused.err;
     EXPECT_FALSE(std::filesystem::exists(folder() / "runs/new/manifest.json"));
+    const Ended dry =
+        clearway({"study", "my.toml", "--out", "runs/new", "--reuse", "runs/mine", "--dry-run"});
+    EXPECT_THAT(dry.out, testing::ContainsRegex("0 complete in runs/new, 2 taken over from[ \n]+runs/mine"));
+    const nlohmann::json plan = nlohmann::json::parse(
+        clearway({"study", "my.toml", "--out", "runs/new", "--reuse", "runs/mine", "--dry-run", "--json"})
+            .out);
+    const nlohmann::json alone =
+        nlohmann::json::parse(clearway({"study", "my.toml", "--out", "runs/new", "--dry-run", "--json"}).out);
+    EXPECT_EQ(plan["reused_runs"], 2);
+    EXPECT_LT(plan["estimated_time_left_s"], alone["estimated_time_left_s"]);
     const Ended ended = clearway({"study", "my.toml", "--out", "runs/new", "--reuse", "runs/mine"});
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("2 runs taken over from runs/mine; not those of mine, which differ"));
@@ -226,6 +236,11 @@ TEST_F(ContinuedStudyTest, a_condition_that_is_added_to_a_study_keeps_the_runs_o
     EXPECT_THAT(clearway({"verify", "runs/mine", "--all"}).out, HasSubstr("6 verified: 6 same"));
     write("my.toml", study(""));
     EXPECT_THAT(clearway({"study", "my.toml"}).err, HasSubstr("graph_simulation is not asked for"));
+    write("my.toml", study("\"b10_no_repair\", \"b10_dead_reckoning\", \"solo\", "));
+    EXPECT_THAT(clearway({"study", "my.toml"}).err,
+                HasSubstr("different conditions (graph_simulation is not asked for)"));
+    write("my.toml", "seed = 2\n" + study("\"graph_simulation\", \"b10_no_repair\", "));
+    EXPECT_THAT(clearway({"study", "my.toml"}).err, HasSubstr("holds another study: different seed. Choose"));
 }
 
 TEST_F(ContinuedStudyTest, a_dry_run_refuses_the_folder_that_the_study_would_refuse) {

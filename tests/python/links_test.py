@@ -1,10 +1,12 @@
 """``clearway.links.evaluate`` measures what ``clearway links evaluate`` prints."""
+import io
 import json
 import unittest
+from unittest import mock
 
 import clearway
 import numpy as np
-from support import FolderCase, SOURCE, program
+from support import FolderCase, SOURCE, Terminal, program
 
 DISTANCE = str(SOURCE / "examples" / "python" / "distance_predictor.py:ByDistance")
 #: Time is no result.
@@ -18,6 +20,11 @@ class LinksTest(FolderCase):
         printed = json.loads(program("links", "evaluate", "intersection", "--predictor", DISTANCE, "last_seen", "dead_reckoning", "--failure",
                                      "B10", "--exits", "known", "--seeds", "1", "--validation-seeds", "1", "--against", "last_seen", "--out",
                                      "here", "--json"))
+        for stream, shown in ((Terminal(), True), (io.StringIO(), False)):
+            with mock.patch("sys.stderr", stream):
+                clearway.links.evaluate("intersection", [DISTANCE, "last_seen", "dead_reckoning"], failures="B10", exits="known", seeds=1,
+                                        validation_seeds=range(1000, 1001), against="last_seen", out="here")
+            self.assertEqual("links.html" in stream.getvalue(), shown, stream.getvalue())
         self.assertEqual(scores.results["predictor"].tolist(), ["ByDistance", "last_seen", "dead_reckoning"])
         for row, told in enumerate(printed["results"]):
             for name, value in told.items():

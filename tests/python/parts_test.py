@@ -142,6 +142,49 @@ class EqualPartsTest(FolderCase):
         folder = next(manifest.parent for manifest in Path("runs").glob("intersection-*/manifest.json"))
         program("verify", str(folder), "--sample", "1", "--trust-code")
 
+    def test_an_edited_class_gets_a_new_folder_named_as_on_the_command_line(self) -> None:
+        self.write("mine.py", PREEMPT)
+        before = clearway.run("intersection", [clearway.Condition("own", policy="mine.py:Preempt")], seeds=1)
+        self.write("mine.py", PREEMPT.replace("> 8.0", "> 9.0"))
+        after = clearway.run("intersection", [clearway.Condition("own", policy="mine.py:Preempt")], seeds=1)
+        self.assertNotEqual(before.folder, after.folder)
+        program("run", "intersection", "--policy", "mine.py:Preempt", "--name", "own", "--seeds", "1", "--no-solo")
+        self.assertEqual(set(Path("runs").glob("intersection-*")), {before.folder, after.folder})
+        said = self.message_of(clearway.InputError, lambda: clearway.run(
+            "intersection", [clearway.Condition("own", policy="mine.py:Preempt")], seeds=1, out=before.folder))
+        self.assertIn("own: mine.py has changed", said)
+        self.assertIn("Choose another folder with out=, or", said)
+        self.assertIn("`clearway study FILE --out NEW --reuse", said)
+
+    def test_runs_are_verified_where_folder_and_code_were_copied_to(self) -> None:
+        Path("theirs").mkdir()
+        self.write("theirs/helper.py", "LEAST_S = 8.0\n")
+        self.write("theirs/mine.py", "from helper import LEAST_S\n" + PREEMPT.replace("> 8.0", "> LEAST_S"))
+        os.chdir("theirs")
+        program("run", "intersection", "--policy", "mine.py:Preempt", "--seeds", "1", "--no-solo", "--record", "--out", "out")
+        os.chdir(self.folder)
+        Path("theirs").rename("ours")
+        for folder, here in (("ours/out", "."), ("out", "ours")):  # beside the run folder, by either name
+            os.chdir(self.folder / here)
+            program("verify", f"{folder}/intersection/Preempt/0", "--trust-code")
+            program("replay", f"{folder}/intersection/Preempt/0", "--trust-code")
+        os.chdir(self.folder)
+        Path("runs").mkdir()
+        Path("ours/out").rename("runs/out")
+        words = [str(PROGRAMS / "clearway"), "verify", "runs/out/intersection/Preempt/0", "--trust-code"]
+        missing = subprocess.run(words, capture_output=True, text=True, check=False)
+        self.assertEqual(missing.returncode, 3)
+        for said in ("condition Preempt: policy: mine.py is in none of", str(self.folder / "theirs"), str(self.folder / "runs"),
+                     "content hash", "Copy", "beside the run folder, or into the current folder"):
+            self.assertIn(said, missing.stderr)
+        os.chdir("ours")  # the current folder
+        program("verify", "../runs/out/intersection/Preempt/0", "--trust-code")
+        self.write("ours/helper.py", "LEAST_S = 9.0\n")
+        words[2] = "../runs/out/intersection/Preempt/0"
+        changed = subprocess.run(words, capture_output=True, text=True, check=False)
+        self.assertEqual(changed.returncode, 3)
+        self.assertIn(f"{self.folder / 'ours/mine.py'} is not the file of the run: it, or a file that it imports, was changed", changed.stderr)
+
     def test_code_that_a_folder_names_runs_only_where_it_is_trusted(self) -> None:
         self.write("mine.py", PREEMPT + "\nopen(__file__ + '.ran', 'a').close()\n")
         program("run", "intersection", "--policy", "mine.py:Preempt", "--seeds", "1", "--no-solo", "--record", "--out", "out")
@@ -158,6 +201,13 @@ class EqualPartsTest(FolderCase):
         program("verify", "out/intersection/baseline/0")
         program("replay", "out/intersection/Preempt/0", "--policy", "mine.py:Preempt")
         program("report", "out")
+
+
+class ObservationTest(unittest.TestCase):
+    def test_each_name_is_listed_once_also_when_it_was_read(self) -> None:
+        observation = object.__new__(clearway.Observation)
+        observation.__dict__["pair_dead_reckoned_m"] = None
+        self.assertEqual(dir(observation).count("pair_dead_reckoned_m"), 1)
 
 
 SLOW = """

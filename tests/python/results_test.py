@@ -15,7 +15,7 @@ from unittest import mock
 import clearway
 import clearway.recording as recording_module
 import numpy as np
-from support import FolderCase, program, told_when
+from support import FolderCase, Terminal, program, told_when
 
 T_975_4 = 2.7764451051977987  # Student's t, 4 degrees of freedom
 
@@ -250,6 +250,10 @@ class ResultsTest(FolderCase):
         clearway.run("intersection", ["corridor"], seeds=5, out=self.results.folder, record=True)
         self.assertEqual(before, {file: file.stat().st_mtime_ns for file in before})
         self.assertEqual(len(before), 10)
+        for stream, shown in ((Terminal(), True), (io.StringIO(), False)):
+            with mock.patch("sys.stderr", stream):
+                clearway.run("intersection", ["corridor"], seeds=5, out=self.results.folder, record=True)
+            self.assertEqual("10/10" in stream.getvalue(), shown, stream.getvalue())
 
     def test_wrong_names_are_told_with_what_there_is(self) -> None:
         for call, says in ((lambda: self.results.table("nothing"), "it has"),

@@ -88,7 +88,7 @@ class StartedAgainTest(FolderCase):
     def test_with_the_guard_it_runs(self) -> None:
         ended = self.ended(str(self.write("mine.py", f"{CLASS}if __name__ == '__main__':\n    print({RUN.strip()}.runs.row_count)\n")))
         self.assertEqual((ended.returncode, ended.stdout), (0, "4\n"), ended.stderr)
-        self.assertEqual(self.started.count("study"), 1)
+        self.assertEqual(self.started.count("study"), 2)  # the plan, whose hash names the folder, then the runs
 
 
 if __name__ == "__main__":

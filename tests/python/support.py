@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import functools
+import io
 import os
 import shutil
 import subprocess
@@ -34,6 +35,13 @@ class FolderCase(unittest.TestCase):
         with self.assertRaises(kind) as raised:
             call()
         return str(raised.exception)
+
+
+class Terminal(io.StringIO):
+    """To stand in for ``sys.stderr``."""
+
+    def isatty(self) -> bool:
+        return True
 
 
 def program(*arguments: str, code: int = 0) -> str:

@@ -284,7 +284,7 @@ TEST_F(StoreOfAStudy, IsOpenedAgainForTheSameStudyAndRefusedToAnother) {
         Store::create(store_.folder(), other);
         FAIL();
     } catch (const core::InputError& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("different seed, replications"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("different seed. Choose")) << "more seeds do not block";
     }
 }
 
