@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <map>
 #include <set>
 #include <span>
 #include <system_error>
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "campaign/detail/emergency_trips.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/temporary_folder.hpp"
@@ -35,39 +37,6 @@ constexpr std::size_t most_pairs = 6;
 /// Of the estimate on fresh seeds: with each number of signals, none, all, alone, and the baseline.
 std::size_t fresh_runs(std::size_t budget, std::uint32_t replications) {
     return replications * (budget + 4);
-}
-
-/// The signals between each edge and the next.
-using Crossings = std::map<std::pair<std::string, std::string>, std::set<core::SignalIndex>>;
-
-Crossings crossings_of(const roads::Network& network) {
-    Crossings crossings;
-    std::uint32_t index = 0;
-    for (const roads::Signal& signal : network.signals()) {
-        const core::SignalIndex own{index++};
-        for (const auto& link : signal.links) {
-            for (const roads::SignalLink& way : link) {
-                const auto edge = [&](core::LaneIndex lane) {
-                    return network.edge(network.lane(lane).edge).id;
-                };
-                crossings[{edge(way.from), edge(way.to)}].insert(own);
-            }
-        }
-    }
-    return crossings;
-}
-
-/// The signals on its way, in their order.
-std::vector<core::SignalIndex> passed_by(const traffic::EmergencyDeparture& departure,
-                                         const Crossings& crossings) {
-    std::vector<core::SignalIndex> passed;
-    for (std::size_t at = 1; at < departure.edges.size(); ++at) {
-        const auto found = crossings.find({departure.edges[at - 1], departure.edges[at]});
-        if (found == crossings.end()) continue;
-        for (const core::SignalIndex signal : found->second)
-            if (std::ranges::find(passed, signal) == passed.end()) passed.push_back(signal);
-    }
-    return passed;
 }
 
 /// The candidates that follow each other on these ways, with how often.
@@ -141,7 +110,7 @@ std::size_t count_of(const std::map<analysis::SignalSet, std::set<std::uint32_t>
 
 EquipCandidates equip_candidates(const study::StudyConfig& config, const scenario::BuiltNetwork& built,
                                  const std::vector<bool>& today, std::size_t most) {
-    const Crossings crossings = crossings_of(built.network);
+    const detail::Crossings crossings = detail::crossings_of(built.network);
     EquipCandidates candidates;
     std::map<core::SignalIndex, std::size_t> trips;  // of emergency vehicles that pass
     std::vector<std::set<core::SignalIndex>> passed(config.replications);
@@ -152,7 +121,8 @@ EquipCandidates equip_candidates(const study::StudyConfig& config, const scenari
             scenario::prepare(config.scenarios.front(), built, core::StudySeed{config.seed},
                               core::Replication{replication}, folder.path());
         for (const traffic::EmergencyDeparture& departure : prepared.emergency) {
-            const std::vector<core::SignalIndex>& way = ways.emplace_back(passed_by(departure, crossings));
+            const std::vector<core::SignalIndex>& way =
+                ways.emplace_back(detail::passed_by(departure.edges, crossings));
             passed[replication].insert(way.begin(), way.end());
             candidates.met.add(way.size());
             for (const core::SignalIndex signal : way)

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
-#include <set>
-#include <sstream>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "campaign/detail/abort_cure.hpp"
+#include "campaign/detail/emergency_trips.hpp"
 #include "campaign/detail/run_cost.hpp"
 #include "campaign/detail/way_findings.hpp"
 #include "campaign/printout.hpp"
@@ -19,6 +18,7 @@
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
 #include "experiment/conditions.hpp"
+#include "report/equipment.hpp"
 #include "scenario/network.hpp"
 #include "scenario/prepare.hpp"
 
@@ -72,9 +72,9 @@ struct RouteCount {
     std::size_t all = 0;
     std::size_t single = 0;
 
-    void add(const std::string& edges) {
+    void add(bool has_single_edge) {
         ++all;
-        single += edges.find(' ') == std::string::npos ? 1 : 0;
+        single += has_single_edge ? 1 : 0;
     }
     bool mostly_single() const { return 2 * single > all; }
 };
@@ -84,31 +84,17 @@ RouteCount traffic_routes(const std::string& xml) {
     RouteCount count;
     for (std::size_t at = xml.find(mark); at != std::string::npos; at = xml.find(mark, at + 1)) {
         const std::size_t start = at + mark.size();
-        count.add(xml.substr(start, xml.find('"', start) - start));
+        count.add(xml.substr(start, xml.find('"', start) - start).find(' ') == std::string::npos);
     }
     return count;
 }
 
-/// Calls with the edges of each, which are the last column.
-template <class Visitor>
-void for_each_emergency_route(const std::string& csv, const Visitor& visit) {
-    std::istringstream lines(csv);
-    std::string line;
-    std::getline(lines, line);
-    while (std::getline(lines, line))
-        visit(line.substr(line.rfind(',') + 1));
-}
-
-RouteCount emergency_routes(const std::string& csv) {
-    RouteCount count;
-    for_each_emergency_route(csv, [&](const std::string& edges) { count.add(edges); });
-    return count;
-}
-
 /// A vehicle with a single edge passes no junction, so it meets no signal and no crossing traffic.
-Finding routes_finding(const std::filesystem::path& demand) {
+Finding routes_finding(const std::filesystem::path& demand, const std::vector<detail::EmergencyTrip>& trips) {
     const RouteCount traffic = traffic_routes(core::read_file(demand / "traffic.rou.xml"));
-    const RouteCount emergency = emergency_routes(core::read_file(demand / "emergency.csv"));
+    RouteCount emergency;
+    for (const detail::EmergencyTrip& trip : trips)
+        emergency.add(trip.edges.size() == 1);
     const bool is_short = traffic.mostly_single() || emergency.mostly_single();
     return {"routes", is_short ? Grade::falls_short : Grade::ok,
             fmt::format("on a single edge, through no junction: {} of {}, {} of {}", traffic.single,
@@ -138,42 +124,24 @@ Finding jams_finding(const metrics::RunMetrics& run, const RoadUse& use, const C
                                         : density_advice(checked, use.factor)};
 }
 
-/// Of the EVs' routes, those that pass a signal.
-std::size_t routes_with_signals(const roads::Network& network, const std::string& csv) {
-    std::set<std::string, std::less<>> before_signals;
-    for (const roads::Signal& signal : network.signals())
-        for (const std::vector<roads::SignalLink>& links : signal.links)
-            for (const roads::SignalLink& link : links)
-                before_signals.insert(network.edge(network.lane(link.from).edge).id);
-    std::size_t count = 0;
-    for_each_emergency_route(csv, [&](const std::string& edges) {
-        const std::size_t last = edges.rfind(' ');
-        std::istringstream passed(last == std::string::npos ? "" : edges.substr(0, last));
-        bool has_signal = false;
-        for (std::string edge; !has_signal && passed >> edge;)
-            has_signal = before_signals.contains(edge);
-        count += has_signal ? 1 : 0;
-    });
-    return count;
-}
-
-Finding signals_finding(const roads::Network& network, const std::filesystem::path& demand) {
+Finding signals_finding(const roads::Network& network, const std::vector<detail::EmergencyTrip>& trips) {
     const std::size_t count = network.signals().size();
     if (count == 0)
         return {
             "signals", Grade::note,
             "0 in the network: signal policies have no effect here; only policies that make vehicles give "
             "way can help"};
-    const std::string csv = core::read_file(demand / "emergency.csv");
-    const std::size_t routes = emergency_routes(csv).all;
-    const std::size_t with_signals = routes_with_signals(network, csv);
-    const bool are_few = 2 * with_signals < routes;
-    return {
-        "signals", are_few ? Grade::note : Grade::ok,
-        fmt::format("{} in the network; {} of {} pass one", count, with_signals, core::counted(routes, "EV")),
-        are_few ? "studies/parts.toml with --scenario: corridor also clears lanes and holds crossing "
-                  "traffic back where there is no signal, and the study says what each part brings"
-                : ""};
+    const detail::Crossings crossings = detail::crossings_of(network);
+    report::SignalsMet met;
+    for (const detail::EmergencyTrip& trip : trips)
+        met.add(detail::passed_by(trip.edges, crossings).size());
+    const bool are_few = 2 * met.trips_with_signals < met.trips;
+    return {"signals", are_few ? Grade::note : Grade::ok,
+            fmt::format("{} in the network; {} of {} pass one", count, met.trips_with_signals,
+                        core::counted(met.trips, "EV")),
+            are_few ? "studies/parts.toml with --scenario: corridor also clears lanes and holds crossing "
+                      "traffic back where there is no signal, and the study says what each part brings"
+                    : ""};
 }
 
 double lane_km(const roads::Network& network) {
@@ -287,14 +255,14 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
     const metrics::RunMetrics& run = record.metrics;
     const RoadUse use = road_use(run, checked.config.time, lane_km(checked.network));
     const std::string less = density_advice(checked, use.factor < 1.0 ? use.factor : 0.8);
+    const auto trips = detail::emergency_trips_in(core::read_file(checked.demand / "emergency.csv"));
     std::vector<Finding> findings = {{"loads", Grade::ok, "SUMO loads the network and the demand"},
                                      insertion_finding(run, less),
                                      emergency_finding(record, less),
-                                     routes_finding(checked.demand),
+                                     routes_finding(checked.demand, trips),
                                      jams_finding(run, use, checked),
-                                     signals_finding(checked.network, checked.demand)};
-    std::ranges::move(detail::way_findings(checked.config, checked.network,
-                                           core::read_file(checked.demand / "emergency.csv")),
+                                     signals_finding(checked.network, trips)};
+    std::ranges::move(detail::way_findings(checked.config, checked.network, trips),
                       std::back_inserter(findings));
     findings.push_back(collisions_finding(run, checked.config.time.step_length_s));
     return findings;
@@ -304,12 +272,13 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
 Finding met_finding(const scenario::ScenarioConfig& scenario, const scenario::BuiltNetwork& built,
                     std::uint64_t seed) {
     constexpr std::uint32_t replications = 10;
-    std::string trips;
+    std::vector<detail::EmergencyTrip> trips;
     for (std::uint32_t replication = 0; replication < replications; ++replication) {
         const core::TemporaryFolder folder;
-        scenario::prepare(scenario, built, core::StudySeed{seed}, core::Replication{replication},
-                          folder.path());
-        trips += core::read_file(folder.path() / "emergency.csv");
+        const scenario::Prepared prepared = scenario::prepare(scenario, built, core::StudySeed{seed},
+                                                              core::Replication{replication}, folder.path());
+        for (const traffic::EmergencyDeparture& departure : prepared.emergency)
+            trips.push_back({departure.id, departure.edges});
     }
     return detail::passing_finding(scenario, built.network, trips, replications);
 }

@@ -1,6 +1,7 @@
 #include "campaign/detail/way_findings.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <gmock/gmock.h>
 
@@ -17,6 +18,25 @@ using testing::HasSubstr;
 class WayFindings : public testing::Test {
   protected:
     std::vector<Finding> findings(const std::string& incidents, const std::string& more = "") const {
+        const Roads way = roads(incidents);
+        return way_findings(way.config, way.built.network,
+                            emergency_trips_in("id,type,kind,depart_s,depart_lane,depart_speed,edges\n"
+                                               "one,t,ambulance,60.00,best,max,gate main goal\n"
+                                               "two,t,ambulance,60.00,best,max,gate far\n" +
+                                               more));
+    }
+
+    Finding passing(const std::string& incident, const std::vector<EmergencyTrip>& trips) const {
+        const Roads way = roads("[[incident]]\n" + incident);
+        return passing_finding(way.config, way.built.network, trips, 2);
+    }
+
+  private:
+    struct Roads {
+        scenario::ScenarioConfig config;
+        scenario::BuiltNetwork built;
+    };
+    Roads roads(const std::string& incidents) const {
         folder_.write("way.nod.xml",
                       "<nodes><node id=\"s\" x=\"-200\" y=\"0\"/><node id=\"a\" x=\"0\" y=\"0\"/>"
                       "<node id=\"b\" x=\"400\" y=\"0\"/><node id=\"c\" x=\"800\" y=\"0\"/>"
@@ -33,37 +53,18 @@ class WayFindings : public testing::Test {
                           "name = \"way\"\nversion = \"test\"\n[network]\nnodes = \"way.nod.xml\"\n"
                           "edges = \"way.edg.xml\"\n[time]\nhorizon_s = 900.0\n" +
                               incidents);
-        const scenario::ScenarioConfig config = scenario::load(file.string());
-        const scenario::BuiltNetwork built = scenario::build_network(config, folder_.path() / "net");
-        return way_findings(config, built.network,
-                            "id,type,kind,depart_s,depart_lane,depart_speed,edges\n"
-                            "one,t,ambulance,60.00,best,max,gate main goal\n"
-                            "two,t,ambulance,60.00,best,max,gate far\n" +
-                                more);
+        scenario::ScenarioConfig config = scenario::load(file.string());
+        scenario::BuiltNetwork built = scenario::build_network(config, folder_.path() / "net");
+        return {std::move(config), std::move(built)};
     }
 
-    /// `ways`: edges of a trip each, `;` between.
-    Finding passing(const std::string& incident, const std::vector<std::string>& ways) const {
-        findings("");
-        const auto file =
-            folder_.write("blocked.toml",
-                          "name = \"way\"\nversion = \"test\"\n[network]\nnodes = \"way.nod.xml\"\n"
-                          "edges = \"way.edg.xml\"\n[time]\nhorizon_s = 900.0\n[[incident]]\n" +
-                              incident);
-        const scenario::ScenarioConfig config = scenario::load(file.string());
-        const scenario::BuiltNetwork built = scenario::build_network(config, folder_.path() / "net");
-        std::string csv = "id,type,kind,depart_s,depart_lane,depart_speed,edges\n";
-        for (const std::string& way : ways)
-            csv += "one,t,ambulance,60.00,best,max," + way + "\n";
-        return passing_finding(config, built.network, csv + csv.substr(0, csv.find('\n') + 1), 2);
-    }
-
-  private:
     support::TemporaryFolder folder_;
 };
 
 TEST_F(WayFindings, say_how_many_pass_a_block_and_where_more_would) {
-    const std::vector<std::string> ways = {"gate main goal", "gate main goal", "gate up down goal"};
+    const std::vector<EmergencyTrip> ways = {{"a", {"gate", "main", "goal"}},
+                                             {"b", {"gate", "main", "goal"}},
+                                             {"c", {"gate", "up", "down", "goal"}}};
     const Finding some = passing("edge = \"main\"\n", ways);
     EXPECT_EQ(some.text, "2 of 3 EV trips of 2 seeds pass a blocked road");
     EXPECT_EQ(some.grade, Grade::ok);
@@ -72,7 +73,7 @@ TEST_F(WayFindings, say_how_many_pass_a_block_and_where_more_would) {
     EXPECT_EQ(none.grade, Grade::note);
     EXPECT_EQ(none.advice,
               "most pass, near their middles, with a way round: edge main, 2 trips; edge down, 1 trip");
-    const Finding called = passing("edge = \"goal\"\n", {"gate far"});
+    const Finding called = passing("edge = \"goal\"\n", {{"a", {"gate", "far"}}});
     EXPECT_EQ(called.advice, "no road in the middle of an EV trip has a way round");
 }
 
@@ -92,7 +93,7 @@ TEST(SiteFindings, name_the_road_of_coordinates) {
     site.latitude = 52.431;
     const support::TemporaryFolder folder;
     const scenario::BuiltNetwork built = scenario::build_network(config, folder.path());
-    const auto found = way_findings(config, built.network, "id,edges\n");
+    const auto found = way_findings(config, built.network, {});
     const auto sites = std::ranges::find(found, "sites", &Finding::name);
     ASSERT_NE(sites, found.end());
     EXPECT_THAT(sites->text,
@@ -109,7 +110,7 @@ TEST(SiteFindings, note_a_site_far_from_its_road) {
     const scenario::BuiltNetwork built = scenario::build_network(config, folder.path());
     const auto found_at = [&](double latitude) {
         site.latitude = latitude;
-        const auto found = way_findings(config, built.network, "id,edges\n");
+        const auto found = way_findings(config, built.network, {});
         return *std::ranges::find(found, "sites", &Finding::name);
     };
     bool noted = false;  // a road is near in most of the city: look for a place without one

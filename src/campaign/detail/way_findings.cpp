@@ -4,7 +4,6 @@
 #include <functional>
 #include <map>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,19 +28,13 @@ struct Trip {
     std::vector<core::EdgeIndex> way = {};  ///< As planned, with both ends.
 };
 
-/// The id is the first column, the edges are the last one.
-std::vector<Trip> trips_of(const roads::Network& network, const std::string& csv) {
+std::vector<Trip> trips_of(const roads::Network& network, const std::vector<EmergencyTrip>& planned) {
     std::vector<Trip> trips;
-    std::istringstream lines(csv);
-    std::string line;
-    std::getline(lines, line);
-    while (std::getline(lines, line)) {
-        const std::string edges = line.substr(line.rfind(',') + 1);
+    for (const EmergencyTrip& trip : planned) {
         std::vector<core::EdgeIndex> way;
-        std::istringstream words(edges);
-        for (std::string word; words >> word;)
-            if (const auto edge = network.find_edge(word)) way.push_back(*edge);
-        if (!way.empty()) trips.push_back({line.substr(0, line.find(',')), way.front(), way.back(), way});
+        for (const std::string& id : trip.edges)
+            if (const auto edge = network.find_edge(id)) way.push_back(*edge);
+        if (!way.empty()) trips.push_back({trip.id, way.front(), way.back(), way});
     }
     return trips;
 }
@@ -128,28 +121,37 @@ std::vector<core::EdgeIndex> middle_of(const Trip& trip, const roads::Network& n
     return middle;
 }
 
-/// Up to three roads by how many trips with a way round pass them near their middles.
-std::vector<std::string> often_passed(const std::vector<Trip>& trips, const roads::Network& network) {
-    roads::RouteSearch search(network, roads::Driver::emergency);
-    std::map<core::EdgeIndex, std::size_t> counts;
+/// Whether a trip has a way round an edge.
+bool has_way_round(const Trip& trip, core::EdgeIndex closed, roads::RouteSearch& search) {
+    const auto open_s = [&](core::EdgeIndex edge, double) {
+        return edge == closed ? roads::no_way_s : search.free_s(edge);
+    };
     std::vector<core::EdgeIndex> way;
-    for (const Trip& trip : trips) {
-        for (const core::EdgeIndex edge : middle_of(trip, network)) {
-            const auto open_s = [&](core::EdgeIndex one, double) {
-                return one == edge ? roads::no_way_s : search.free_s(one);
-            };
-            if (search.search({trip.from, trip.to}, open_s, way) != roads::no_way_s) ++counts[edge];
-        }
-    }
-    std::vector<std::pair<core::EdgeIndex, std::size_t>> edges(counts.begin(), counts.end());
-    std::ranges::stable_sort(edges, std::greater{}, &std::pair<core::EdgeIndex, std::size_t>::second);
+    return search.search({trip.from, trip.to}, open_s, way) != roads::no_way_s;
+}
+
+/// Up to three roads, those first that most trips pass near their middles, with how many have a way round.
+std::vector<std::string> often_passed(const std::vector<Trip>& trips, const roads::Network& network) {
+    std::map<core::EdgeIndex, std::vector<const Trip*>> passing;
+    for (const Trip& trip : trips)
+        for (const core::EdgeIndex edge : middle_of(trip, network))
+            passing[edge].push_back(&trip);
+    std::vector<core::EdgeIndex> edges;
+    for (const auto& [edge, those] : passing)
+        edges.push_back(edge);
+    std::ranges::stable_sort(edges, std::greater{}, [&](auto edge) { return passing.at(edge).size(); });
     constexpr std::size_t most_named = 3;
+    roads::RouteSearch search(network, roads::Driver::emergency);
     std::vector<std::string> words;
     std::set<std::string> streets;
-    for (const auto& [index, count] : edges) {
+    for (const core::EdgeIndex index : edges) {
         const roads::Edge& edge = network.edge(index);
         if (words.size() == most_named) break;
-        if (!edge.name.empty() && !streets.insert(edge.name).second) continue;
+        if (streets.contains(edge.name)) continue;
+        const auto count = static_cast<std::size_t>(std::ranges::count_if(
+            passing.at(index), [&](const Trip* trip) { return has_way_round(*trip, index, search); }));
+        if (count == 0) continue;
+        if (!edge.name.empty()) streets.insert(edge.name);
         words.push_back(fmt::format("{}, {}", road_words(edge), core::counted(count, "trip")));
     }
     return words;
@@ -229,8 +231,8 @@ Finding teleport_finding(const scenario::ScenarioConfig& config,
 }  // namespace
 
 std::vector<Finding> way_findings(const scenario::ScenarioConfig& config, const roads::Network& network,
-                                  const std::string& emergency_csv) {
-    const std::vector<Trip> trips = trips_of(network, emergency_csv);
+                                  const std::vector<EmergencyTrip>& planned) {
+    const std::vector<Trip> trips = trips_of(network, planned);
     roads::RouteSearch search(network, roads::Driver::emergency);
     std::vector<Finding> findings = {choice_finding(search, trips)};
     const auto is_by_coordinates = [](const scenario::EmergencySite& site) {
@@ -248,9 +250,9 @@ std::vector<Finding> way_findings(const scenario::ScenarioConfig& config, const 
 }
 
 Finding passing_finding(const scenario::ScenarioConfig& config, const roads::Network& network,
-                        const std::string& emergency_csv, std::size_t replications) {
+                        const std::vector<EmergencyTrip>& planned, std::size_t replications) {
     constexpr double few = 0.1;  // Assumed: of ten trips, one tells little of a block.
-    const std::vector<Trip> trips = trips_of(network, emergency_csv);
+    const std::vector<Trip> trips = trips_of(network, planned);
     const std::vector<scenario::PlacedIncident> incidents = scenario::place_incidents(config, network);
     const auto passing = static_cast<std::size_t>(std::ranges::count_if(trips, [&](const Trip& trip) {
         return std::ranges::any_of(incidents,
