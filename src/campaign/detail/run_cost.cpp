@@ -131,15 +131,13 @@ std::string roads_key(const scenario::ScenarioConfig& config) {
     }
 }
 
-/// The rough cost, corrected by what a run on the same roads took: noted are its time and its rough one.
-std::optional<RunCost> cost_on_same_roads(const core::Json& notes, const scenario::ScenarioConfig& config,
-                                          experiment::TrafficModel traffic_model) {
-    const auto noted = notes.empty() ? std::nullopt : noted_pair(notes, roads_key(config));
-    RunCost cost = rough_cost(config, traffic_model);
-    if (!noted || !cost.wall_s || noted->second <= 0.0) return std::nullopt;
+/// Corrects a rough cost by what a run on the same roads took: noted are its time and its rough one.
+void correct(RunCost& cost, const core::Json& notes, const scenario::ScenarioConfig& config) {
+    if (notes.empty() || !cost.wall_s) return;
+    const auto noted = noted_pair(notes, roads_key(config));
+    if (!noted || noted->second <= 0.0) return;
     *cost.wall_s *= noted->first / noted->second;
     cost.basis = CostBasis::same_roads;
-    return cost;
 }
 
 bool holds_runs(const fs::path& folder) {
@@ -221,10 +219,12 @@ RunCost CostBook::of(const scenario::ScenarioConfig& config, const std::string& 
             // Its runs are damaged, or are being removed: whom they belong to is told, and not a neighbour.
         }
     }
-    if (traffic_model == experiment::TrafficModel::free_flow) return rough_cost(config, traffic_model);
-    if (const auto noted = noted_pair(noted_, hash))
+    const bool is_traffic = traffic_model != experiment::TrafficModel::free_flow;
+    if (const auto noted = noted_pair(noted_, hash); is_traffic && noted)
         return {.wall_s = noted->first, .disk_bytes = noted->second, .basis = CostBasis::measured};
-    return cost_on_same_roads(noted_, config, traffic_model).value_or(rough_cost(config, traffic_model));
+    RunCost cost = rough_cost(config, traffic_model);
+    if (is_traffic) correct(cost, noted_, config);
+    return cost;
 }
 
 }  // namespace clearway::campaign
