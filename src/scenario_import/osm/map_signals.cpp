@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "roads/lane_grid.hpp"
 
@@ -10,25 +9,20 @@ namespace clearway::scenario_import::detail {
 namespace {
 
 /// A junction may have its signals at the stop lines, which a wide one keeps from its middle.
-constexpr double signal_reach_m = 50.0;
-constexpr core::Metres street_reach{30.0};
+constexpr core::Metres signal_reach{50.0};
 
-std::vector<roads::Point> stop_lines(const roads::Network& network) {
-    std::vector<roads::Point> places;
+/// Whether vehicles stop for a signal at the end of a lane, by lane.
+std::vector<bool> controlled_lanes(const roads::Network& network) {
+    std::vector<bool> controlled(network.lanes().size(), false);
     for (const roads::Signal& signal : network.signals())
         for (const std::vector<roads::SignalLink>& links : signal.links)
             for (const roads::SignalLink& link : links)
-                places.push_back(network.lane(link.from).shape.back());
-    return places;
+                controlled[link.from.value] = true;
+    return controlled;
 }
 
-/// Of the nearest road; empty where none is near, or where it has no name.
-std::string street_at(const roads::Network& network, const roads::LaneGrid& lanes,
-                      const roads::Point& place) {
-    std::vector<roads::LanePlace> near;
-    lanes.near(place, street_reach, near);
-    const auto nearest = std::ranges::min_element(near, {}, &roads::LanePlace::distance_m);
-    return nearest == near.end() ? "" : network.edge(network.lane(nearest->lane).edge).name;
+double distance_m(const roads::Point& one, const roads::Point& other) {
+    return std::hypot(one.x_m - other.x_m, one.y_m - other.y_m);
 }
 
 }  // namespace
@@ -37,19 +31,21 @@ void account_for_signals(const std::vector<roads::Coordinates>& signals, const r
                          LeftOut& left_out) {
     const auto geography = roads::Geography::of(network.location());
     if (!geography) return;
-    const std::vector<roads::Point> known = stop_lines(network);
+    const std::vector<bool> controlled = controlled_lanes(network);
     const roads::LaneGrid lanes(network);
+    std::vector<roads::LanePlace> near;
     for (const roads::Coordinates& signal : signals) {
         const roads::Point place = geography->point(signal);
-        const bool is_known = std::ranges::any_of(known, [&](const roads::Point& line) {
-            return std::hypot(line.x_m - place.x_m, line.y_m - place.y_m) <= signal_reach_m;
+        lanes.near(place, signal_reach, near);
+        const bool is_known = std::ranges::any_of(near, [&](const roads::LanePlace& found) {
+            return controlled[found.lane.value] &&
+                   distance_m(network.lane(found.lane).shape.back(), place) <= signal_reach.value;
         });
-        if (!is_known)
-            left_out.add(
-                "signals of the map between junctions, such as at crossings for pedestrians: netconvert "
-                "builds "
-                "none there",
-                street_at(network, lanes, place), LeftOut::all);
+        if (is_known) continue;
+        const auto nearest = std::ranges::min_element(near, {}, &roads::LanePlace::distance_m);
+        left_out.add("signals of the map between junctions, such as at crossings for pedestrians",
+                     nearest == near.end() ? "" : network.edge(network.lane(nearest->lane).edge).name,
+                     LeftOut::all);
     }
 }
 
