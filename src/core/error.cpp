@@ -116,6 +116,17 @@ std::size_t edit_distance(const std::string& left, const std::string& right) {
     return row.back();
 }
 
+/// `157719652#0` for `157719652`: the first part of a road that imports cut; empty if there is none.
+std::string first_part(const std::string& word, const std::vector<std::string>& candidates) {
+    const std::string* first = nullptr;
+    for (const std::string& candidate : candidates) {
+        if (!candidate.starts_with(word + "#")) continue;
+        const auto order = [](const std::string& text) { return std::pair(text.size(), text); };
+        if (first == nullptr || order(candidate) < order(*first)) first = &candidate;
+    }
+    return first == nullptr ? "" : *first;
+}
+
 }  // namespace
 
 InputError::InputError(std::vector<Problem> problems)
@@ -154,21 +165,6 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
     const bool is_one = word.size() >= least_letters && std::ranges::count_if(candidates, begins) == 1;
     return is_one ? *std::ranges::find_if(candidates, begins) : best;
 }
-
-namespace {
-
-/// `157719652#0` for `157719652`: the first part of a road that imports cut; empty if there is none.
-std::string first_part(const std::string& word, const std::vector<std::string>& candidates) {
-    const std::string* first = nullptr;
-    for (const std::string& candidate : candidates) {
-        if (!candidate.starts_with(word + "#")) continue;
-        const auto order = [](const std::string& text) { return std::pair(text.size(), text); };
-        if (first == nullptr || order(candidate) < order(*first)) first = &candidate;
-    }
-    return first == nullptr ? "" : *first;
-}
-
-}  // namespace
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates,
                          const std::string& otherwise) {

@@ -93,7 +93,8 @@ std::string listed(const std::vector<std::string>& words);
 /// letters (and in more than two). Capitals do not count.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
-/// `Did you mean 'WORD'?`: the nearest candidate, or up to three that contain the word; else `otherwise`.
+/// `Did you mean 'WORD'?`: the nearest candidate, before it the first part `WORD#0` of a road that imports
+/// cut, after it up to three that contain the word; else `otherwise`.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates,
                          const std::string& otherwise = "");
 
