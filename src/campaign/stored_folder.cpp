@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
 #include "core/error.hpp"
 #include "experiment/code_parts.hpp"
 #include "python/part_name.hpp"
@@ -48,6 +49,13 @@ void renew_edited_tables(const results::Store& store) {
     } catch (const core::EnvironmentError& error) {
         fmt::print(stderr, "clearway: warning: they stay as they are: {}\n", error.what());
     }
+}
+
+core::ExitCode tell_missing(std::size_t missing, std::size_t all) {
+    if (missing == 0) return core::ExitCode::ok;
+    fmt::print(stderr, "clearway: {} of {} are missing; repeat the command that started them to continue\n",
+               missing, core::counted(all, "run"));
+    return core::ExitCode::incomplete;
 }
 
 }  // namespace clearway::campaign

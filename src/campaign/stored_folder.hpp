@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "experiment/condition.hpp"
 #include "results/store.hpp"
 
@@ -26,5 +28,8 @@ experiment::ConditionSpec with_files_found(const experiment::ConditionSpec& cond
 /// Writes the tables of a run folder anew where somebody edited one of them, and says so on standard error. A
 /// folder that cannot be written is left alone with a warning. Throws core::InputError for a damaged record.
 void renew_edited_tables(const results::Store& store);
+
+/// Says on standard error how many of all runs are missing, if any are. Returns incomplete then, else ok.
+core::ExitCode tell_missing(std::size_t missing, std::size_t all);
 
 }  // namespace clearway::campaign

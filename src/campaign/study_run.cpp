@@ -388,13 +388,8 @@ core::ExitCode publish(const results::Store& store, const PublishOptions& option
     if (!results::tables_are_current(store)) results::write_tables(store);
     write_report(facts, replays_of(store, results, options.replays), store.folder() / "report.html");
     fmt::print(stderr, "clearway: written: {}\n", (store.folder() / "report.html").string());
-    if (!results.missing.empty()) {
-        fmt::print(stderr,
-                   "clearway: {} of {} are missing; repeat the command that started them to "
-                   "continue\n",
-                   results.missing.size(), core::counted(results.manifest.runs().size(), "run"));
-        return core::ExitCode::incomplete;
-    }
+    const core::ExitCode code = tell_missing(results.missing.size(), results.manifest.run_count());
+    if (code != core::ExitCode::ok) return code;
     return results.errors.empty() ? core::ExitCode::ok : core::ExitCode::runs_failed;
 }
 

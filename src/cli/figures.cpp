@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -6,6 +7,7 @@
 
 #include "campaign/names.hpp"
 #include "campaign/programs.hpp"
+#include "campaign/stored_folder.hpp"
 #include "cli/detail/app.hpp"
 #include "cli/verb.hpp"
 #include "core/counted.hpp"
@@ -108,12 +110,8 @@ core::ExitCode write(const Arguments& arguments) {
                arguments.output.string(), files.drawings.size(), all ? ", PDF and PNG" : "",
                files.tables.size(), files.typeset.size());
     const std::size_t ended = store.complete_runs().size() + store.failed_runs().size();
-    if (ended >= manifest.run_count()) return core::ExitCode::ok;
-    fmt::print(stderr,
-               "clearway: {} of {} are missing: the figures and captions are of those that are there; repeat "
-               "the command that started them to continue\n",
-               manifest.run_count() - ended, core::counted(manifest.run_count(), "run"));
-    return core::ExitCode::incomplete;
+    return campaign::tell_missing(manifest.run_count() - std::min(ended, manifest.run_count()),
+                                  manifest.run_count());
 }
 
 }  // namespace
