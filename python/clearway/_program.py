@@ -255,9 +255,9 @@ def command(arguments: Iterable[str]) -> list[str]:
 def call(arguments: Sequence[str], *, progress: bool | None = False, accept: Sequence[int] = ()) -> tuple[int, str]:
     """Calls ``clearway ARGUMENTS``; returns exit code and standard output.
 
-    ``progress`` passes its progress on to this process's standard error; None: if that is a terminal. Exit codes other than 0 that are not accepted are
-    raised with what the program said. An interruption (Ctrl-C) ends the program, too: it closes its files and can continue. So does
-    the end of this process, however it comes.
+    ``progress`` passes its progress on to this process's standard error; None: if that is a terminal. Exit codes other than 0 that
+    are not accepted are raised with what the program said. An interruption (Ctrl-C) ends the program, too: it closes its files and
+    can continue. So does the end of this process, however it comes.
     """
     said: collections.deque[str] = collections.deque(maxlen=60)
     if progress is None:

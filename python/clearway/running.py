@@ -86,10 +86,10 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
 
     ``conditions`` are names of ``clearway list`` or ``Condition``; ``baseline`` adds the one that they are compared with. ``seeds``
     is the number of replications, from 0 on: 10, or ``range(10)``. ``overrides`` are those of a study file: ``variant="dense"``,
-    ``step_length_s=0.1``, ... ``out`` is the run folder; without it, one below ``runs/`` that follows from what is run, code included, as
-    the command ``clearway run`` names it: edited code gets a new one. ``progress``: on standard error; None: if that is a terminal.
-    Runs that are there already are not repeated; one that takes longer than ``run_time_limit``, s, or more than ``memory_limit``, MiB, is ended
-    (None: as ``clearway run``). Runs that failed are a warning, and rows of ``results.errors``.
+    ``step_length_s=0.1``, ... ``out`` is the run folder; without it, one below ``runs/`` that follows from what is run, code
+    included, as the command ``clearway run`` names it: edited code gets a new one. ``progress``: on standard error; None: if that is
+    a terminal. Runs that are there already are not repeated; one that takes longer than ``run_time_limit``, s, or more than
+    ``memory_limit``, MiB, is ended (None: as ``clearway run``). Runs that failed are a warning, and rows of ``results.errors``.
     """
     _program.require_first_load("clearway.run")
     if isinstance(conditions, (str, Condition)):

@@ -1,13 +1,10 @@
 #include "report/figure_files.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,39 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using detail::Figure;
 using detail::Table;
-
-/// What numbers of a figure or table are estimates of.
-enum class Estimates : std::uint8_t { none, of_runs, of_pairs };
-
-bool has(const std::string& text, std::string_view word) {
-    return text.find(word) != std::string::npos;
-}
-
-bool has_intervals(const detail::DataTable& data) {
-    return std::ranges::any_of(data.rows, [](const auto& row) {
-        return std::ranges::any_of(row,
-                                   [](const auto& cell) { return has(cell, " [") && cell.ends_with(']'); });
-    });
-}
-
-Estimates estimates_in(const detail::DataTable& data) {
-    const bool compares = std::ranges::any_of(
-        data.head, [](const auto& head) { return has(head, "difference") || has(head, "gain"); });
-    if (compares) return Estimates::of_pairs;
-    return has_intervals(data) ? Estimates::of_runs : Estimates::none;
-}
-
-/// On how many pairs or runs of these conditions the measure of verdicts rests.
-std::vector<std::size_t> samples_in(const ScenarioFacts& scenario, Estimates estimates) {
-    std::vector<std::size_t> numbers;
-    for (const ConditionFacts& condition : scenario.conditions) {
-        const bool of_pairs = estimates == Estimates::of_pairs;
-        if (of_pairs && !condition.is_compared()) continue;
-        const MaybeEstimate& estimate = of_pairs ? condition.difference(primary) : condition.value(primary);
-        numbers.push_back(estimate ? estimate->n : 0);
-    }
-    return numbers;
-}
 
 /// Names of the figures and tables that an export has written, a line each, without endings.
 constexpr const char* list_name = ".clearway-figures";
@@ -118,23 +82,6 @@ class FileWriter : public detail::Writer {
                    ? words
                    : fmt::format("{} (against {})", text, study_.reference);
     }
-    /// The caption with the size of the sample, of the scenario that the name tells or of all.
-    std::string with_sample(std::string caption, const std::string& name,
-                            const detail::DataTable& data) const {
-        const Estimates estimates = estimates_in(data);
-        if (estimates == Estimates::none || caption.find("n = ") != std::string::npos) return caption;
-        const auto is_of = [&](const ScenarioFacts& scenario) {
-            return name.ends_with("-" + plain_name(scenario.name));
-        };
-        const bool of_one = std::ranges::any_of(study_.scenarios, is_of);
-        std::vector<std::size_t> numbers;
-        for (const ScenarioFacts& scenario : study_.scenarios)
-            if (!of_one || is_of(scenario))
-                std::ranges::copy(samples_in(scenario, estimates), std::back_inserter(numbers));
-        const std::string sample =
-            detail::sample_text(numbers, estimates == Estimates::of_pairs ? "pair" : "run");
-        return sample.empty() ? caption : caption + "; " + sample;
-    }
     /// A caption that can stand alone, with what is drawn, of which scenario and compared with what.
     std::string full(const std::string& text, const std::string& name) const {
         return caption(with_scenario(text, name));
@@ -154,8 +101,8 @@ class FileWriter : public detail::Writer {
         if (!figure.data.rows.empty())
             files_.tables.push_back(write(figure.name, ".csv", detail::to_csv(figure.data)));
         files_.entries.push_back({section_, figure.name, label(figure.name),
-                                  with_sample(full(figure.caption, figure.name), figure.name, figure.data),
-                                  named(figure.note, study_.reference), true, !figure.data.rows.empty()});
+                                  full(figure.caption, figure.name), named(figure.note, study_.reference),
+                                  true, !figure.data.rows.empty()});
     }
     void put(const Table& table) override {
         files_.tables.push_back(write(table.name, ".csv", detail::to_csv(table.data)));

@@ -195,6 +195,9 @@ TEST(FigureFiles, HaveTheGridOfFactorsWithItsIntervals) {
                 AllOf(HasSubstr("\\label{tab:factors-others-grid}"),
                       HasSubstr("by failure; n = 20 pairs, 95 \\% intervals in brackets}"),
                       HasSubstr("0.5 & [\\num{0.3}, \\num{0.7}]")));
+    tests::difference(study.scenarios[0].conditions.back(), primary)->n = 12;
+    write_figures(study, folder.path());
+    EXPECT_THAT(text_of(folder.path() / "factors-emergency-grid.tex"), HasSubstr("; n = 12 to 20 pairs,"));
 }
 
 TEST(FigureFiles, AreAllOnOnePage) {

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "core/counted.hpp"
 #include "core/terminal.hpp"
 #include "report/verdict.hpp"
 
@@ -87,13 +86,6 @@ std::string to_html(const Figure& figure) {
         html += "<details><summary>Data</summary>\n" + to_html(figure.data) + "</details>";
     }
     return html + "</figure>\n";
-}
-
-std::string sample_text(const std::vector<std::size_t>& numbers, const char* noun) {
-    if (numbers.empty()) return "";
-    const auto [fewest, most] = std::ranges::minmax(numbers);
-    return fmt::format("n = {}{}", fewest == most ? "" : fmt::format("{} to ", fewest),
-                       core::counted(most, noun));
 }
 
 std::string condition_label(const ConditionFacts& condition) {

@@ -50,9 +50,6 @@ struct Figure {
 std::string to_html(const Figure& figure);
 std::string to_html(const Table& table);
 
-/// On how much estimates rest, for captions: `n = 20 pairs`, or `n = 1 to 2 pairs`; empty without numbers.
-std::string sample_text(const std::vector<std::size_t>& numbers, const char* noun);
-
 /// The title as markup, escaped, with a mark if safety checks were off.
 std::string condition_label(const ConditionFacts& condition);
 

@@ -131,13 +131,16 @@ Panels panels_of(const std::vector<Made>& made, const std::vector<Factor>& facto
     return panels;
 }
 
+/// `n = 20 pairs`, or `n = 1 to 2 pairs`: on how many the differences rest.
 std::string pairs_of(const std::vector<Made>& made, Measure measure) {
     std::vector<std::size_t> pairs;
     for (const Made& one : made) {
         const MaybeEstimate& difference = one.condition->difference(measure);
         pairs.push_back(difference ? difference->n : 0);
     }
-    return sample_text(pairs, "pair");
+    const auto [fewest, most] = std::ranges::minmax(pairs);
+    return fmt::format("n = {}{}", fewest == most ? "" : fmt::format("{} to ", fewest),
+                       counted(most, "pair"));
 }
 
 /// What a panel has at each level of the first factor, for one level of the second; null where nothing was
