@@ -3,7 +3,6 @@
 // A policy of your own: automated vehicles close behind an emergency vehicle drop back. See README.md.
 
 #include <algorithm>
-#include <tuple>
 
 #include "policy/ask.hpp"
 #include "policy/configured_policy.hpp"
@@ -18,16 +17,16 @@ struct KeepDistanceConfig : AskSettings {
     double speed_share = 0.8;
     double lease_s = 2.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = KeepDistanceConfig;
         using core::Field;
-        const auto own = std::make_tuple(
+        table(
             Field{"reach_m", "m", &C::reach_m, 1.0, 200.0, "Followers within this distance drop back",
                   "assumed: two seconds at 10 m/s"},
             Field{"speed_share", "1", &C::speed_share, 0.1, 1.0,
                   "They drive at this share of the emergency vehicle's speed", "as gap_factor of clear_lane"},
             detail::lifetime_field<C>());
-        return std::tuple_cat(own, AskSettings::fields());
+        AskSettings::fields(table);
     }
 };
 

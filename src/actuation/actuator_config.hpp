@@ -1,6 +1,5 @@
 #pragma once
 
-#include <tuple>
 #include <vector>
 
 #include "actuation/clearance_rule.hpp"
@@ -28,10 +27,10 @@ struct ActuatorConfig {
     std::vector<traffic::Preemption> preemption = {};  ///< By signal; empty: none is set.
     double friction = 1.0;  ///< Share of a dry road's grip; on a slippery road each yellow is longer.
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = ActuatorConfig;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{
                 "yellow_s", "s", &C::yellow_s, 0.0, 10.0,
                 "Shortest yellow before a green is withdrawn, on a dry road. With `clearance` `fixed` it is "

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tuple>
-
 #include "core/fields.hpp"
 #include "traffic/privilege.hpp"
 #include "traffic/siren.hpp"
@@ -18,21 +16,20 @@ struct RequestConfig {
     double reaction_mean_s = 1.5;
     double reaction_deviation_s = 0.5;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = RequestConfig;
         using core::Field;
-        return std::make_tuple(
-            Field{"compliance", "1", &C::compliance, 0.0, 1.0,
-                  "Share of human drivers who do what a policy asks for an emergency vehicle",
-                  "0: only automated vehicles take requests"},
-            Field{"hearing_m", "m", &C::hearing_m, 1.0, 2000.0,
-                  "They hear the emergency vehicle, or its request on their display, within this distance",
-                  "assumed: a siren outside towns"},
-            Field{"reaction_mean_s", "s", &C::reaction_mean_s, 0.0, 10.0,
-                  "Mean time between hearing it and doing what is asked",
-                  "assumed: surprise reaction, 1.5 s"},
-            Field{"reaction_deviation_s", "s", &C::reaction_deviation_s, 0.0, 5.0,
-                  "Standard deviation of that time between drivers", "assumed: a third of the mean"});
+        table(Field{"compliance", "1", &C::compliance, 0.0, 1.0,
+                    "Share of human drivers who do what a policy asks for an emergency vehicle",
+                    "0: only automated vehicles take requests"},
+              Field{"hearing_m", "m", &C::hearing_m, 1.0, 2000.0,
+                    "They hear the emergency vehicle, or its request on their display, within this distance",
+                    "assumed: a siren outside towns"},
+              Field{"reaction_mean_s", "s", &C::reaction_mean_s, 0.0, 10.0,
+                    "Mean time between hearing it and doing what is asked",
+                    "assumed: surprise reaction, 1.5 s"},
+              Field{"reaction_deviation_s", "s", &C::reaction_deviation_s, 0.0, 5.0,
+                    "Standard deviation of that time between drivers", "assumed: a third of the mean"});
     }
 };
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "experiment/condition.hpp"
@@ -22,20 +21,19 @@ struct AttachJob {
     std::filesystem::path output;
 
     /// All members but the condition.
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using Self = AttachJob;
-        return std::make_tuple(
-            core::Field{"host", "", &Self::host, 0, 0, "Machine on which SUMO runs", "localhost"},
-            core::Field{"port", "1", &Self::port, 1, 65535, "Its --remote-port", "given"},
-            core::Field{"network", "", &Self::network, 0, 0, "Network file; empty: the one that SUMO names",
-                        "as SUMO says"},
-            core::Field{"automated", "", &Self::automated, 0, 0,
-                        "Vehicle types of SUMO that count as automated", "none"},
-            core::Field{"emergency", "", &Self::emergency, 0, 0,
-                        "Vehicle types of SUMO that count as emergency vehicles", "none"},
-            core::Field{"study_seed", "1", &Self::study_seed, 0, 1.8446744073709552e19,
-                        "Seed of sensor failures", "any"},
-            core::Field{"output", "", &Self::output, 0, 0, "Run folder; created", "given"});
+        table(core::Field{"host", "", &Self::host, 0, 0, "Machine on which SUMO runs", "localhost"},
+              core::Field{"port", "1", &Self::port, 1, 65535, "Its --remote-port", "given"},
+              core::Field{"network", "", &Self::network, 0, 0, "Network file; empty: the one that SUMO names",
+                          "as SUMO says"},
+              core::Field{"automated", "", &Self::automated, 0, 0,
+                          "Vehicle types of SUMO that count as automated", "none"},
+              core::Field{"emergency", "", &Self::emergency, 0, 0,
+                          "Vehicle types of SUMO that count as emergency vehicles", "none"},
+              core::Field{"study_seed", "1", &Self::study_seed, 0, 1.8446744073709552e19,
+                          "Seed of sensor failures", "any"},
+              core::Field{"output", "", &Self::output, 0, 0, "Run folder; created", "given"});
     }
     bool operator==(const AttachJob&) const = default;
 };

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -70,10 +69,10 @@ struct ConditionSpec {
 
     /// Keys of `[[condition]]` in study files and of `condition.` factors, and of stored conditions. `name`,
     /// `policy` (a list), `set` and `model` stand beside them.
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = ConditionSpec;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"failure", "", &S::failure, 0, 0, "How sensors fail: a preset, fields or both", "perfect"},
             Field{"predictor", "", &S::predictor, 0, 0, "How the graph is repaired", "none"},
             Field{"traffic_model", "", &S::traffic_model, 0, 0, "SUMO's lateral model", "standard"},

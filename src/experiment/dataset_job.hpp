@@ -54,23 +54,21 @@ struct DatasetJob : Simulation, LinkSettings {
     core::Settings settings = {};  ///< Settings of the policies that differ from their defaults.
 
     /// All members but the policies and their settings, which stand in a job only when there are any.
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using Self = DatasetJob;
-        return std::tuple_cat(
-            LinkSettings::fields_of<Self>(),
-            std::make_tuple(
-                core::Field{"output", "", &Self::output, 0, 0, "Folder of the data set", "given"},
-                core::Field{"dataset", "", &Self::dataset, 0, 0, "What is recorded", "given"},
-                core::Field{"pairs", "", &Self::pairs, 0, 0, "Of published: which pairs are listed",
-                            "the dissertation does not say"},
-                core::Field{"feature_count", "1", &Self::feature_count, 2, 5,
-                            "Of published: 2, position alone, or 5", "dissertation 5.4"},
-                core::Field{"failures", "", &Self::failures, 0, 0, "Of samples: presets of sensing", "given"},
-                core::Field{"interval_s", "s", &Self::interval_s, 0.1, 3600,
-                            "Of samples: simulation time between two of them",
-                            "assumed: neighbouring samples differ"},
-                core::Field{"exits", "", &Self::exits, 0, 0,
-                            "Of samples: whether it is known which vehicles left", "known"}));
+        LinkSettings::fields(table);
+        table(core::Field{"output", "", &Self::output, 0, 0, "Folder of the data set", "given"},
+              core::Field{"dataset", "", &Self::dataset, 0, 0, "What is recorded", "given"},
+              core::Field{"pairs", "", &Self::pairs, 0, 0, "Of published: which pairs are listed",
+                          "the dissertation does not say"},
+              core::Field{"feature_count", "1", &Self::feature_count, 2, 5,
+                          "Of published: 2, position alone, or 5", "dissertation 5.4"},
+              core::Field{"failures", "", &Self::failures, 0, 0, "Of samples: presets of sensing", "given"},
+              core::Field{"interval_s", "s", &Self::interval_s, 0.1, 3600,
+                          "Of samples: simulation time between two of them",
+                          "assumed: neighbouring samples differ"},
+              core::Field{"exits", "", &Self::exits, 0, 0,
+                          "Of samples: whether it is known which vehicles left", "known"});
     }
     bool operator==(const DatasetJob&) const = default;
 };

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tuple>
-
 #include "core/fields.hpp"
 #include "graph/proximity.hpp"
 
@@ -20,17 +18,14 @@ struct LinkSettings {
     }
     bool operator==(const LinkSettings&) const = default;
 
-    /// The same fields as those of a type that has these members.
-    template <class Owner>
-    static constexpr auto fields_of() {
-        return std::make_tuple(core::Field{"link_radius_m", "m", &Owner::link_radius_m, 1.0, 1000.0,
-                                           "Vehicles nearer than this are linked",
-                                           "assumed 50 m: the dissertation states no value"},
-                               core::Field{"automated_links", "1", &Owner::automated_links, 0, 1,
-                                           "1: two automated vehicles may be linked, too",
-                                           "off: the dissertation links AV-HV, EV-HV and AV-EV"});
+    static constexpr void fields(const auto& table) {
+        table(core::Field{"link_radius_m", "m", &LinkSettings::link_radius_m, 1.0, 1000.0,
+                          "Vehicles nearer than this are linked",
+                          "assumed 50 m: the dissertation states no value"},
+              core::Field{"automated_links", "1", &LinkSettings::automated_links, 0, 1,
+                          "1: two automated vehicles may be linked, too",
+                          "off: the dissertation links AV-HV, EV-HV and AV-EV"});
     }
-    static constexpr auto fields() { return fields_of<LinkSettings>(); }
 };
 
 /// Period of decisions and link rules in the closed loop. A condition may set the members by name.
@@ -40,22 +35,20 @@ struct LoopConfig : LinkSettings {
     double ways_every_s = 120.0;
     int units_tried = 0;
 
-    static constexpr auto fields() {
-        return std::tuple_cat(
-            std::make_tuple(
-                core::Field{"policy_period_s", "s", &LoopConfig::policy_period_s, 0.1, 10.0,
-                            "Time between two decisions of the policy", "assumed: half a report interval"},
-                core::Field{"ways_tried", "1", &LoopConfig::ways_tried, 0, 16,
-                            "Ways of each EV that are driven to the end in copies of the run, "
-                            "which gives the regret of the chosen one; 0: none",
-                            "0: each costs the rest of a run"},
-                core::Field{"ways_every_s", "s", &LoopConfig::ways_every_s, 1.0, 86400.0,
-                            "Time between two such moments of an EV, from its departure on", "assumed"},
-                core::Field{"units_tried", "1", &LoopConfig::units_tried, 0, 16,
-                            "Stations, the nearest first, whose unit is driven to each call in a copy of the "
-                            "run, which gives the regret of the one that was sent; 0: none",
-                            "0: each costs the rest of a run"}),
-            LinkSettings::fields_of<LoopConfig>());
+    static constexpr void fields(const auto& table) {
+        table(core::Field{"policy_period_s", "s", &LoopConfig::policy_period_s, 0.1, 10.0,
+                          "Time between two decisions of the policy", "assumed: half a report interval"},
+              core::Field{"ways_tried", "1", &LoopConfig::ways_tried, 0, 16,
+                          "Ways of each EV that are driven to the end in copies of the run, "
+                          "which gives the regret of the chosen one; 0: none",
+                          "0: each costs the rest of a run"},
+              core::Field{"ways_every_s", "s", &LoopConfig::ways_every_s, 1.0, 86400.0,
+                          "Time between two such moments of an EV, from its departure on", "assumed"},
+              core::Field{"units_tried", "1", &LoopConfig::units_tried, 0, 16,
+                          "Stations, the nearest first, whose unit is driven to each call in a copy of the "
+                          "run, which gives the regret of the one that was sent; 0: none",
+                          "0: each costs the rest of a run"});
+        LinkSettings::fields(table);
     }
 };
 

@@ -31,15 +31,14 @@ struct WindowSpec {
     std::filesystem::path settings_file;  ///< Empty: Clearway's own.
     std::string program = "sumo-gui";     ///< Or `sumo`: the same without a window.
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using Self = WindowSpec;
-        return std::make_tuple(
-            core::Field{"delay_s", "s", &Self::delay_s, 0, 10,
-                        "Minimum wall time of a step, once conditions have forked",
-                        "a step of 0.5 s runs ten times faster than real time"},
-            core::Field{"settings_file", "", &Self::settings_file, 0, 0, "View settings of sumo-gui",
-                        "Clearway's own"},
-            core::Field{"program", "", &Self::program, 0, 0, "The SUMO program that runs it", "sumo-gui"});
+        table(core::Field{"delay_s", "s", &Self::delay_s, 0, 10,
+                          "Minimum wall time of a step, once conditions have forked",
+                          "a step of 0.5 s runs ten times faster than real time"},
+              core::Field{"settings_file", "", &Self::settings_file, 0, 0, "View settings of sumo-gui",
+                          "Clearway's own"},
+              core::Field{"program", "", &Self::program, 0, 0, "The SUMO program that runs it", "sumo-gui"});
     }
     bool operator==(const WindowSpec&) const = default;
 };
@@ -49,10 +48,10 @@ struct WindowSpec {
 struct LiveSpec {
     std::filesystem::path socket;  ///< Where the server listens (view/run_stream.hpp, server/feed.hpp).
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using Self = LiveSpec;
-        return std::make_tuple(core::Field{"socket", "", &Self::socket, 0, 0,
-                                           "Local socket of the server that shows the run", "given"});
+        table(core::Field{"socket", "", &Self::socket, 0, 0, "Local socket of the server that shows the run",
+                          "given"});
     }
     bool operator==(const LiveSpec&) const = default;
 };

@@ -3,7 +3,6 @@
 #include <compare>
 #include <cstdint>
 #include <string>
-#include <tuple>
 
 #include "core/fields.hpp"
 
@@ -33,19 +32,18 @@ struct Provenance {
 
     bool operator==(const Provenance&) const = default;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using P = Provenance;
         using core::Field;
-        return std::make_tuple(
-            Field{"clearway_version", "", &P::clearway_version, 0, 0, "Version of Clearway", ""},
-            Field{"sumo_version", "", &P::sumo_version, 0, 0, "Version of SUMO", ""},
-            Field{"configuration_hash", "", &P::configuration_hash, 0, 0,
-                  "Hash of the scenario's effective configuration and own files", ""},
-            Field{"demand_hash", "", &P::demand_hash, 0, 0, "Hash of vehicle types, routes and departures",
-                  ""},
-            Field{"study_seed", "1", &P::study_seed, 0, 1.9e19, "Seed of the study", ""},
-            Field{"simulator_seed", "1", &P::simulator_seed, 0, 1.9e19, "Seed of SUMO's own generator", ""},
-            Field{"trace_hash", "", &P::trace_hash, 0, 0, "Hash of every snapshot and lease", ""});
+        table(Field{"clearway_version", "", &P::clearway_version, 0, 0, "Version of Clearway", ""},
+              Field{"sumo_version", "", &P::sumo_version, 0, 0, "Version of SUMO", ""},
+              Field{"configuration_hash", "", &P::configuration_hash, 0, 0,
+                    "Hash of the scenario's effective configuration and own files", ""},
+              Field{"demand_hash", "", &P::demand_hash, 0, 0, "Hash of vehicle types, routes and departures",
+                    ""},
+              Field{"study_seed", "1", &P::study_seed, 0, 1.9e19, "Seed of the study", ""},
+              Field{"simulator_seed", "1", &P::simulator_seed, 0, 1.9e19, "Seed of SUMO's own generator", ""},
+              Field{"trace_hash", "", &P::trace_hash, 0, 0, "Hash of every snapshot and lease", ""});
     }
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/error.hpp"
@@ -128,10 +127,10 @@ struct FailureConfig : RequestChannel, SignalRequestChannel {
     static constexpr Member FailureConfig::*of(Member ChannelConfig::*member) {
         return static_cast<Member Way::*>(member);
     }
-    static constexpr auto report_fields() {
+    static constexpr void report_fields(const auto& table) {
         using C = FailureConfig;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"report_interval_s", "s", &C::report_interval_s, 0.0, 1.0,
                   "Time between two reports of a vehicle: 0.1 to 1, or 0 for one at every step",
                   "1 Hz to 10 Hz as cooperative awareness messages (ETSI EN 302 637-2)"},
@@ -164,10 +163,10 @@ struct FailureConfig : RequestChannel, SignalRequestChannel {
                   "Share of the human-driven vehicles that report at all; all other vehicles do",
                   "all of them, as the dissertation assumes"});
     }
-    static constexpr auto sight_fields() {
+    static constexpr void sight_fields(const auto& table) {
         using C = FailureConfig;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"roadside_range_m", "m", &C::roadside_range_m, 0.0, 1000.0,
                   "Roadside units at signals see every vehicle within this distance, equipped or not", "off"},
             Field{"roadside_sigma_m", "m", &C::roadside_sigma_m, 0.0, 100.0,
@@ -184,10 +183,10 @@ struct FailureConfig : RequestChannel, SignalRequestChannel {
                   "Whether a vehicle in between hides others from on-board sensors and link detection",
                   "ignored: presets C have none"});
     }
-    static constexpr auto knowledge_fields() {
+    static constexpr void knowledge_fields(const auto& table) {
         using C = FailureConfig;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{
                 "dark_commands", "", &C::dark_commands, 0, 0,
                 "Whether a vehicle whose newest report was lost still receives commands: one radio for both "
@@ -226,11 +225,11 @@ struct FailureConfig : RequestChannel, SignalRequestChannel {
                   "they are found, each independently",
                   "0: found on board; above it, by a centre that tells the crew"});
     }
-    static constexpr auto request_fields() {
+    static constexpr void request_fields(const auto& table) {
         using C = ChannelConfig;
         using Way = RequestChannel;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"request_propagation", "", of<Way>(&C::propagation), 0, 0,
                   "Which vehicles hear the requests of an emergency vehicle",
                   "perfect: every vehicle; older conditions had no channel"},
@@ -254,33 +253,35 @@ struct FailureConfig : RequestChannel, SignalRequestChannel {
                   "Number of hops of a message: above 1, automated vehicles that receive it relay it",
                   "1: no relays"});
     }
-    static constexpr auto signal_request_fields() {
+    static constexpr void signal_request_fields(const auto& table) {
         using C = ChannelConfig;
         using Way = SignalRequestChannel;
         using core::Field;
-        return std::make_tuple(
-            Field{"signal_request_propagation", "", of<Way>(&C::propagation), 0, 0,
-                  "Which signals hear the requests of an emergency vehicle",
-                  "perfect: every signal; older conditions had no channel"},
-            Field{"signal_request_range_m", "m", of<Way>(&C::range_m), 1.0, 10000.0,
-                  "As request_range_m, to the middle of a signal's stop lines",
-                  "500 m assumed: a receiver on a mast"},
-            Field{"signal_request_loss_rate", "1", of<Way>(&C::loss_rate), 0.0, 1.0,
-                  "Share of these messages lost by a signal in reach, each independently", "off"},
-            Field{"signal_request_dark_share", "1", of<Way>(&C::dark_share), 0.0, 0.99,
-                  "Share of time that a signal's receiver spends in outages (Gilbert-Elliott)", "off"},
-            Field{"signal_request_mean_outage_s", "s", of<Way>(&C::mean_outage_s), 0.1, 3600.0,
-                  "Mean length of an outage of a signal's receiver", "as of reports"},
-            Field{"signal_request_latency_s", "s", of<Way>(&C::latency_s), 0.0, 60.0,
-                  "Time from a decision to its arrival at the signal", "off"},
-            Field{"signal_request_interval_s", "s", of<Way>(&C::interval_s), 0.1, 60.0,
-                  "Time between two messages of an emergency vehicle to signals", "as of requests"});
+        table(Field{"signal_request_propagation", "", of<Way>(&C::propagation), 0, 0,
+                    "Which signals hear the requests of an emergency vehicle",
+                    "perfect: every signal; older conditions had no channel"},
+              Field{"signal_request_range_m", "m", of<Way>(&C::range_m), 1.0, 10000.0,
+                    "As request_range_m, to the middle of a signal's stop lines",
+                    "500 m assumed: a receiver on a mast"},
+              Field{"signal_request_loss_rate", "1", of<Way>(&C::loss_rate), 0.0, 1.0,
+                    "Share of these messages lost by a signal in reach, each independently", "off"},
+              Field{"signal_request_dark_share", "1", of<Way>(&C::dark_share), 0.0, 0.99,
+                    "Share of time that a signal's receiver spends in outages (Gilbert-Elliott)", "off"},
+              Field{"signal_request_mean_outage_s", "s", of<Way>(&C::mean_outage_s), 0.1, 3600.0,
+                    "Mean length of an outage of a signal's receiver", "as of reports"},
+              Field{"signal_request_latency_s", "s", of<Way>(&C::latency_s), 0.0, 60.0,
+                    "Time from a decision to its arrival at the signal", "off"},
+              Field{"signal_request_interval_s", "s", of<Way>(&C::interval_s), 0.1, 60.0,
+                    "Time between two messages of an emergency vehicle to signals", "as of requests"});
     }
 
   public:
-    static constexpr auto fields() {
-        return std::tuple_cat(report_fields(), sight_fields(), knowledge_fields(), request_fields(),
-                              signal_request_fields());
+    static constexpr void fields(const auto& table) {
+        report_fields(table);
+        sight_fields(table);
+        knowledge_fields(table);
+        request_fields(table);
+        signal_request_fields(table);
     }
 };
 

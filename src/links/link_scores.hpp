@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
-#include <tuple>
 
 #include "core/fields.hpp"
 #include "links/link_histogram.hpp"
@@ -74,25 +73,24 @@ struct LinkTruth {
     std::uint64_t unseen_vehicles = 0;
 
     bool operator==(const LinkTruth&) const = default;
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using T = LinkTruth;
         using core::Field;
-        return std::make_tuple(
-            Field{"reports", "1", &T::reports, 0.0, 1e15, "Scored report rounds", ""},
-            Field{"vehicles", "1", &T::vehicles, 0.0, 1e15, "Vehicles on the road, summed over rounds", ""},
-            Field{"true_links", "1", &T::true_links, 0.0, 1e15, "True links, summed over rounds", ""},
-            Field{"never_seen", "1", &T::never_seen, 0.0, 1e15,
-                  "Of them: one end never reported or was forgotten", ""},
-            Field{"outside", "1", &T::outside, 0.0, 1e15,
-                  "Of them: both ends are known of, but the pair is neither known, nor detected, nor a "
-                  "candidate",
-                  ""},
-            Field{"policy_links", "1", &T::policy_links, 0.0, 1e15,
-                  "Of them: between an emergency vehicle and one ahead on its route", ""},
-            Field{"dark_vehicles", "1", &T::dark_vehicles, 0.0, 1e15,
-                  "Vehicles on the road that were not heard just now, summed over rounds", ""},
-            Field{"unseen_vehicles", "1", &T::unseen_vehicles, 0.0, 1e15,
-                  "Of them: never reported, or forgotten", ""});
+        table(Field{"reports", "1", &T::reports, 0.0, 1e15, "Scored report rounds", ""},
+              Field{"vehicles", "1", &T::vehicles, 0.0, 1e15, "Vehicles on the road, summed over rounds", ""},
+              Field{"true_links", "1", &T::true_links, 0.0, 1e15, "True links, summed over rounds", ""},
+              Field{"never_seen", "1", &T::never_seen, 0.0, 1e15,
+                    "Of them: one end never reported or was forgotten", ""},
+              Field{"outside", "1", &T::outside, 0.0, 1e15,
+                    "Of them: both ends are known of, but the pair is neither known, nor detected, nor a "
+                    "candidate",
+                    ""},
+              Field{"policy_links", "1", &T::policy_links, 0.0, 1e15,
+                    "Of them: between an emergency vehicle and one ahead on its route", ""},
+              Field{"dark_vehicles", "1", &T::dark_vehicles, 0.0, 1e15,
+                    "Vehicles on the road that were not heard just now, summed over rounds", ""},
+              Field{"unseen_vehicles", "1", &T::unseen_vehicles, 0.0, 1e15,
+                    "Of them: never reported, or forgotten", ""});
     }
 };
 
@@ -108,21 +106,20 @@ struct LinkBelief {
     std::uint64_t next_right = 0;
 
     bool operator==(const LinkBelief&) const = default;
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using B = LinkBelief;
         using core::Field;
-        return std::make_tuple(
-            Field{"listed_true", "1", &B::listed_true, 0.0, 1e15, "Believed links that are true", ""},
-            Field{"listed_false", "1", &B::listed_false, 0.0, 1e15, "Believed links that are not", ""},
-            Field{"policy_found", "1", &B::policy_found, 0.0, 1e15, "Policy links that are believed", ""},
-            Field{"believed_vehicles", "1", &B::believed_vehicles, 0.0, 1e15, "Believed vehicles", ""},
-            Field{"ghosts", "1", &B::ghosts, 0.0, 1e15, "Of them: no longer on the road", ""},
-            Field{"dark_believed", "1", &B::dark_believed, 0.0, 1e15,
-                  "Dark vehicles on the road that are believed, somewhere", ""},
-            Field{"next_cases", "1", &B::next_cases, 0.0, 1e15,
-                  "Emergency and automated vehicles whose true or believed next vehicle ahead is dark", ""},
-            Field{"next_right", "1", &B::next_right, 0.0, 1e15,
-                  "Of them: the believed one is the true one, or there is none in both", ""});
+        table(Field{"listed_true", "1", &B::listed_true, 0.0, 1e15, "Believed links that are true", ""},
+              Field{"listed_false", "1", &B::listed_false, 0.0, 1e15, "Believed links that are not", ""},
+              Field{"policy_found", "1", &B::policy_found, 0.0, 1e15, "Policy links that are believed", ""},
+              Field{"believed_vehicles", "1", &B::believed_vehicles, 0.0, 1e15, "Believed vehicles", ""},
+              Field{"ghosts", "1", &B::ghosts, 0.0, 1e15, "Of them: no longer on the road", ""},
+              Field{"dark_believed", "1", &B::dark_believed, 0.0, 1e15,
+                    "Dark vehicles on the road that are believed, somewhere", ""},
+              Field{"next_cases", "1", &B::next_cases, 0.0, 1e15,
+                    "Emergency and automated vehicles whose true or believed next vehicle ahead is dark", ""},
+              Field{"next_right", "1", &B::next_right, 0.0, 1e15,
+                    "Of them: the believed one is the true one, or there is none in both", ""});
     }
 };
 

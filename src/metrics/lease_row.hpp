@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <tuple>
 
 #include "core/fields.hpp"
 #include "traffic/lease.hpp"
@@ -40,14 +39,13 @@ struct LeaseRow {
     }
 
     /// The numeric columns. In tables, policy and action come before them, refusals by reason after them.
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using R = LeaseRow;
         using core::Field;
-        return std::make_tuple(
-            Field{"issued", "1", &R::issued, 0.0, 1e12, "New leases, refused ones included", ""},
-            Field{"renewed", "1", &R::renewed, 0.0, 1e12, "Leases that renewed an earlier one", ""},
-            Field{"acted", "1", &R::acted, 0.0, 1e12, "Leases that took effect for at least one step", ""},
-            Field{"expired", "1", &R::expired, 0.0, 1e12, "Leases that expired", ""});
+        table(Field{"issued", "1", &R::issued, 0.0, 1e12, "New leases, refused ones included", ""},
+              Field{"renewed", "1", &R::renewed, 0.0, 1e12, "Leases that renewed an earlier one", ""},
+              Field{"acted", "1", &R::acted, 0.0, 1e12, "Leases that took effect for at least one step", ""},
+              Field{"expired", "1", &R::expired, 0.0, 1e12, "Leases that expired", ""});
     }
 };
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <tuple>
 
 #include "core/fields.hpp"
 
@@ -27,9 +26,9 @@ struct LinkQuality {
     std::optional<double> ece;       ///< See `calibration_error`.
     double threshold = 0.5;          ///< At or above it a link counts as predicted, for `f1`.
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using Q = LinkQuality;
-        return std::make_tuple(
+        table(
             core::Field{"pairs", "1", &Q::pairs, 0.0, 1e12, "Pairs scored", ""},
             core::Field{"true_links", "1", &Q::true_links, 0.0, 1e12, "Pairs that are linked", ""},
             core::Field{"auc", "1", &Q::auc, 0.0, 1.0,

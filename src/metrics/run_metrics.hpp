@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -178,53 +177,52 @@ struct RunMetrics {
     bool operator==(const RunMetrics&) const = default;
 
   private:
-    static constexpr auto travel_fields() {
+    static constexpr void travel_fields(const auto& table) {
         using M = RunMetrics;
         using core::Field;
-        return std::make_tuple(
-            Field{"emergency_restricted_travel_time_s", "s", &M::emergency_restricted_travel_time_s, 0.0, 1e9,
-                  "EV travel time, mean of all; an EV that did not arrive counts with the horizon",
-                  "tripinfo duration; Royston and Parmar 2013"},
-            Field{"emergency_travel_time_s", "s", &M::emergency_travel_time_s, 0.0, 1e9,
-                  "EV travel time, mean of those that arrived", "tripinfo duration"},
-            Field{"emergency_time_loss_s", "s", &M::emergency_time_loss_s, 0.0, 1e9,
-                  "EV time loss, mean of those that arrived", "tripinfo timeLoss"},
-            Field{"emergency_waiting_time_s", "s", &M::emergency_waiting_time_s, 0.0, 1e9,
-                  "EV waiting time, mean of those inserted", "tripinfo waitingTime; TABLES II to IV"},
-            Field{"emergency_depart_delay_s", "s", &M::emergency_depart_delay_s, 0.0, 1e9,
-                  "EV depart delay, mean of those inserted", "tripinfo departDelay; TABLES II to IV"},
-            Field{"depart_delay_s", "s", &M::depart_delay_s, 0.0, 1e9,
-                  "Depart delay of all vehicles, mean of those inserted", "tripinfo departDelay"},
-            Field{"others_depart_delay_s", "s", &M::others_depart_delay_s, 0.0, 1e9,
-                  "Depart delay of all but the EVs, mean of those inserted", "tripinfo departDelay"},
-            Field{"waiting_time_s", "s", &M::waiting_time_s, 0.0, 1e9,
-                  "Waiting time of all vehicles, mean of those inserted",
-                  "tripinfo waitingTime, and stops that a policy commanded; TABLES II to IV"},
-            Field{"others_travel_time_s", "s", &M::others_travel_time_s, 0.0, 1e9,
-                  "Travel time of all but the EVs, mean of those that arrived", "tripinfo duration"},
-            Field{"others_time_loss_s", "s", &M::others_time_loss_s, 0.0, 1e9,
-                  "Time loss of all but the EVs, mean of those inserted",
-                  "tripinfo timeLoss, and stops that a policy commanded"},
-            Field{"others_waiting_time_s", "s", &M::others_waiting_time_s, 0.0, 1e9,
-                  "Waiting time of all but the EVs, mean of those inserted",
-                  "tripinfo waitingTime, and stops that a policy commanded"},
-            Field{"emergency_count", "1", &M::emergency_count, 0.0, 1e9, "EVs of the demand", "demand"},
-            Field{"emergency_arrived", "1", &M::emergency_arrived, 0.0, 1e9,
-                  "EVs that arrived without a teleport", "tripinfo"},
-            Field{"vehicle_count", "1", &M::vehicle_count, 0.0, 1e9, "Vehicles of the demand", "demand"},
-            Field{"arrived", "1", &M::arrived, 0.0, 1e9, "Vehicles that arrived without a teleport",
-                  "tripinfo"},
-            Field{"unfinished", "1", &M::unfinished, 0.0, 1e9, "Vehicles still on the road at the end",
-                  "tripinfo"},
-            Field{"not_inserted", "1", &M::not_inserted, 0.0, 1e9, "Vehicles that never departed",
-                  "demand less tripinfo"},
-            Field{"removed", "1", &M::removed, 0.0, 1e9, "Vehicles removed before they arrived",
-                  "tripinfo vaporized"});
+        table(Field{"emergency_restricted_travel_time_s", "s", &M::emergency_restricted_travel_time_s, 0.0,
+                    1e9, "EV travel time, mean of all; an EV that did not arrive counts with the horizon",
+                    "tripinfo duration; Royston and Parmar 2013"},
+              Field{"emergency_travel_time_s", "s", &M::emergency_travel_time_s, 0.0, 1e9,
+                    "EV travel time, mean of those that arrived", "tripinfo duration"},
+              Field{"emergency_time_loss_s", "s", &M::emergency_time_loss_s, 0.0, 1e9,
+                    "EV time loss, mean of those that arrived", "tripinfo timeLoss"},
+              Field{"emergency_waiting_time_s", "s", &M::emergency_waiting_time_s, 0.0, 1e9,
+                    "EV waiting time, mean of those inserted", "tripinfo waitingTime; TABLES II to IV"},
+              Field{"emergency_depart_delay_s", "s", &M::emergency_depart_delay_s, 0.0, 1e9,
+                    "EV depart delay, mean of those inserted", "tripinfo departDelay; TABLES II to IV"},
+              Field{"depart_delay_s", "s", &M::depart_delay_s, 0.0, 1e9,
+                    "Depart delay of all vehicles, mean of those inserted", "tripinfo departDelay"},
+              Field{"others_depart_delay_s", "s", &M::others_depart_delay_s, 0.0, 1e9,
+                    "Depart delay of all but the EVs, mean of those inserted", "tripinfo departDelay"},
+              Field{"waiting_time_s", "s", &M::waiting_time_s, 0.0, 1e9,
+                    "Waiting time of all vehicles, mean of those inserted",
+                    "tripinfo waitingTime, and stops that a policy commanded; TABLES II to IV"},
+              Field{"others_travel_time_s", "s", &M::others_travel_time_s, 0.0, 1e9,
+                    "Travel time of all but the EVs, mean of those that arrived", "tripinfo duration"},
+              Field{"others_time_loss_s", "s", &M::others_time_loss_s, 0.0, 1e9,
+                    "Time loss of all but the EVs, mean of those inserted",
+                    "tripinfo timeLoss, and stops that a policy commanded"},
+              Field{"others_waiting_time_s", "s", &M::others_waiting_time_s, 0.0, 1e9,
+                    "Waiting time of all but the EVs, mean of those inserted",
+                    "tripinfo waitingTime, and stops that a policy commanded"},
+              Field{"emergency_count", "1", &M::emergency_count, 0.0, 1e9, "EVs of the demand", "demand"},
+              Field{"emergency_arrived", "1", &M::emergency_arrived, 0.0, 1e9,
+                    "EVs that arrived without a teleport", "tripinfo"},
+              Field{"vehicle_count", "1", &M::vehicle_count, 0.0, 1e9, "Vehicles of the demand", "demand"},
+              Field{"arrived", "1", &M::arrived, 0.0, 1e9, "Vehicles that arrived without a teleport",
+                    "tripinfo"},
+              Field{"unfinished", "1", &M::unfinished, 0.0, 1e9, "Vehicles still on the road at the end",
+                    "tripinfo"},
+              Field{"not_inserted", "1", &M::not_inserted, 0.0, 1e9, "Vehicles that never departed",
+                    "demand less tripinfo"},
+              Field{"removed", "1", &M::removed, 0.0, 1e9, "Vehicles removed before they arrived",
+                    "tripinfo vaporized"});
     }
-    static constexpr auto safety_fields() {
+    static constexpr void safety_fields(const auto& table) {
         using M = RunMetrics;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"teleports", "1", &M::teleports, 0.0, 1e9, "Teleports", "events"},
             Field{"locks", "1", &M::locks, 0.0, 1e9,
                   "Locks: places where vehicles stood over 60 s with no red, no stop and no queue to a red "
@@ -275,10 +273,10 @@ struct RunMetrics {
             Field{"vehicle_km", "km", &M::vehicle_km, 0.0, 1e12, "Distance driven by all vehicles",
                   "tripinfo routeLength"});
     }
-    static constexpr auto signal_fields() {
+    static constexpr void signal_fields(const auto& table) {
         using M = RunMetrics;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"cross_street_delay_s", "s", &M::cross_street_delay_s, 0.0, 1e12,
                   "Time lost on the cross streets of a signal on an EV's route, in the 15 minutes from when "
                   "the EV could be there, summed over vehicles, mean of the signals on all routes",
@@ -298,26 +296,25 @@ struct RunMetrics {
                   "mean",
                   "event log"});
     }
-    static constexpr auto pedestrian_fields() {
+    static constexpr void pedestrian_fields(const auto& table) {
         using M = RunMetrics;
         using core::Field;
-        return std::make_tuple(
-            Field{"pedestrian_count", "1", &M::pedestrian_count, 0.0, 1e9, "Walks of pedestrians",
-                  "tripinfo"},
-            Field{"pedestrians_unfinished", "1", &M::pedestrians_unfinished, 0.0, 1e9,
-                  "Walks that had not ended", "tripinfo"},
-            Field{"pedestrian_time_loss_s", "s", &M::pedestrian_time_loss_s, 0.0, 1e9,
-                  "Time lost on a walk, including waiting at crossings, mean of those that ended",
-                  "tripinfo timeLoss"},
-            Field{"pedestrian_collisions", "1", &M::pedestrian_collisions, 0.0, 1e9,
-                  "Collisions of vehicles with pedestrians, not counted in the collisions", "events"},
-            Field{"emergency_pedestrian_collisions", "1", &M::emergency_pedestrian_collisions, 0.0, 1e9,
-                  "Collisions of EVs with pedestrians", "events"});
+        table(Field{"pedestrian_count", "1", &M::pedestrian_count, 0.0, 1e9, "Walks of pedestrians",
+                    "tripinfo"},
+              Field{"pedestrians_unfinished", "1", &M::pedestrians_unfinished, 0.0, 1e9,
+                    "Walks that had not ended", "tripinfo"},
+              Field{"pedestrian_time_loss_s", "s", &M::pedestrian_time_loss_s, 0.0, 1e9,
+                    "Time lost on a walk, including waiting at crossings, mean of those that ended",
+                    "tripinfo timeLoss"},
+              Field{"pedestrian_collisions", "1", &M::pedestrian_collisions, 0.0, 1e9,
+                    "Collisions of vehicles with pedestrians, not counted in the collisions", "events"},
+              Field{"emergency_pedestrian_collisions", "1", &M::emergency_pedestrian_collisions, 0.0, 1e9,
+                    "Collisions of EVs with pedestrians", "events"});
     }
-    static constexpr auto decision_fields() {
+    static constexpr void decision_fields(const auto& table) {
         using M = RunMetrics;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"leases_issued", "1", &M::leases_issued, 0.0, 1e12, "New leases, refused ones included",
                   "actuation"},
             Field{"leases_renewed", "1", &M::leases_renewed, 0.0, 1e12, "Leases that renewed an earlier one",
@@ -343,42 +340,40 @@ struct RunMetrics {
                   "Time that EVs lost against the fastest of these ways, mean of the moments",
                   "copies of the run"});
     }
-    static constexpr auto incident_fields() {
+    static constexpr void incident_fields(const auto& table) {
         using M = RunMetrics;
         using core::Field;
         constexpr const char* from = "incidents of the scenario";
-        return std::make_tuple(
-            Field{"emergency_met_incident", "1", &M::emergency_met_incident, 0.0, 1e9,
-                  "EVs that came to a road which an incident closed to them", from},
-            Field{"emergency_turned_round", "1", &M::emergency_turned_round, 0.0, 1e9,
-                  "Of these: their crews saw it and took another way", from},
-            Field{"emergency_cut_off", "1", &M::emergency_cut_off, 0.0, 1e9,
-                  "Of these: their crews found no other way", from},
-            Field{"others_rerouted", "1", &M::others_rerouted, 0.0, 1e9,
-                  "Other vehicles that took another way because of an incident", from},
-            Field{"incident_delay_s", "s", &M::incident_delay_s, 0.0, 1e9,
-                  "Longest time from an incident's start until all its lanes were blocked", from});
+        table(Field{"emergency_met_incident", "1", &M::emergency_met_incident, 0.0, 1e9,
+                    "EVs that came to a road which an incident closed to them", from},
+              Field{"emergency_turned_round", "1", &M::emergency_turned_round, 0.0, 1e9,
+                    "Of these: their crews saw it and took another way", from},
+              Field{"emergency_cut_off", "1", &M::emergency_cut_off, 0.0, 1e9,
+                    "Of these: their crews found no other way", from},
+              Field{"others_rerouted", "1", &M::others_rerouted, 0.0, 1e9,
+                    "Other vehicles that took another way because of an incident", from},
+              Field{"incident_delay_s", "s", &M::incident_delay_s, 0.0, 1e9,
+                    "Longest time from an incident's start until all its lanes were blocked", from});
     }
-    static constexpr auto call_fields() {
+    static constexpr void call_fields(const auto& table) {
         using M = RunMetrics;
         using core::Field;
         constexpr const char* from = "copies of the run, setting loop.units_tried";
-        return std::make_tuple(
-            Field{"units_sent", "1", &M::units_sent, 0.0, 1e9, "EVs that calls sent out",
-                  "calls of the scenario"},
-            Field{"units_missing", "1", &M::units_missing, 0.0, 1e9,
-                  "EVs called for that no station could send", "calls of the scenario"},
-            Field{"unit_decisions", "1", &M::unit_decisions, 0.0, 1e9,
-                  "EVs sent while units of other stations were driven there in copies of the run", from},
-            Field{"wrong_unit_share", "1", &M::wrong_unit_share, 0.0, 1.0,
-                  "Share of these: another unit would have been there more than 1 s earlier", from},
-            Field{"unit_regret_s", "s", &M::unit_regret_s, 0.0, 1e9,
-                  "Time lost against the first of the units, mean of these", from});
+        table(Field{"units_sent", "1", &M::units_sent, 0.0, 1e9, "EVs that calls sent out",
+                    "calls of the scenario"},
+              Field{"units_missing", "1", &M::units_missing, 0.0, 1e9,
+                    "EVs called for that no station could send", "calls of the scenario"},
+              Field{"unit_decisions", "1", &M::unit_decisions, 0.0, 1e9,
+                    "EVs sent while units of other stations were driven there in copies of the run", from},
+              Field{"wrong_unit_share", "1", &M::wrong_unit_share, 0.0, 1.0,
+                    "Share of these: another unit would have been there more than 1 s earlier", from},
+              Field{"unit_regret_s", "s", &M::unit_regret_s, 0.0, 1e9,
+                    "Time lost against the first of the units, mean of these", from});
     }
-    static constexpr auto request_fields() {
+    static constexpr void request_fields(const auto& table) {
         using M = RunMetrics;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"requests_sent", "1", &M::requests_sent, 0.0, 1e12,
                   "Requests of EVs to other vehicles, one for each message that carries it", "channel"},
             Field{"requests_heard", "1", &M::requests_heard, 0.0, 1e12,
@@ -404,71 +399,76 @@ struct RunMetrics {
             Field{"signal_request_messages", "1", &M::signal_request_messages, 0.0, 1e12,
                   "Transmissions of requests to signals", "channel"});
     }
-    static constexpr auto answer_fields() {
+    static constexpr void answer_fields(const auto& table) {
         using M = RunMetrics;
         using core::Field;
         constexpr const char* told = "SSM";
-        return std::make_tuple(
-            Field{"signal_request_updates", "1", &M::signal_request_updates, 0.0, 1e12,
-                  "Of those sent to signals: updates of an earlier one", "SRM"},
-            Field{"signal_request_cancellations", "1", &M::signal_request_cancellations, 0.0, 1e12,
-                  "Of those sent to signals: cancellations, after the EV has passed", "SRM"},
-            Field{"signal_answers_sent", "1", &M::signal_answers_sent, 0.0, 1e12,
-                  "Answers of signals, one for each message and open request", "SSM"},
-            Field{"signal_answers_heard", "1", &M::signal_answers_heard, 0.0, 1e12,
-                  "Of those: the EV heard it", "SSM"},
-            Field{"signal_told_requested", "1", &M::signal_told_requested, 0.0, 1e9,
-                  "Requests whose EV was told `requested` at least once", told},
-            Field{"signal_told_processing", "1", &M::signal_told_processing, 0.0, 1e9,
-                  "The same for `processing`", told},
-            Field{"signal_told_watch_other_traffic", "1", &M::signal_told_watch_other_traffic, 0.0, 1e9,
-                  "The same for `watchOtherTraffic`", told},
-            Field{"signal_told_granted", "1", &M::signal_told_granted, 0.0, 1e9, "The same for `granted`",
-                  told},
-            Field{"signal_told_rejected", "1", &M::signal_told_rejected, 0.0, 1e9, "The same for `rejected`",
-                  told},
-            Field{"signal_told_max_presence", "1", &M::signal_told_max_presence, 0.0, 1e9,
-                  "The same for `maxPresence`", told},
-            Field{"signal_told_reservice_locked", "1", &M::signal_told_reservice_locked, 0.0, 1e9,
-                  "The same for `reserviceLocked`", told},
-            Field{"signal_granted_after_s", "s", &M::signal_granted_after_s, 0.0, 1e9,
-                  "Time from an EV's first request to the first `granted` that it heard, mean", told},
-            Field{"held_greens", "1", &M::held_greens, 0.0, 1e9,
-                  "Greens that signals held for an EV, whichever policy asked", "actuation"},
-            Field{"held_greens_useless", "1", &M::held_greens_useless, 0.0, 1e9,
-                  "Of those: the EV did not pass in it", "actuation and routes"},
-            Field{"held_greens_useless_s", "s", &M::held_greens_useless_s, 0.0, 1e9, "Their duration, summed",
-                  "actuation and routes"});
+        table(Field{"signal_request_updates", "1", &M::signal_request_updates, 0.0, 1e12,
+                    "Of those sent to signals: updates of an earlier one", "SRM"},
+              Field{"signal_request_cancellations", "1", &M::signal_request_cancellations, 0.0, 1e12,
+                    "Of those sent to signals: cancellations, after the EV has passed", "SRM"},
+              Field{"signal_answers_sent", "1", &M::signal_answers_sent, 0.0, 1e12,
+                    "Answers of signals, one for each message and open request", "SSM"},
+              Field{"signal_answers_heard", "1", &M::signal_answers_heard, 0.0, 1e12,
+                    "Of those: the EV heard it", "SSM"},
+              Field{"signal_told_requested", "1", &M::signal_told_requested, 0.0, 1e9,
+                    "Requests whose EV was told `requested` at least once", told},
+              Field{"signal_told_processing", "1", &M::signal_told_processing, 0.0, 1e9,
+                    "The same for `processing`", told},
+              Field{"signal_told_watch_other_traffic", "1", &M::signal_told_watch_other_traffic, 0.0, 1e9,
+                    "The same for `watchOtherTraffic`", told},
+              Field{"signal_told_granted", "1", &M::signal_told_granted, 0.0, 1e9, "The same for `granted`",
+                    told},
+              Field{"signal_told_rejected", "1", &M::signal_told_rejected, 0.0, 1e9,
+                    "The same for `rejected`", told},
+              Field{"signal_told_max_presence", "1", &M::signal_told_max_presence, 0.0, 1e9,
+                    "The same for `maxPresence`", told},
+              Field{"signal_told_reservice_locked", "1", &M::signal_told_reservice_locked, 0.0, 1e9,
+                    "The same for `reserviceLocked`", told},
+              Field{"signal_granted_after_s", "s", &M::signal_granted_after_s, 0.0, 1e9,
+                    "Time from an EV's first request to the first `granted` that it heard, mean", told},
+              Field{"held_greens", "1", &M::held_greens, 0.0, 1e9,
+                    "Greens that signals held for an EV, whichever policy asked", "actuation"},
+              Field{"held_greens_useless", "1", &M::held_greens_useless, 0.0, 1e9,
+                    "Of those: the EV did not pass in it", "actuation and routes"},
+              Field{"held_greens_useless_s", "s", &M::held_greens_useless_s, 0.0, 1e9,
+                    "Their duration, summed", "actuation and routes"});
     }
-    static constexpr auto link_fields() {
+    static constexpr void link_fields(const auto& table) {
         using M = RunMetrics;
         using core::Field;
-        return std::make_tuple(
-            Field{"links_true_positive", "1", &M::links_true_positive, 0.0, 1e12,
-                  "Links believed that are true", "link comparison by key"},
-            Field{"links_false_positive", "1", &M::links_false_positive, 0.0, 1e12,
-                  "Links believed that are not true", "link comparison by key"},
-            Field{"links_false_negative", "1", &M::links_false_negative, 0.0, 1e12,
-                  "True links that are not believed", "link comparison by key"},
-            Field{"links_f1", "1", &M::links_f1, 0.0, 1.0, "F1 of the believed links", "2TP/(2TP+FP+FN)"},
-            Field{"dark_links_true_positive", "1", &M::dark_links_true_positive, 0.0, 1e12,
-                  "The same where an end was not heard at the newest report", "link comparison by key"},
-            Field{"dark_links_false_positive", "1", &M::dark_links_false_positive, 0.0, 1e12,
-                  "The same where an end was not heard at the newest report", "link comparison by key"},
-            Field{"dark_links_false_negative", "1", &M::dark_links_false_negative, 0.0, 1e12,
-                  "The same where an end was not heard at the newest report", "link comparison by key"},
-            Field{"dark_links_f1", "1", &M::dark_links_f1, 0.0, 1.0,
-                  "F1 of the believed links with an end not heard at the newest report", "2TP/(2TP+FP+FN)"},
-            Field{"simulated_s", "s", &M::simulated_s, 0.0, 1e9, "Simulated time", "clock"},
-            Field{"vehicle_steps", "1", &M::vehicle_steps, 0.0, 1e15,
-                  "Vehicles on the road, summed over steps", "snapshots"});
+        table(Field{"links_true_positive", "1", &M::links_true_positive, 0.0, 1e12,
+                    "Links believed that are true", "link comparison by key"},
+              Field{"links_false_positive", "1", &M::links_false_positive, 0.0, 1e12,
+                    "Links believed that are not true", "link comparison by key"},
+              Field{"links_false_negative", "1", &M::links_false_negative, 0.0, 1e12,
+                    "True links that are not believed", "link comparison by key"},
+              Field{"links_f1", "1", &M::links_f1, 0.0, 1.0, "F1 of the believed links", "2TP/(2TP+FP+FN)"},
+              Field{"dark_links_true_positive", "1", &M::dark_links_true_positive, 0.0, 1e12,
+                    "The same where an end was not heard at the newest report", "link comparison by key"},
+              Field{"dark_links_false_positive", "1", &M::dark_links_false_positive, 0.0, 1e12,
+                    "The same where an end was not heard at the newest report", "link comparison by key"},
+              Field{"dark_links_false_negative", "1", &M::dark_links_false_negative, 0.0, 1e12,
+                    "The same where an end was not heard at the newest report", "link comparison by key"},
+              Field{"dark_links_f1", "1", &M::dark_links_f1, 0.0, 1.0,
+                    "F1 of the believed links with an end not heard at the newest report", "2TP/(2TP+FP+FN)"},
+              Field{"simulated_s", "s", &M::simulated_s, 0.0, 1e9, "Simulated time", "clock"},
+              Field{"vehicle_steps", "1", &M::vehicle_steps, 0.0, 1e15,
+                    "Vehicles on the road, summed over steps", "snapshots"});
     }
 
   public:
-    static constexpr auto fields() {
-        return std::tuple_cat(travel_fields(), safety_fields(), signal_fields(), pedestrian_fields(),
-                              decision_fields(), incident_fields(), call_fields(), request_fields(),
-                              answer_fields(), link_fields());
+    static constexpr void fields(const auto& table) {
+        travel_fields(table);
+        safety_fields(table);
+        signal_fields(table);
+        pedestrian_fields(table);
+        decision_fields(table);
+        incident_fields(table);
+        call_fields(table);
+        request_fields(table);
+        answer_fields(table);
+        link_fields(table);
     }
 };
 

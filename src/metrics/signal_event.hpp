@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <tuple>
 
 #include "core/fields.hpp"
 
@@ -44,21 +43,20 @@ struct SignalEvent {
 
     bool operator==(const SignalEvent&) const = default;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using E = SignalEvent;
         using core::Field;
-        return std::make_tuple(
-            Field{"time_s", "s", &E::time_s, 0.0, 1e9, "Simulation time", "clock"},
-            Field{"signal", "", &E::signal, 0.0, 0.0, "Signal, SUMO's id", "network"},
-            Field{"event", "1", &E::event, 0.0, 255.0, "Event code",
-                  "Indiana Traffic Signal Hi Resolution Data Logger Enumerations, 2012"},
-            Field{"parameter", "1", &E::parameter, 0.0, 1e6,
-                  "Signal group (codes up to 23), approach as number of the pre-empt (82 to 111), or state "
-                  "of coordination (150): 0 free, 1 in step, 2 in transition",
-                  "network and program"},
-            Field{"links", "", &E::links, 0.0, 0.0,
-                  "Numbers of the links that changed or are asked for, as in SUMO's states", "network"},
-            Field{"vehicle", "", &E::vehicle, 0.0, 0.0, "EV that asks, is served or passes", "demand"});
+        table(Field{"time_s", "s", &E::time_s, 0.0, 1e9, "Simulation time", "clock"},
+              Field{"signal", "", &E::signal, 0.0, 0.0, "Signal, SUMO's id", "network"},
+              Field{"event", "1", &E::event, 0.0, 255.0, "Event code",
+                    "Indiana Traffic Signal Hi Resolution Data Logger Enumerations, 2012"},
+              Field{"parameter", "1", &E::parameter, 0.0, 1e6,
+                    "Signal group (codes up to 23), approach as number of the pre-empt (82 to 111), or state "
+                    "of coordination (150): 0 free, 1 in step, 2 in transition",
+                    "network and program"},
+              Field{"links", "", &E::links, 0.0, 0.0,
+                    "Numbers of the links that changed or are asked for, as in SUMO's states", "network"},
+              Field{"vehicle", "", &E::vehicle, 0.0, 0.0, "EV that asks, is served or passes", "demand"});
     }
 };
 

@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -28,10 +27,10 @@ struct SignalMeasures {
 
     bool operator==(const SignalMeasures&) const = default;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using M = SignalMeasures;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"signal", "", &M::signal, 0.0, 0.0, "Signal, SUMO's id; empty for all of a run", "network"},
             Field{"calls", "1", &M::calls, 0.0, 1e9, "Requests of an EV that reached the signal", "102"},
             Field{"granted", "1", &M::granted, 0.0, 1e9, "Of them: a hold was shown", "102, 107"},

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -23,17 +22,16 @@ struct ApproachRow {
     bool operator==(const ApproachRow&) const = default;
 
     /// The numeric columns. In tables, edge and class come before them.
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using R = ApproachRow;
         using core::Field;
-        return std::make_tuple(
-            Field{"vehicles", "1", &R::vehicles, 0.0, 1e9, "Vehicles that entered the approach", ""},
-            Field{"waiting_time_s", "s", &R::waiting_time_s, 0.0, 1e12,
-                  "Time that vehicles stood there (below 0.1 m/s), summed over vehicles", ""},
-            Field{"time_loss_s", "s", &R::time_loss_s, 0.0, 1e12,
-                  "Time lost there compared with driving at the speed limit, summed over vehicles", ""},
-            Field{"flow_per_hour", "1/h", &R::flow_per_hour, 0.0, 1e9,
-                  "Vehicles per hour that entered it while demand departed", ""});
+        table(Field{"vehicles", "1", &R::vehicles, 0.0, 1e9, "Vehicles that entered the approach", ""},
+              Field{"waiting_time_s", "s", &R::waiting_time_s, 0.0, 1e12,
+                    "Time that vehicles stood there (below 0.1 m/s), summed over vehicles", ""},
+              Field{"time_loss_s", "s", &R::time_loss_s, 0.0, 1e12,
+                    "Time lost there compared with driving at the speed limit, summed over vehicles", ""},
+              Field{"flow_per_hour", "1/h", &R::flow_per_hour, 0.0, 1e9,
+                    "Vehicles per hour that entered it while demand departed", ""});
     }
 };
 
@@ -46,14 +44,13 @@ struct RecoveryRow {
 
     bool operator==(const RecoveryRow&) const = default;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using R = RecoveryRow;
         using core::Field;
-        return std::make_tuple(
-            Field{"offset_s", "s", &R::offset_s, -1e6, 1e6, "Time after the EV passed the stop line", ""},
-            Field{"passages", "1", &R::passages, 0.0, 1e9, "Number of passages in the mean", ""},
-            Field{"halted_vehicles", "1", &R::halted_vehicles, 0.0, 1e9,
-                  "Vehicles below 0.1 m/s on the signal's other approaches, mean", ""});
+        table(Field{"offset_s", "s", &R::offset_s, -1e6, 1e6, "Time after the EV passed the stop line", ""},
+              Field{"passages", "1", &R::passages, 0.0, 1e9, "Number of passages in the mean", ""},
+              Field{"halted_vehicles", "1", &R::halted_vehicles, 0.0, 1e9,
+                    "Vehicles below 0.1 m/s on the signal's other approaches, mean", ""});
     }
 };
 
@@ -67,13 +64,12 @@ struct JourneyRow {
 
     bool operator==(const JourneyRow&) const = default;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using R = JourneyRow;
         using core::Field;
-        return std::make_tuple(
-            Field{"time_s", "s", &R::time_s, 0.0, 1e9, "Simulation time", ""},
-            Field{"distance_m", "m", &R::distance_m, 0.0, 1e9,
-                  "Distance of the vehicle or the stop line from the start of the route", ""});
+        table(Field{"time_s", "s", &R::time_s, 0.0, 1e9, "Simulation time", ""},
+              Field{"distance_m", "m", &R::distance_m, 0.0, 1e9,
+                    "Distance of the vehicle or the stop line from the start of the route", ""});
     }
 };
 
@@ -88,14 +84,13 @@ struct EdgeTimeRow {
 
     bool operator==(const EdgeTimeRow&) const = default;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using R = EdgeTimeRow;
         using core::Field;
-        return std::make_tuple(
-            Field{"entered_s", "s", &R::entered_s, 0.0, 1e9, "Simulation time at which it entered the edge",
-                  ""},
-            Field{"time_s", "s", &R::time_s, 0.0, 1e9,
-                  "Time until it entered the next edge; on the last edge until it was last seen", ""});
+        table(Field{"entered_s", "s", &R::entered_s, 0.0, 1e9, "Simulation time at which it entered the edge",
+                    ""},
+              Field{"time_s", "s", &R::time_s, 0.0, 1e9,
+                    "Time until it entered the next edge; on the last edge until it was last seen", ""});
     }
 };
 
@@ -107,13 +102,12 @@ struct SignalHoldRow {
 
     bool operator==(const SignalHoldRow&) const = default;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using R = SignalHoldRow;
         using core::Field;
-        return std::make_tuple(
-            Field{"holds", "1", &R::holds, 0.0, 1e9, "Times that a policy began to ask for green", ""},
-            Field{"held_s", "s", &R::held_s, 0.0, 1e9,
-                  "Time in which it asked for green and one of the links asked for was green", ""});
+        table(Field{"holds", "1", &R::holds, 0.0, 1e9, "Times that a policy began to ask for green", ""},
+              Field{"held_s", "s", &R::held_s, 0.0, 1e9,
+                    "Time in which it asked for green and one of the links asked for was green", ""});
     }
 };
 
@@ -128,14 +122,13 @@ struct LockRow {
 
     bool operator==(const LockRow&) const = default;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using R = LockRow;
         using core::Field;
-        return std::make_tuple(
-            Field{"from_s", "s", &R::from_s, 0.0, 1e9, "When the first vehicle came to a stand", ""},
-            Field{"lasted_s", "s", &R::lasted_s, 0.0, 1e9, "Until no vehicle stood in it any more", ""},
-            Field{"vehicles", "1", &R::vehicles, 0.0, 1e9, "Vehicles that stood in it", ""},
-            Field{"emergency_vehicles", "1", &R::emergency_vehicles, 0.0, 1e9, "Of them: EVs", ""});
+        table(Field{"from_s", "s", &R::from_s, 0.0, 1e9, "When the first vehicle came to a stand", ""},
+              Field{"lasted_s", "s", &R::lasted_s, 0.0, 1e9, "Until no vehicle stood in it any more", ""},
+              Field{"vehicles", "1", &R::vehicles, 0.0, 1e9, "Vehicles that stood in it", ""},
+              Field{"emergency_vehicles", "1", &R::emergency_vehicles, 0.0, 1e9, "Of them: EVs", ""});
     }
 };
 

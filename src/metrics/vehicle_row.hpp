@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <tuple>
 
 #include "core/fields.hpp"
 #include "core/ids.hpp"
@@ -52,32 +51,31 @@ struct VehicleRow {
     bool operator==(const VehicleRow&) const = default;
 
     /// The numeric columns. In every table, id, class, kind and outcome come before them.
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using R = VehicleRow;
         using core::Field;
-        return std::make_tuple(
-            Field{"planned_depart_s", "s", &R::planned_depart_s, 0.0, 1e9, "Departure as the demand says",
-                  ""},
-            Field{"depart_s", "s", &R::depart_s, 0.0, 1e9, "Time of insertion", "tripinfo depart"},
-            Field{"depart_delay_s", "s", &R::depart_delay_s, 0.0, 1e9, "Time spent waiting to be inserted",
-                  "tripinfo departDelay"},
-            Field{"arrival_s", "s", &R::arrival_s, 0.0, 1e9, "Time of arrival", "tripinfo arrival"},
-            Field{"travel_time_s", "s", &R::travel_time_s, 0.0, 1e9,
-                  "Time from insertion to the end of the trip", "tripinfo duration"},
-            Field{"time_loss_s", "s", &R::time_loss_s, 0.0, 1e9,
-                  "Time lost compared with driving at the desired speed",
-                  "tripinfo timeLoss, and stops that a policy commanded"},
-            Field{"waiting_time_s", "s", &R::waiting_time_s, 0.0, 1e9,
-                  "Time below 0.1 m/s; planned stops excluded, those that a policy commanded not",
-                  "tripinfo waitingTime, and stops that a policy commanded"},
-            Field{"waiting_count", "1", &R::waiting_count, 0.0, 1e9, "How often it came to a halt",
-                  "tripinfo waitingCount"},
-            Field{"route_length_m", "m", &R::route_length_m, 0.0, 1e9, "Distance driven",
-                  "tripinfo routeLength"},
-            Field{"teleports", "1", &R::teleports, 0.0, 1e9, "Teleports of this vehicle", "events"},
-            Field{"incident_met_s", "s", &R::incident_met_s, 0.0, 1e9,
-                  "When an emergency vehicle first came to a road that an incident closed to it",
-                  "incidents of the scenario"});
+        table(Field{"planned_depart_s", "s", &R::planned_depart_s, 0.0, 1e9, "Departure as the demand says",
+                    ""},
+              Field{"depart_s", "s", &R::depart_s, 0.0, 1e9, "Time of insertion", "tripinfo depart"},
+              Field{"depart_delay_s", "s", &R::depart_delay_s, 0.0, 1e9, "Time spent waiting to be inserted",
+                    "tripinfo departDelay"},
+              Field{"arrival_s", "s", &R::arrival_s, 0.0, 1e9, "Time of arrival", "tripinfo arrival"},
+              Field{"travel_time_s", "s", &R::travel_time_s, 0.0, 1e9,
+                    "Time from insertion to the end of the trip", "tripinfo duration"},
+              Field{"time_loss_s", "s", &R::time_loss_s, 0.0, 1e9,
+                    "Time lost compared with driving at the desired speed",
+                    "tripinfo timeLoss, and stops that a policy commanded"},
+              Field{"waiting_time_s", "s", &R::waiting_time_s, 0.0, 1e9,
+                    "Time below 0.1 m/s; planned stops excluded, those that a policy commanded not",
+                    "tripinfo waitingTime, and stops that a policy commanded"},
+              Field{"waiting_count", "1", &R::waiting_count, 0.0, 1e9, "How often it came to a halt",
+                    "tripinfo waitingCount"},
+              Field{"route_length_m", "m", &R::route_length_m, 0.0, 1e9, "Distance driven",
+                    "tripinfo routeLength"},
+              Field{"teleports", "1", &R::teleports, 0.0, 1e9, "Teleports of this vehicle", "events"},
+              Field{"incident_met_s", "s", &R::incident_met_s, 0.0, 1e9,
+                    "When an emergency vehicle first came to a road that an incident closed to it",
+                    "incidents of the scenario"});
     }
 };
 

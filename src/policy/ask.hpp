@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -26,10 +25,10 @@ struct AskSettings {
     int ask_hops = 1;
     int ask_humans = 0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = AskSettings;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"ask", "", &C::ask, 0, 0,
                   "Which vehicles it asks: all, or those that the emergency vehicle is believed to be linked "
                   "with",

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "core/fields.hpp"
@@ -15,15 +14,15 @@ struct CheckInOutConfig {
     double check_in_m = 150.0;
     double check_out_m = 15.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = CheckInOutConfig;
         using core::Field;
-        return std::make_tuple(Field{"check_in_m", "m", &C::check_in_m, 1.0, 2000.0,
-                                     "The detector that calls the signal lies this far before its stop line",
-                                     "assumed: 9 s at 60 km/h, as preempt_signals without a queue"},
-                               Field{"check_out_m", "m", &C::check_out_m, 0.0, 200.0,
-                                     "The detector that releases it lies this far behind its stop line",
-                                     "assumed: inside the junction, so that the way is still held"});
+        table(Field{"check_in_m", "m", &C::check_in_m, 1.0, 2000.0,
+                    "The detector that calls the signal lies this far before its stop line",
+                    "assumed: 9 s at 60 km/h, as preempt_signals without a queue"},
+              Field{"check_out_m", "m", &C::check_out_m, 0.0, 200.0,
+                    "The detector that releases it lies this far behind its stop line",
+                    "assumed: inside the junction, so that the way is still held"});
     }
 };
 

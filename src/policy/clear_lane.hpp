@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tuple>
-
 #include "core/fields.hpp"
 #include "policy/ask.hpp"
 #include "policy/configured_policy.hpp"
@@ -30,10 +28,10 @@ struct ClearLaneConfig : AskSettings {
     double lease_s = 2.0;
 
   private:
-    static constexpr auto own_fields() {
+    static constexpr void own_fields(const auto& table) {
         using C = ClearLaneConfig;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"horizon_m", "m", &C::horizon_m, 1.0, 1000.0, "Lanes are cleared this far ahead",
                   "trials at the merge: 300 m helps less and costs others more"},
             Field{"beside_m", "m", &C::beside_m, 0.0, 100.0,
@@ -85,7 +83,10 @@ struct ClearLaneConfig : AskSettings {
     }
 
   public:
-    static constexpr auto fields() { return std::tuple_cat(own_fields(), AskSettings::fields()); }
+    static constexpr void fields(const auto& table) {
+        own_fields(table);
+        AskSettings::fields(table);
+    }
 };
 
 /// Clears the lane of emergency vehicles: automated vehicles ahead on it leave it early, those on the

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tuple>
-
 #include "core/fields.hpp"
 #include "policy/configured_policy.hpp"
 #include "policy/detail/edge_rule.hpp"
@@ -19,10 +17,11 @@ struct DissertationConfig : detail::EdgeRule {
     double ahead_m = 50.0;
     double lease_s = 2.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = DissertationConfig;
         using core::Field;
-        const auto own = std::make_tuple(
+        EdgeRule::fields(table);
+        table(
             Field{"beside_behind_m", "m", &C::beside_behind_m, 0.0, 200.0,
                   "A vehicle is alongside when its front is at most this far behind the emergency vehicle's",
                   "assumed: two car lengths"},
@@ -33,7 +32,6 @@ struct DissertationConfig : detail::EdgeRule {
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
                   "Lifetime of a lease that is not renewed; at least two periods",
                   "assumed: four decisions at the usual period"});
-        return std::tuple_cat(EdgeRule::fields(), own);
     }
 };
 

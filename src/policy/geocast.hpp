@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <tuple>
 
 #include "core/fields.hpp"
 #include "core/spellings.hpp"
@@ -30,10 +29,10 @@ struct GeocastConfig {
     double lease_s = 10.0;
     int ask_humans = 0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = GeocastConfig;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"reach_m", "m", &C::reach_m, 10.0, 2000.0,
                   "The lane is cleared this far ahead on the emergency vehicle's route", "as vacate_lane"},
             Field{

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "policy/ask.hpp"
@@ -27,10 +26,10 @@ struct GiveWayConfig : AskSettings {
     double fastest_road_mps = 17.0;
     double lease_s = 2.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = GiveWayConfig;
         using core::Field;
-        const auto own = std::make_tuple(
+        table(
             Field{
                 "lead_s", "s", &C::lead_s, 0.0, 60.0,
                 "Vehicles with right of way are asked from this long before the emergency vehicle's arrival",
@@ -49,7 +48,7 @@ struct GiveWayConfig : AskSettings {
                   "60 km/h, above the usual limit of towns: on faster roads drivers do not expect a vehicle "
                   "to stop"},
             detail::lifetime_field<C>());
-        return std::tuple_cat(own, AskSettings::fields());
+        AskSettings::fields(table);
     }
 };
 

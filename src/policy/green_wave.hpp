@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -15,17 +14,16 @@ struct GreenWaveConfig {
     double after_s = 15.0;
     double lease_s = 2.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = GreenWaveConfig;
         using core::Field;
-        return std::make_tuple(
-            Field{"before_s", "s", &C::before_s, 0.0, 120.0,
-                  "Green is asked for this long before the planned arrival", "as preempt_signals"},
-            Field{"after_s", "s", &C::after_s, 0.0, 300.0, "And for this long after it",
-                  "assumed: two stops of a vehicle behind plan"},
-            Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
-                  "Lifetime of a lease that is not renewed; at least two periods",
-                  "assumed: four decisions at the usual period"});
+        table(Field{"before_s", "s", &C::before_s, 0.0, 120.0,
+                    "Green is asked for this long before the planned arrival", "as preempt_signals"},
+              Field{"after_s", "s", &C::after_s, 0.0, 300.0, "And for this long after it",
+                    "assumed: two stops of a vehicle behind plan"},
+              Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
+                    "Lifetime of a lease that is not renewed; at least two periods",
+                    "assumed: four decisions at the usual period"});
     }
 };
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tuple>
-
 #include "policy/ask.hpp"
 #include "policy/configured_policy.hpp"
 #include "policy/detail/cooperation.hpp"
@@ -18,20 +16,19 @@ struct HoldCrossConfig : AskSettings {
     static constexpr double slowest_mps = 5.0;
     double lease_s = 2.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = HoldCrossConfig;
         using core::Field;
-        const auto own = std::make_tuple(
-            Field{"lead_s", "s", &C::lead_s, 0.0, 60.0,
-                  "Cross traffic is held from this long before the emergency vehicle's arrival",
-                  "assumed: a car crosses a junction in 3 s"},
-            Field{"horizon_m", "m", &C::horizon_m, 1.0, 2000.0, "Signals farther away than this are ignored",
-                  "assumed: 6 s at 120 km/h"},
-            Field{"near_m", "m", &C::near_m, 1.0, 500.0,
-                  "Vehicles closer than this to their stop line are asked",
-                  "assumed: more than the usual braking distance in towns"},
-            detail::lifetime_field<C>());
-        return std::tuple_cat(own, AskSettings::fields());
+        table(Field{"lead_s", "s", &C::lead_s, 0.0, 60.0,
+                    "Cross traffic is held from this long before the emergency vehicle's arrival",
+                    "assumed: a car crosses a junction in 3 s"},
+              Field{"horizon_m", "m", &C::horizon_m, 1.0, 2000.0,
+                    "Signals farther away than this are ignored", "assumed: 6 s at 120 km/h"},
+              Field{"near_m", "m", &C::near_m, 1.0, 500.0,
+                    "Vehicles closer than this to their stop line are asked",
+                    "assumed: more than the usual braking distance in towns"},
+              detail::lifetime_field<C>());
+        AskSettings::fields(table);
     }
 };
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tuple>
-
 #include "core/fields.hpp"
 #include "policy/configured_policy.hpp"
 
@@ -12,10 +10,10 @@ struct LineOfSightConfig {
     double range_m = 300.0;
     double half_angle_deg = 20.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = LineOfSightConfig;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"range_m", "m", &C::range_m, 1.0, 2000.0,
                   "The receiver at the signal detects the emitter within this straight-line distance of its "
                   "stop line",

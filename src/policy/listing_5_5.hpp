@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <tuple>
 
 #include "core/fields.hpp"
 #include "policy/configured_policy.hpp"
@@ -27,14 +26,13 @@ struct Listing55Config : detail::EdgeRule {
     static constexpr double room_m = 10.0;
     double lease_s = 2.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = Listing55Config;
         using core::Field;
-        const auto own =
-            std::make_tuple(Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
-                                  "Lifetime of a lane change that is not renewed; at least two periods",
-                                  "assumed: four decisions at the usual period"});
-        return std::tuple_cat(EdgeRule::fields(), own);
+        EdgeRule::fields(table);
+        table(Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
+                    "Lifetime of a lane change that is not renewed; at least two periods",
+                    "assumed: four decisions at the usual period"});
     }
 };
 

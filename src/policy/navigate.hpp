@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -35,10 +34,10 @@ struct NavigateConfig {
     int heeds_incidents = 1;
     Prior prior = Prior::free_flow;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = NavigateConfig;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{
                 "replan_s", "s", &C::replan_s, 0.1, 86400.0,
                 "Time between two searches for an emergency vehicle; a new incident is looked at at once. A "

@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <set>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -28,10 +27,10 @@ struct PreemptSignalsConfig {
     int signals_ahead = 3;
     double lease_s = 0.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = PreemptSignalsConfig;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"lead_s", "s", &C::lead_s, 0.0, 60.0, "Green is asked for this long before arrival",
                   "trials: 20 s helps little more and makes others wait much longer"},
             Field{"lead_per_halted_s", "s", &C::lead_per_halted_s, 0.0, 10.0,

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tuple>
-
 #include "policy/configured_policy.hpp"
 #include "policy/detail/cooperation.hpp"
 #include "policy/detail/lane_plan.hpp"
@@ -16,17 +14,16 @@ struct PullAsideConfig : detail::LanePlanConfig {
     static constexpr double change_ahead_s = 4.0;
     double lease_s = 2.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = PullAsideConfig;
         using core::Field;
-        const auto own = std::make_tuple(
-            Field{"horizon_m", "m", &C::horizon_m, 10.0, 2000.0, "Vehicles this far ahead pull aside",
-                  "assumed: the length of a queue"},
-            Field{"slow_share", "1", &C::slow_share, 0.01, 2.0,
-                  "Only those slower than this share of the emergency vehicle's allowed speed",
-                  "trials on the arterial: better than 0.6 for the emergency vehicle and for others"},
-            detail::lifetime_field<C>());
-        return std::tuple_cat(own, detail::LanePlanConfig::fields());
+        table(Field{"horizon_m", "m", &C::horizon_m, 10.0, 2000.0, "Vehicles this far ahead pull aside",
+                    "assumed: the length of a queue"},
+              Field{"slow_share", "1", &C::slow_share, 0.01, 2.0,
+                    "Only those slower than this share of the emergency vehicle's allowed speed",
+                    "trials on the arterial: better than 0.6 for the emergency vehicle and for others"},
+              detail::lifetime_field<C>());
+        detail::LanePlanConfig::fields(table);
     }
 };
 

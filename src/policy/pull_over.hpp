@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tuple>
-
 #include "policy/ask.hpp"
 #include "policy/configured_policy.hpp"
 #include "policy/detail/cooperation.hpp"
@@ -15,10 +13,10 @@ struct PullOverConfig : AskSettings {
     double oncoming_m = 600.0;
     double lease_s = 2.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = PullOverConfig;
         using core::Field;
-        const auto own = std::make_tuple(
+        table(
             Field{"horizon_m", "m", &C::horizon_m, 10.0, 2000.0, "Vehicles this far ahead pull over",
                   "as vacate_lane; in trials on a rural road the gain grew with it up to 600 m"},
             Field{"slow_share", "1", &C::slow_share, 0.01, 2.0,
@@ -29,7 +27,7 @@ struct PullOverConfig : AskSettings {
                   "be overtaken; 0: never",
                   "assumed: overtaking at 100 km/h takes 10 s, and the oncoming vehicle comes as far"},
             detail::lifetime_field<C>());
-        return std::tuple_cat(own, AskSettings::fields());
+        AskSettings::fields(table);
     }
 };
 

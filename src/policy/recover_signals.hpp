@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -20,10 +19,10 @@ struct RecoverSignalsConfig {
     double exit_room_m = 0.0;
     double short_block_m = 150.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = RecoverSignalsConfig;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"near_m", "m", &C::near_m, 1.0, 2000.0,
                   "A signal counts as disturbed once an emergency vehicle is this near", "assumed"},
             Field{"lasting_s", "s", &C::lasting_s, 0.0, 600.0, "And for this long after it has passed",

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tuple>
-
 #include "core/fields.hpp"
 #include "policy/configured_policy.hpp"
 
@@ -17,15 +15,15 @@ struct RedPrivilegeConfig {
     static constexpr double braking_mps2 = 2.0;
     double lease_s = 2.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = RedPrivilegeConfig;
         using core::Field;
-        return std::make_tuple(Field{"near_m", "m", &C::near_m, 1.0, 1000.0,
-                                     "The privilege begins at this distance from a signal that is not green",
-                                     "assumed: before the vehicle would brake"},
-                               Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
-                                     "Lifetime of a lease that is not renewed; at least two periods",
-                                     "assumed: four decisions at the usual period"});
+        table(Field{"near_m", "m", &C::near_m, 1.0, 1000.0,
+                    "The privilege begins at this distance from a signal that is not green",
+                    "assumed: before the vehicle would brake"},
+              Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
+                    "Lifetime of a lease that is not renewed; at least two periods",
+                    "assumed: four decisions at the usual period"});
     }
 };
 

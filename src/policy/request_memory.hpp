@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <tuple>
 
 #include "core/fields.hpp"
 #include "core/spellings.hpp"
@@ -30,10 +29,10 @@ struct RequestMemorySettings {
     double window_s = 10.0;
     double longest_memory_s = 30.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = RequestMemorySettings;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{
                 "memory", "", &C::memory, 0, 0,
                 "What a signal assumes about an emergency vehicle between its messages; without a predictor, "

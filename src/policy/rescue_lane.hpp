@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <tuple>
 
 #include "policy/ask.hpp"
 #include "policy/configured_policy.hpp"
@@ -30,10 +29,10 @@ struct RescueLaneConfig : AskSettings {
     static constexpr double switch_worth = 2.0;
     double lease_s = 2.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = RescueLaneConfig;
         using core::Field;
-        const auto own = std::make_tuple(
+        table(
             Field{"horizon_m", "m", &C::horizon_m, 10.0, 2000.0, "The lane is opened this far ahead",
                   "as vacate_lane"},
             Field{"behind_m", "m", &C::behind_m, 0.0, 200.0,
@@ -57,7 +56,7 @@ struct RescueLaneConfig : AskSettings {
                   "Room that the emergency vehicle needs beside it, both sides together",
                   "as privilege.margin_m"},
             detail::lifetime_field<C>());
-        return std::tuple_cat(own, AskSettings::fields());
+        AskSettings::fields(table);
     }
 };
 

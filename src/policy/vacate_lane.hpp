@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tuple>
-
 #include "policy/configured_policy.hpp"
 #include "policy/detail/cooperation.hpp"
 #include "policy/detail/lane_plan.hpp"
@@ -18,15 +16,14 @@ struct VacateLaneConfig : detail::LanePlanConfig {
     static constexpr double side_room_m = 12.0;
     double lease_s = 2.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = VacateLaneConfig;
         using core::Field;
-        const auto own =
-            std::make_tuple(Field{"horizon_m", "m", &C::horizon_m, 10.0, 2000.0,
-                                  "The way is planned and vacated this far ahead",
-                                  "trials: 800 m costs others more than the emergency vehicle gains by it"},
-                            detail::lifetime_field<C>());
-        return std::tuple_cat(own, detail::LanePlanConfig::fields());
+        table(Field{"horizon_m", "m", &C::horizon_m, 10.0, 2000.0,
+                    "The way is planned and vacated this far ahead",
+                    "trials: 800 m costs others more than the emergency vehicle gains by it"},
+              detail::lifetime_field<C>());
+        detail::LanePlanConfig::fields(table);
     }
 };
 

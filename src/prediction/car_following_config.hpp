@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tuple>
-
 #include "core/fields.hpp"
 
 namespace clearway::prediction {
@@ -32,26 +30,25 @@ struct CarFollowingConfig {
     /// Power of the ages in s.
     static constexpr double growth_power = 1.76;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = CarFollowingConfig;
         using core::Field;
         constexpr const char* sumo = "SUMO 1.15's IDM, the default of the scenarios";
         constexpr const char* piece = "0 shows how much this part contributes";
-        return std::make_tuple(
-            Field{"step_s", "s", &C::step_s, 0.05, 1.0, "Step of the twins' motion",
-                  "assumed: twice SUMO's own step"},
-            Field{"headway_s", "s", &C::headway_s, 0.1, 5.0, "Desired time headway T", sumo},
-            Field{"min_gap_m", "m", &C::min_gap_m, 0.1, 20.0, "Gap s0 at standstill", sumo},
-            Field{"speed_factor", "1", &C::speed_factor, 0.2, 3.0, "Desired speed divided by the speed limit",
-                  "mean of the scenarios' drivers"},
-            Field{"know_speed_factor", "1", &C::know_speed_factor, 0, 1,
-                  "1: each driver's own speed factor is taken from its registration, times speed_factor",
-                  "off: a desired speed cannot be observed"},
-            Field{"estimate", "1", &C::estimate, 0, 1,
-                  "1: each driver's speed factor is estimated from the speeds that it showed",
-                  "off: in trials links were not predicted better with it"},
-            Field{"follow_leaders", "1", &C::follow_leaders, 0, 1, "0: twins ignore vehicles ahead", piece},
-            Field{"obey_signals", "1", &C::obey_signals, 0, 1, "0: twins ignore signals", piece});
+        table(Field{"step_s", "s", &C::step_s, 0.05, 1.0, "Step of the twins' motion",
+                    "assumed: twice SUMO's own step"},
+              Field{"headway_s", "s", &C::headway_s, 0.1, 5.0, "Desired time headway T", sumo},
+              Field{"min_gap_m", "m", &C::min_gap_m, 0.1, 20.0, "Gap s0 at standstill", sumo},
+              Field{"speed_factor", "1", &C::speed_factor, 0.2, 3.0,
+                    "Desired speed divided by the speed limit", "mean of the scenarios' drivers"},
+              Field{"know_speed_factor", "1", &C::know_speed_factor, 0, 1,
+                    "1: each driver's own speed factor is taken from its registration, times speed_factor",
+                    "off: a desired speed cannot be observed"},
+              Field{"estimate", "1", &C::estimate, 0, 1,
+                    "1: each driver's speed factor is estimated from the speeds that it showed",
+                    "off: in trials links were not predicted better with it"},
+              Field{"follow_leaders", "1", &C::follow_leaders, 0, 1, "0: twins ignore vehicles ahead", piece},
+              Field{"obey_signals", "1", &C::obey_signals, 0, 1, "0: twins ignore signals", piece});
     }
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <tuple>
 
 #include "core/fields.hpp"
 #include "prediction/predictor.hpp"
@@ -15,12 +14,12 @@ std::unique_ptr<Predictor> make_no_repair(const PredictorContext& context);
 struct LastSeenConfig {
     double start_speed_mps = 2.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = LastSeenConfig;
-        return std::make_tuple(core::Field{"start_speed_mps", "m/s", &C::start_speed_mps, 0.0, 50.0,
-                                           "Speed added to the last reported one, in the growth of the "
-                                           "position's standard deviation with age",
-                                           "mean over 3 s from standstill at 1.4 m/s2"});
+        table(core::Field{"start_speed_mps", "m/s", &C::start_speed_mps, 0.0, 50.0,
+                          "Speed added to the last reported one, in the growth of the "
+                          "position's standard deviation with age",
+                          "mean over 3 s from standstill at 1.4 m/s2"});
     }
 };
 
@@ -30,12 +29,11 @@ std::unique_ptr<Predictor> make_last_seen(const PredictorContext& context, const
 struct DeadReckoningConfig {
     double speed_change_mps = 2.5;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = DeadReckoningConfig;
-        return std::make_tuple(
-            core::Field{"speed_change_mps", "m/s", &C::speed_change_mps, 0.0, 50.0,
-                        "Growth of a position's standard deviation with the age of its report",
-                        "assumed: half of the usual change of speed between two signals"});
+        table(core::Field{"speed_change_mps", "m/s", &C::speed_change_mps, 0.0, 50.0,
+                          "Growth of a position's standard deviation with the age of its report",
+                          "assumed: half of the usual change of speed between two signals"});
     }
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <tuple>
 
 #include "core/fields.hpp"
 #include "prediction/predictor.hpp"
@@ -17,20 +16,19 @@ struct OracleConfig {
     double place_error_m = 0.0;
     double age_s = 0.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = OracleConfig;
         using core::Field;
-        return std::make_tuple(
-            Field{"links_kept", "1", &C::links_kept, 0.0, 1.0,
-                  "Share of time that a true link is believed, drawn for each link, with gaps of 10 s",
-                  "all of them"},
-            Field{"false_links", "1", &C::false_links, 0.0, 0.9,
-                  "Share of time that candidates too far apart for a link are believed to be linked, in "
-                  "spells of 10 s",
-                  "none"},
-            Field{"place_error_m", "m", &C::place_error_m, 0.0, 100.0,
-                  "Standard error of the places, along each axis, white at 10 Hz", "exact"},
-            Field{"age_s", "s", &C::age_s, 0.0, 60.0, "Age of everything that it knows", "the present"});
+        table(Field{"links_kept", "1", &C::links_kept, 0.0, 1.0,
+                    "Share of time that a true link is believed, drawn for each link, with gaps of 10 s",
+                    "all of them"},
+              Field{"false_links", "1", &C::false_links, 0.0, 0.9,
+                    "Share of time that candidates too far apart for a link are believed to be linked, in "
+                    "spells of 10 s",
+                    "none"},
+              Field{"place_error_m", "m", &C::place_error_m, 0.0, 100.0,
+                    "Standard error of the places, along each axis, white at 10 Hz", "exact"},
+              Field{"age_s", "s", &C::age_s, 0.0, 60.0, "Age of everything that it knows", "the present"});
     }
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <tuple>
 
 #include "core/fields.hpp"
 #include "prediction/kinematic.hpp"
@@ -23,17 +22,16 @@ struct KalmanConfig {
     double across_psd = 0.1;
     double speed_sigma_mps = 0.1;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = KalmanConfig;
-        return std::make_tuple(
-            core::Field{"along_psd", "m2/s3", &C::along_psd, 1e-6, 1000.0,
-                        "Process noise: power spectral density of the white acceleration along the heading",
-                        "tuned on validation seeds: of 1, 2, 3 the best AP in B10"},
-            core::Field{"across_psd", "m2/s3", &C::across_psd, 1e-6, 1000.0, "The same across the heading",
-                        "tuned likewise: of 0.01, 0.1, 0.4"},
-            core::Field{"speed_sigma_mps", "m/s", &C::speed_sigma_mps, 1e-3, 50.0,
-                        "Measurement noise of a reported velocity, along each axis",
-                        "tuned: flat from 0.05 to 0.2; the presets have no speed noise"});
+        table(core::Field{"along_psd", "m2/s3", &C::along_psd, 1e-6, 1000.0,
+                          "Process noise: power spectral density of the white acceleration along the heading",
+                          "tuned on validation seeds: of 1, 2, 3 the best AP in B10"},
+              core::Field{"across_psd", "m2/s3", &C::across_psd, 1e-6, 1000.0, "The same across the heading",
+                          "tuned likewise: of 0.01, 0.1, 0.4"},
+              core::Field{"speed_sigma_mps", "m/s", &C::speed_sigma_mps, 1e-3, 50.0,
+                          "Measurement noise of a reported velocity, along each axis",
+                          "tuned: flat from 0.05 to 0.2; the presets have no speed noise"});
     }
 };
 

@@ -27,7 +27,7 @@ namespace {
 using traffic::Trait;
 
 struct NoSettings {
-    static constexpr auto fields() { return std::make_tuple(); }
+    static constexpr void fields(const auto& table) { table(); }
 };
 
 /// A predictor whose own settings are a `Config`. One with `check_model` is learned.

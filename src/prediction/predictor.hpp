@@ -5,7 +5,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "core/error.hpp"
@@ -59,14 +58,13 @@ struct PredictionConfig {
         return reach_by_twin != 0 ? CandidateReach::twins : CandidateReach::reported;
     }
 
-    static constexpr auto fields() {
-        return std::make_tuple(
-            core::Field{"link_threshold", "1", &PredictionConfig::link_threshold, 0.0, 1.0,
-                        "A candidate is listed as a link when its probability is at least this",
-                        "even odds; F1 on validation seeds may favour another value"},
-            core::Field{"reach_by_twin", "1", &PredictionConfig::reach_by_twin, 0, 1,
-                        "1: pairs whose car-following twins are near are candidates, too",
-                        "docs/reference/link-prediction.md; benchmark eval_v1 was frozen with 0"});
+    static constexpr void fields(const auto& table) {
+        table(core::Field{"link_threshold", "1", &PredictionConfig::link_threshold, 0.0, 1.0,
+                          "A candidate is listed as a link when its probability is at least this",
+                          "even odds; F1 on validation seeds may favour another value"},
+              core::Field{"reach_by_twin", "1", &PredictionConfig::reach_by_twin, 0, 1,
+                          "1: pairs whose car-following twins are near are candidates, too",
+                          "docs/reference/link-prediction.md; benchmark eval_v1 was frozen with 0"});
     }
 };
 

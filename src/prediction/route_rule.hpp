@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <tuple>
 
 #include "core/fields.hpp"
 #include "prediction/predictor.hpp"
@@ -25,15 +24,14 @@ struct RouteRuleConfig {
     /// Upper bound.
     static constexpr double most_sigma_m = 80.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = RouteRuleConfig;
         constexpr const char* queues =
             "the best average precision in B20 of those tried, 1 to 8, on a seed of its own";
-        return std::make_tuple(
-            core::Field{"start_acceleration_mps2", "m/s2", &C::start_acceleration_mps2, 0.0, 10.0,
-                        "Acceleration of a vehicle that was seen standing, once its light is green and the "
-                        "queue ahead moves; 0: it stays",
-                        queues});
+        table(core::Field{"start_acceleration_mps2", "m/s2", &C::start_acceleration_mps2, 0.0, 10.0,
+                          "Acceleration of a vehicle that was seen standing, once its light is green and the "
+                          "queue ahead moves; 0: it stays",
+                          queues});
     }
 };
 

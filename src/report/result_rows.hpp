@@ -24,17 +24,16 @@ struct ResultRow {
 
     bool operator==(const ResultRow&) const = default;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using R = ResultRow;
         const auto text = [](const char* name, std::string R::*member) {
             return core::Field{name, "", member, 0, 0, "", ""};
         };
-        return std::make_tuple(text("study", &R::study), text("tree", &R::tree), text("date", &R::date),
-                               text("seed", &R::seed), text("pairs", &R::pairs), text("command", &R::command),
-                               text("scenario", &R::scenario), text("condition", &R::condition),
-                               text("measure", &R::measure), text("unit", &R::unit), text("mean", &R::mean),
-                               text("low", &R::low), text("high", &R::high), text("lost_evs", &R::lost_evs),
-                               text("origin", &R::origin), text("behaviour", &R::behaviour));
+        table(text("study", &R::study), text("tree", &R::tree), text("date", &R::date),
+              text("seed", &R::seed), text("pairs", &R::pairs), text("command", &R::command),
+              text("scenario", &R::scenario), text("condition", &R::condition), text("measure", &R::measure),
+              text("unit", &R::unit), text("mean", &R::mean), text("low", &R::low), text("high", &R::high),
+              text("lost_evs", &R::lost_evs), text("origin", &R::origin), text("behaviour", &R::behaviour));
     }
 };
 

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -42,10 +41,10 @@ struct AnalysisPlan {
     bool operator==(const AnalysisPlan&) const = default;
 
     /// The members that are numbers.
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using P = AnalysisPlan;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"alpha", "1", &P::alpha, 0.0001, 0.2,
                   "Probability of a false claim among all comparisons of the plan (Holm)", "usual"},
             Field{

@@ -26,15 +26,14 @@ struct ScenarioEntry {
     bool operator==(const ScenarioEntry&) const = default;
 
     /// The members that are texts.
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = ScenarioEntry;
         using core::Field;
-        return std::make_tuple(Field{"name", "", &S::name, 0, 0, "", ""},
-                               Field{"version", "", &S::version, 0, 0, "", ""},
-                               Field{"title", "", &S::title, 0, 0, "", ""},
-                               Field{"configuration_hash", "", &S::configuration_hash, 0, 0, "", ""},
-                               Field{"attribution", "", &S::attribution, 0, 0, "", ""},
-                               Field{"configuration", "", &S::configuration, 0, 0, "", ""});
+        table(Field{"name", "", &S::name, 0, 0, "", ""}, Field{"version", "", &S::version, 0, 0, "", ""},
+              Field{"title", "", &S::title, 0, 0, "", ""},
+              Field{"configuration_hash", "", &S::configuration_hash, 0, 0, "", ""},
+              Field{"attribution", "", &S::attribution, 0, 0, "", ""},
+              Field{"configuration", "", &S::configuration, 0, 0, "", ""});
     }
 };
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -47,14 +46,13 @@ struct RunTiming {
     long peak_kib = 0;
     std::string made_at;  ///< UTC, set when it is written.
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using T = RunTiming;
         using core::Field;
-        return std::make_tuple(
-            Field{"wall_s", "s", &T::wall_s, 0.0, 1e9, "Wall time of the run, shared warm-up excluded", ""},
-            Field{"simulator_s", "s", &T::simulator_s, 0.0, 1e9, "Of it, SUMO's own steps", ""},
-            Field{"coupling_s", "s", &T::coupling_s, 0.0, 1e9, "Of it, everything else in the loop", ""},
-            Field{"peak_kib", "KiB", &T::peak_kib, 0.0, 1e12, "Largest resident size of the process", ""});
+        table(Field{"wall_s", "s", &T::wall_s, 0.0, 1e9, "Wall time of the run, shared warm-up excluded", ""},
+              Field{"simulator_s", "s", &T::simulator_s, 0.0, 1e9, "Of it, SUMO's own steps", ""},
+              Field{"coupling_s", "s", &T::coupling_s, 0.0, 1e9, "Of it, everything else in the loop", ""},
+              Field{"peak_kib", "KiB", &T::peak_kib, 0.0, 1e12, "Largest resident size of the process", ""});
     }
 };
 

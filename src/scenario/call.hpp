@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -37,9 +36,9 @@ struct Call {
     std::string kind = "ambulance";
     double turnout_s = 60.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = Call;
-        return std::make_tuple(
+        table(
             core::Field{"edge", "", &S::edge, 0, 0, "Where they are needed, or give coordinates or incident.",
                         "scenario"},
             core::Field{"longitude", "deg", &S::longitude, -180.0, 180.0,

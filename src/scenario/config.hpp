@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -81,9 +80,9 @@ struct NetworkSource {
     std::vector<std::string> additional;  ///< SUMO's additional files that belong to the network.
 
     bool plain() const { return file.empty(); }
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = NetworkSource;
-        return std::make_tuple(
+        table(
             core::Field{"nodes", "", &S::nodes, 0, 0, "Plain XML nodes for netconvert.", "scenario"},
             core::Field{"edges", "", &S::edges, 0, 0, "Plain XML edges for netconvert.", "scenario"},
             core::Field{"connections", "", &S::connections, 0, 0, "Plain XML connections; optional.",
@@ -116,9 +115,9 @@ struct Times {
     std::optional<double> ignore_junction_blocker_s;
     std::optional<double> events_spread_s;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = Times;
-        return std::make_tuple(
+        table(
             core::Field{"warm_up_s", "s", &S::warm_up_s, 0.0, 86400.0,
                         "Emergency vehicles depart at this time or later.",
                         "60 s: the first vehicles have passed most of the road"},
@@ -160,21 +159,20 @@ struct Demand {
     double density = 1.0;
     std::string counts;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = Demand;
-        return std::make_tuple(
-            core::Field{"human", "1", &S::human, 0.0, 100000.0, "Human-driven vehicles.",
-                        "dissertation TABLE I"},
-            core::Field{"automated", "1", &S::automated, 0.0, 100000.0, "Automated vehicles.",
-                        "dissertation TABLE I"},
-            core::Field{"emergency", "1", &S::emergency, 0.0, 1000.0, "Emergency vehicles.",
-                        "dissertation TABLE I"},
-            core::Field{"density", "1", &S::density, 0.0, 100.0,
-                        "Factor on the human and automated vehicles; at most 1 for measured demand.",
-                        "1: as counted"},
-            core::Field{"counts", "", &S::counts, 0, 0,
-                        "CSV of counted flows (edge, vehicles_per_hour) to compare the demand with.",
-                        "none"});
+        table(core::Field{"human", "1", &S::human, 0.0, 100000.0, "Human-driven vehicles.",
+                          "dissertation TABLE I"},
+              core::Field{"automated", "1", &S::automated, 0.0, 100000.0, "Automated vehicles.",
+                          "dissertation TABLE I"},
+              core::Field{"emergency", "1", &S::emergency, 0.0, 1000.0, "Emergency vehicles.",
+                          "dissertation TABLE I"},
+              core::Field{"density", "1", &S::density, 0.0, 100.0,
+                          "Factor on the human and automated vehicles; at most 1 for measured demand.",
+                          "1: as counted"},
+              core::Field{"counts", "", &S::counts, 0, 0,
+                          "CSV of counted flows (edge, vehicles_per_hour) to compare the demand with.",
+                          "none"});
     }
 };
 
@@ -185,16 +183,15 @@ struct Dense {
     double warm_up_s = 0.0;
     double window_s = 1.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = Dense;
-        return std::make_tuple(
-            core::Field{"factor", "1", &S::factor, 0.0, 100.0, "Factor on human and automated vehicles.",
-                        "assumed: 7 to 10 times the counts of TABLE I"},
-            core::Field{"emergency", "1", &S::emergency, 0.0, 1000.0, "Emergency vehicles.",
-                        "assumed: twice as many as usual, or more"},
-            core::Field{"warm_up_s", "s", &S::warm_up_s, 0.0, 86400.0, "See time.warm_up_s.", "scenario"},
-            core::Field{"window_s", "s", &S::window_s, 1.0, 86400.0, "See time.window_s.",
-                        "assumed: 400 to 600 s, so that the dense demand can enter"});
+        table(core::Field{"factor", "1", &S::factor, 0.0, 100.0, "Factor on human and automated vehicles.",
+                          "assumed: 7 to 10 times the counts of TABLE I"},
+              core::Field{"emergency", "1", &S::emergency, 0.0, 1000.0, "Emergency vehicles.",
+                          "assumed: twice as many as usual, or more"},
+              core::Field{"warm_up_s", "s", &S::warm_up_s, 0.0, 86400.0, "See time.warm_up_s.", "scenario"},
+              core::Field{"window_s", "s", &S::window_s, 1.0, 86400.0, "See time.window_s.",
+                          "assumed: 400 to 600 s, so that the dense demand can enter"});
     }
 };
 
@@ -205,19 +202,18 @@ struct SpeedLimits {
     double emergency_kmh = 140.0;
     double road_kmh = 0.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = SpeedLimits;
-        return std::make_tuple(
-            core::Field{"human_kmh", "km/h", &S::human_kmh, 1.0, 400.0,
-                        "Highest speed of human drivers, also where the road allows more.",
-                        "dissertation TABLE I"},
-            core::Field{"automated_kmh", "km/h", &S::automated_kmh, 1.0, 400.0,
-                        "Highest speed of automated vehicles.", "dissertation TABLE I"},
-            core::Field{"emergency_kmh", "km/h", &S::emergency_kmh, 1.0, 400.0,
-                        "Highest speed of emergency vehicles.", "dissertation TABLE I"},
-            core::Field{"road_kmh", "km/h", &S::road_kmh, 0.0, 400.0,
-                        "Roads with a higher limit are limited to this; 0 leaves the roads as they are.",
-                        "0: the network's own limits"});
+        table(core::Field{"human_kmh", "km/h", &S::human_kmh, 1.0, 400.0,
+                          "Highest speed of human drivers, also where the road allows more.",
+                          "dissertation TABLE I"},
+              core::Field{"automated_kmh", "km/h", &S::automated_kmh, 1.0, 400.0,
+                          "Highest speed of automated vehicles.", "dissertation TABLE I"},
+              core::Field{"emergency_kmh", "km/h", &S::emergency_kmh, 1.0, 400.0,
+                          "Highest speed of emergency vehicles.", "dissertation TABLE I"},
+              core::Field{"road_kmh", "km/h", &S::road_kmh, 0.0, 400.0,
+                          "Roads with a higher limit are limited to this; 0 leaves the roads as they are.",
+                          "0: the network's own limits"});
     }
 };
 
@@ -229,21 +225,20 @@ struct Drivers {
     double speed_factor_minimum = 0.75;
     double speed_factor_maximum = 1.25;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = Drivers;
-        return std::make_tuple(
-            core::Field{"idm", "", &S::idm, 0, 0, "Parameters of the car-following model: sumo or treiber.",
-                        "docs/decisions/0001-step-length.md"},
-            core::Field{"speed_factor_mean", "1", &S::speed_factor_mean, 0.1, 3.0,
-                        "Human drivers: mean ratio of desired speed to road limit.",
-                        "assumed: N(1, 0.1), SUMO's usual spread of passenger cars"},
-            core::Field{"speed_factor_deviation", "1", &S::speed_factor_deviation, 0.0, 1.0,
-                        "Its standard deviation before truncation.",
-                        "assumed: N(1, 0.1), SUMO's usual spread of passenger cars"},
-            core::Field{"speed_factor_minimum", "1", &S::speed_factor_minimum, 0.1, 3.0,
-                        "Lower bound of the truncation.", "assumed: 2.5 standard deviations"},
-            core::Field{"speed_factor_maximum", "1", &S::speed_factor_maximum, 0.1, 3.0,
-                        "Upper bound of the truncation.", "assumed: 2.5 standard deviations"});
+        table(core::Field{"idm", "", &S::idm, 0, 0, "Parameters of the car-following model: sumo or treiber.",
+                          "docs/decisions/0001-step-length.md"},
+              core::Field{"speed_factor_mean", "1", &S::speed_factor_mean, 0.1, 3.0,
+                          "Human drivers: mean ratio of desired speed to road limit.",
+                          "assumed: N(1, 0.1), SUMO's usual spread of passenger cars"},
+              core::Field{"speed_factor_deviation", "1", &S::speed_factor_deviation, 0.0, 1.0,
+                          "Its standard deviation before truncation.",
+                          "assumed: N(1, 0.1), SUMO's usual spread of passenger cars"},
+              core::Field{"speed_factor_minimum", "1", &S::speed_factor_minimum, 0.1, 3.0,
+                          "Lower bound of the truncation.", "assumed: 2.5 standard deviations"},
+              core::Field{"speed_factor_maximum", "1", &S::speed_factor_maximum, 0.1, 3.0,
+                          "Upper bound of the truncation.", "assumed: 2.5 standard deviations"});
     }
 };
 
@@ -253,9 +248,9 @@ struct Following {
     double driver_spread = 0.0;
 
     bool operator==(const Following&) const = default;
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = Following;
-        return std::make_tuple(
+        table(
             core::Field{"model", "", &S::model, 0, 0,
                         "idm: parameters of [drivers]; krauss: SUMO's own model with its defaults.",
                         "idm: docs/decisions/0001-step-length.md"},
@@ -272,14 +267,13 @@ struct Slow {
     double speed_factor = 0.7;
 
     bool operator==(const Slow&) const = default;
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = Slow;
-        return std::make_tuple(
-            core::Field{"share", "1", &S::share, 0.0, 1.0,
-                        "Share of the human and automated vehicles that drive slowly.", "0: none"},
-            core::Field{"speed_factor", "1", &S::speed_factor, 0.1, 1.0,
-                        "Their desired speed divided by the road limit.",
-                        "assumed: a laden truck on a road of 100 km/h"});
+        table(core::Field{"share", "1", &S::share, 0.0, 1.0,
+                          "Share of the human and automated vehicles that drive slowly.", "0: none"},
+              core::Field{"speed_factor", "1", &S::speed_factor, 0.1, 1.0,
+                          "Their desired speed divided by the road limit.",
+                          "assumed: a laden truck on a road of 100 km/h"});
     }
 };
 
@@ -289,14 +283,13 @@ struct Privilege : traffic::PrivilegeConfig {
     int oncoming_lane = 0;
 
     bool none() const { return traffic::PrivilegeConfig::none() && oncoming_lane == 0; }
-    static constexpr auto fields() {
-        return std::tuple_cat(
-            std::make_tuple(core::Field{"oncoming_lane", "1", &Privilege::oncoming_lane, 0, 1,
-                                        "1: emergency vehicles alone overtake on the lane of oncoming "
-                                        "traffic, where the network joins "
-                                        "the two; otherwise all do",
-                                        "0: earlier scenarios leave it out"}),
-            traffic::PrivilegeConfig::fields());
+    static constexpr void fields(const auto& table) {
+        table(core::Field{"oncoming_lane", "1", &Privilege::oncoming_lane, 0, 1,
+                          "1: emergency vehicles alone overtake on the lane of oncoming "
+                          "traffic, where the network joins "
+                          "the two; otherwise all do",
+                          "0: earlier scenarios leave it out"});
+        traffic::PrivilegeConfig::fields(table);
     }
 };
 
@@ -308,9 +301,9 @@ struct TrafficKinds {
     double truck = 0.0;
     double bus = 0.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = TrafficKinds;
-        return std::make_tuple(
+        table(
             core::Field{"car", "1", &S::car, 0.0, 1e6, "Weight of cars.", "dissertation: all vehicles alike"},
             core::Field{"van", "1", &S::van, 0.0, 1e6, "Weight of vans.", "0"},
             core::Field{"truck", "1", &S::truck, 0.0, 1e6, "Weight of trucks.", "0"},
@@ -324,12 +317,11 @@ struct EmergencyKinds {
     double fire_engine = 0.0;
     double police_car = 0.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = EmergencyKinds;
-        return std::make_tuple(
-            core::Field{"ambulance", "1", &S::ambulance, 0.0, 1e6, "Weight of ambulances.", "all alike"},
-            core::Field{"fire_engine", "1", &S::fire_engine, 0.0, 1e6, "Weight of fire engines.", "0"},
-            core::Field{"police_car", "1", &S::police_car, 0.0, 1e6, "Weight of police cars.", "0"});
+        table(core::Field{"ambulance", "1", &S::ambulance, 0.0, 1e6, "Weight of ambulances.", "all alike"},
+              core::Field{"fire_engine", "1", &S::fire_engine, 0.0, 1e6, "Weight of fire engines.", "0"},
+              core::Field{"police_car", "1", &S::police_car, 0.0, 1e6, "Weight of police cars.", "0"});
     }
 };
 
@@ -341,22 +333,21 @@ struct Trips {
     std::optional<double> maximum_distance_m;
     TripEnds ends = TripEnds::connected;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = Trips;
-        return std::make_tuple(
-            core::Field{"minimum_length_m", "m", &S::minimum_length_m, 0.0, 1e6,
-                        "Shortest trip of a human or automated vehicle.", "assumed: several junctions"},
-            core::Field{"emergency_minimum_length_m", "m", &S::emergency_minimum_length_m, 0.0, 1e6,
-                        "Shortest trip of an emergency vehicle.", "assumed: twice that of other vehicles"},
-            core::Field{"minimum_edge_m", "m", &S::minimum_edge_m, 0.0, 1000.0,
-                        "Trips start and end on edges at least this long.",
-                        "assumed: the longest vehicle, a bus of 12 m, fits"},
-            core::Field{"maximum_distance_m", "m", &S::maximum_distance_m, 1.0, 1e6,
-                        "Longest straight-line distance between the ends of a trip.", "none: no limit"},
-            core::Field{"ends", "", &S::ends, 0, 0,
-                        "connected: in the largest set of edges that all reach each other; reachable: any "
-                        "edge and one that it leads to.",
-                        "connected"});
+        table(core::Field{"minimum_length_m", "m", &S::minimum_length_m, 0.0, 1e6,
+                          "Shortest trip of a human or automated vehicle.", "assumed: several junctions"},
+              core::Field{"emergency_minimum_length_m", "m", &S::emergency_minimum_length_m, 0.0, 1e6,
+                          "Shortest trip of an emergency vehicle.", "assumed: twice that of other vehicles"},
+              core::Field{"minimum_edge_m", "m", &S::minimum_edge_m, 0.0, 1000.0,
+                          "Trips start and end on edges at least this long.",
+                          "assumed: the longest vehicle, a bus of 12 m, fits"},
+              core::Field{"maximum_distance_m", "m", &S::maximum_distance_m, 1.0, 1e6,
+                          "Longest straight-line distance between the ends of a trip.", "none: no limit"},
+              core::Field{"ends", "", &S::ends, 0, 0,
+                          "connected: in the largest set of edges that all reach each other; reachable: any "
+                          "edge and one that it leads to.",
+                          "connected"});
     }
 };
 
@@ -366,13 +357,12 @@ struct Flow {
     std::string to;
     double share = 1.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = Flow;
-        return std::make_tuple(
-            core::Field{"from", "", &S::from, 0, 0, "First edge.", "scenario"},
-            core::Field{"to", "", &S::to, 0, 0, "Last edge.", "scenario"},
-            core::Field{"share", "1", &S::share, 0.0, 1.0,
-                        "Share of the vehicles; the shares of all flows add up to 1.", "scenario"});
+        table(core::Field{"from", "", &S::from, 0, 0, "First edge.", "scenario"},
+              core::Field{"to", "", &S::to, 0, 0, "Last edge.", "scenario"},
+              core::Field{"share", "1", &S::share, 0.0, 1.0,
+                          "Share of the vehicles; the shares of all flows add up to 1.", "scenario"});
     }
 };
 
@@ -385,9 +375,9 @@ struct EmergencyTrip {
     double depart_s = 0.0;
     std::string kind = "ambulance";
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = EmergencyTrip;
-        return std::make_tuple(
+        table(
             core::Field{"from", "", &S::from, 0, 0, "First edge.", "scenario"},
             core::Field{"to", "", &S::to, 0, 0, "Last edge.", "scenario"},
             core::Field{
@@ -407,13 +397,13 @@ struct MeasuredType {
     std::string kind = "car";
     Access access = Access::own;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = MeasuredType;
-        return std::make_tuple(core::Field{"id", "", &S::id, 0, 0, "Type in the route files.", "scenario"},
-                               core::Field{"kind", "", &S::kind, 0, 0,
-                                           "car, van, truck, bus, or other (needs own_types).", "car"},
-                               core::Field{"access", "", &S::access, 0, 0,
-                                           "own: the lanes of its kind; unrestricted: all lanes.", "own"});
+        table(core::Field{"id", "", &S::id, 0, 0, "Type in the route files.", "scenario"},
+              core::Field{"kind", "", &S::kind, 0, 0, "car, van, truck, bus, or other (needs own_types).",
+                          "car"},
+              core::Field{"access", "", &S::access, 0, 0,
+                          "own: the lanes of its kind; unrestricted: all lanes.", "own"});
     }
 };
 
@@ -424,14 +414,13 @@ struct OwnTypes {
     std::string file;
     CarFollowing car_following = CarFollowing::own;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = OwnTypes;
-        return std::make_tuple(
-            core::Field{"file", "", &S::file, 0, 0, "Additional file with a <vType> for each measured.type.",
-                        "scenario"},
-            core::Field{"car_following", "", &S::car_following, 0, 0,
-                        "own: as in the types; idm: the model of the scenario, parameters of [drivers].",
-                        "own"});
+        table(core::Field{"file", "", &S::file, 0, 0,
+                          "Additional file with a <vType> for each measured.type.", "scenario"},
+              core::Field{"car_following", "", &S::car_following, 0, 0,
+                          "own: as in the types; idm: the model of the scenario, parameters of [drivers].",
+                          "own"});
     }
 };
 
@@ -459,14 +448,13 @@ struct Measured {
     std::vector<MeasuredType> types;
     std::optional<OwnTypes> own_types;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = Measured;
-        return std::make_tuple(
-            core::Field{"automated_share", "1", &S::automated_share, 0.0, 1.0,
-                        "Share of the cars that are automated.", "dissertation TABLE I, city: 26 of 73"},
-            core::Field{"emergency_minimum_length_m", "m", &S::emergency_minimum_length_m, 0.0, 1e6,
-                        "Emergency vehicles take measured routes of cars at least this long.",
-                        "assumed: as trips.emergency_minimum_length_m"});
+        table(core::Field{"automated_share", "1", &S::automated_share, 0.0, 1.0,
+                          "Share of the cars that are automated.", "dissertation TABLE I, city: 26 of 73"},
+              core::Field{"emergency_minimum_length_m", "m", &S::emergency_minimum_length_m, 0.0, 1e6,
+                          "Emergency vehicles take measured routes of cars at least this long.",
+                          "assumed: as trips.emergency_minimum_length_m"});
     }
 };
 

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -32,9 +31,9 @@ struct Incident {
     int emergency_passes = 0;
     double reroute_share = 0.0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = Incident;
-        return std::make_tuple(
+        table(
             core::Field{"edge", "", &S::edge, 0, 0, "Edge that it blocks, or give coordinates.", "scenario"},
             core::Field{"longitude", "deg", &S::longitude, -180.0, 180.0,
                         "With latitude: on the nearest road open to cars.", "none: edge"},

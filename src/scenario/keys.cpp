@@ -11,15 +11,15 @@ namespace {
 /// The struct in an optional or a list.
 template <class Value>
 struct Held {
-    using type = Value;
+    using Type = Value;
 };
 template <class Value>
 struct Held<std::optional<Value>> {
-    using type = Value;
+    using Type = Value;
 };
 template <class Value>
 struct Held<std::vector<Value>> {
-    using type = Value;
+    using Type = Value;
 };
 
 template <class Struct>
@@ -34,7 +34,7 @@ std::vector<core::FieldTable> key_tables() {
     detail::for_each_table([&]<class Member>(const detail::Table<Member>& table) {
         const std::string key = table.key;
         const std::string title = detail::IsList<Member>::value ? "[[" + key + "]]" : key;
-        tables.push_back(table_of<typename Held<Member>::type>(key, title, table.summary));
+        tables.push_back(table_of<typename Held<Member>::Type>(key, title, table.summary));
         if constexpr (std::is_same_v<Member, RoadCondition>)
             tables.push_back(table_of<Stretch>("road.stretch.NAME", "road.stretch.NAME",
                                                "Edges with a factor of their own, listed in `edges`"));
@@ -72,7 +72,7 @@ std::optional<core::Problem> detail::set_key(ScenarioConfig& config, const std::
                                              const std::string& text, const std::string& where) {
     std::optional<core::Problem> problem;
     for_each_table([&]<class Member>(const Table<Member>& table) {
-        if constexpr (requires { Member::fields(); }) {
+        if constexpr (core::HasFields<Member>) {
             Member& target = config.*table.member;
             core::for_each_field<Member>([&](const auto& field) {
                 if (key == fmt::format("{}.{}", table.key, field.name))

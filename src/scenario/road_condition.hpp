@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -16,10 +15,10 @@ struct Stretch {
     double speed_factor = 1.0;
     std::vector<std::string> edges;  ///< At least one, each in one stretch only.
 
-    static constexpr auto fields() {
-        return std::make_tuple(core::Field{
-            "speed_factor", "1", &Stretch::speed_factor, 0.05, 1.0,
-            "Factor on the speed limits of its edges, instead of road.speed_factor.", "scenario"});
+    static constexpr void fields(const auto& table) {
+        table(core::Field{"speed_factor", "1", &Stretch::speed_factor, 0.05, 1.0,
+                          "Factor on the speed limits of its edges, instead of road.speed_factor.",
+                          "scenario"});
     }
 };
 
@@ -37,17 +36,16 @@ struct RoadCondition {
     /// Whether any speed limit differs from that of the network.
     bool changes_limits() const { return speed_factor != 1.0 || slows_stretches(); }
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = RoadCondition;
-        return std::make_tuple(
-            core::Field{"speed_factor", "1", &S::speed_factor, 0.05, 1.0,
-                        "Factor on the speed limits of all roads, after limits.road_kmh.",
-                        "1: a dry road; FHWA: 0.75 to 0.9 wet, 0.6 to 0.7 snow"},
-            core::Field{"friction", "1", &S::friction, 0.1, 1.0,
-                        "Share of a dry road's grip: factor on acceleration and on all braking.",
-                        "1: a dry road; assumed: about 0.7 wet, 0.2 ice"},
-            core::Field{"headway_factor", "1", &S::headway_factor, 1.0, 3.0,
-                        "Factor on the time headway that drivers keep.", "1: a dry road"});
+        table(core::Field{"speed_factor", "1", &S::speed_factor, 0.05, 1.0,
+                          "Factor on the speed limits of all roads, after limits.road_kmh.",
+                          "1: a dry road; FHWA: 0.75 to 0.9 wet, 0.6 to 0.7 snow"},
+              core::Field{"friction", "1", &S::friction, 0.1, 1.0,
+                          "Share of a dry road's grip: factor on acceleration and on all braking.",
+                          "1: a dry road; assumed: about 0.7 wet, 0.2 ice"},
+              core::Field{"headway_factor", "1", &S::headway_factor, 1.0, 3.0,
+                          "Factor on the time headway that drivers keep.", "1: a dry road"});
     }
 
   private:

@@ -3,7 +3,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/error.hpp"
@@ -41,9 +40,9 @@ struct EmergencySite {
     /// Vehicles that calls can send from here.
     int ready() const { return units.value_or(kind == SiteKind::hospital ? 0 : 1); }
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = EmergencySite;
-        return std::make_tuple(
+        table(
             core::Field{"kind", "", &S::kind, 0, 0, "hospital, ambulance_station or fire_station.",
                         "scenario"},
             core::Field{"edge", "", &S::edge, 0, 0, "Edge at which it lies, or give coordinates.",

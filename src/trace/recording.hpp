@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -36,10 +35,10 @@ struct RecordingSettings {
 
     bool operator==(const RecordingSettings&) const = default;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using S = RecordingSettings;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"step_length_s", "s", &S::step_length_s, 0.01, 1.0, "Step of the simulation", ""},
             Field{"policy_period_s", "s", &S::policy_period_s, 0.1, 10.0, "Time between two decisions", ""},
             Field{"link_radius_m", "m", &S::link_radius_m, 1.0, 1000.0,

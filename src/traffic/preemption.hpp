@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <tuple>
 
 #include "core/fields.hpp"
 
@@ -26,10 +25,10 @@ struct Preemption {
 
     bool operator==(const Preemption&) const = default;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using P = Preemption;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"enabled", "1", &P::enabled, 0, 1, "0: no request for green is granted (preemptControl)",
                   "1"},
             Field{"delay_s", "s", &P::delay_s, 0.0, 600.0,

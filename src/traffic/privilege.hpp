@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tuple>
-
 #include "core/fields.hpp"
 
 namespace clearway::traffic {
@@ -21,10 +19,10 @@ struct PrivilegeConfig {
     bool none() const { return pass_red == 0 && between_lanes == 0; }
     bool operator==(const PrivilegeConfig&) const = default;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = PrivilegeConfig;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"pass_red", "1", &C::pass_red, 0, 1,
                   "1: emergency vehicles pass red signals, slowly and yielding to traffic that has green",
                   "0: earlier scenarios leave it out"},

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tuple>
-
 #include "core/fields.hpp"
 
 namespace clearway::traffic {
@@ -13,17 +11,16 @@ struct SirenConfig {
     double reaction_mean_s = 1.5;
     double reaction_deviation_s = 0.5;
 
-    static constexpr auto fields() {
-        return std::make_tuple(
-            core::Field{"compliance", "1", &SirenConfig::compliance, 0.0, 1.0,
-                        "Share of human drivers who yield to a siren", "0: scenarios v1 leave it out"},
-            core::Field{"audible_m", "m", &SirenConfig::audible_m, 5.0, 500.0,
-                        "Distance along the road at which drivers notice it",
-                        "assumed: closed windows in town"},
-            core::Field{"reaction_mean_s", "s", &SirenConfig::reaction_mean_s, 0.0, 10.0,
-                        "Mean time between noticing and acting", "assumed: surprise reaction, 1.5 s"},
-            core::Field{"reaction_deviation_s", "s", &SirenConfig::reaction_deviation_s, 0.0, 5.0,
-                        "Standard deviation of that time between drivers", "assumed: a third of the mean"});
+    static constexpr void fields(const auto& table) {
+        table(core::Field{"compliance", "1", &SirenConfig::compliance, 0.0, 1.0,
+                          "Share of human drivers who yield to a siren", "0: scenarios v1 leave it out"},
+              core::Field{"audible_m", "m", &SirenConfig::audible_m, 5.0, 500.0,
+                          "Distance along the road at which drivers notice it",
+                          "assumed: closed windows in town"},
+              core::Field{"reaction_mean_s", "s", &SirenConfig::reaction_mean_s, 0.0, 10.0,
+                          "Mean time between noticing and acting", "assumed: surprise reaction, 1.5 s"},
+              core::Field{"reaction_deviation_s", "s", &SirenConfig::reaction_deviation_s, 0.0, 5.0,
+                          "Standard deviation of that time between drivers", "assumed: a third of the mean"});
     }
 };
 

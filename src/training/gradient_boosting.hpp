@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -28,10 +27,10 @@ struct BoostingConfig {
     double test_share = 0.2;
     double easy_share = 0.1;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = BoostingConfig;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"trees", "1", &C::trees, 1.0, 10000.0, "Trees at most",
                   "250 were worse on validation seeds"},
             Field{"max_depth", "1", &C::max_depth, 1.0, 16.0, "Depth of a tree",

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -35,10 +34,10 @@ struct RepairConfig {
     bool pair_features = true;
     std::uint32_t most_snapshots = 0;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = RepairConfig;
         using core::Field;
-        return std::make_tuple(
+        table(
             Field{"epochs", "1", &C::epochs, 1.0, 100000.0, "Passes over the training snapshots, at most",
                   "chosen on validation seeds"},
             Field{"learning_rate", "1", &C::learning_rate, 1e-9, 1e30,

@@ -1,7 +1,6 @@
 #include "core/fields.hpp"
 
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -18,11 +17,10 @@ struct Config {
     int lanes = 2;
     std::string name = "city";
 
-    static constexpr auto fields() {
-        return std::make_tuple(
-            Field{"radius_m", "m", &Config::radius_m, 1.0, 1000.0, "Link radius.", "assumed"},
-            Field{"lanes", "1", &Config::lanes, 1.0, 9.0, "Lanes.", "TABLE I"},
-            Field{"name", "", &Config::name, 0.0, 0.0, "Name.", ""});
+    static constexpr void fields(const auto& table) {
+        table(Field{"radius_m", "m", &Config::radius_m, 1.0, 1000.0, "Link radius.", "assumed"},
+              Field{"lanes", "1", &Config::lanes, 1.0, 9.0, "Lanes.", "TABLE I"},
+              Field{"name", "", &Config::name, 0.0, 0.0, "Name.", ""});
     }
 };
 

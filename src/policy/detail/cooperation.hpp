@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <map>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <tuple>
 
 #include "core/fields.hpp"
 #include "traffic/belief.hpp"
@@ -18,14 +17,13 @@ struct EdgeRule {
     }
     bool counts(const traffic::BelievedLink& link) const { return link.probability >= link_threshold; }
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = EdgeRule;
         using core::Field;
-        return std::make_tuple(
-            Field{"min_edges", "1", &C::min_edges, 0.0, 1e6, "Acts only on a graph with this many links",
-                  "4.3: \"sufficient edges\", no number given"},
-            Field{"link_threshold", "1", &C::link_threshold, 0.0, 1.0,
-                  "A link counts if its probability is at least this", "even odds"});
+        table(Field{"min_edges", "1", &C::min_edges, 0.0, 1e6, "Acts only on a graph with this many links",
+                    "4.3: \"sufficient edges\", no number given"},
+              Field{"link_threshold", "1", &C::link_threshold, 0.0, 1.0,
+                    "A link counts if its probability is at least this", "even odds"});
     }
 };
 

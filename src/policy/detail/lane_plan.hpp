@@ -2,7 +2,6 @@
 
 #include <map>
 #include <optional>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -25,12 +24,11 @@ struct LanePlanConfig : AskSettings {
     /// A slower vehicle counts as standing. Assumed: walking pace is 1.4 m/s.
     static constexpr double halted_mps = 0.5;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = LanePlanConfig;
         using core::Field;
-        const auto own = std::make_tuple(
-            Field{"change_s", "s", &C::change_s, 0.0, 60.0, "Time that a lane change costs", "assumed"});
-        return std::tuple_cat(own, AskSettings::fields());
+        table(Field{"change_s", "s", &C::change_s, 0.0, 60.0, "Time that a lane change costs", "assumed"});
+        AskSettings::fields(table);
     }
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <tuple>
 
 #include "core/fields.hpp"
 #include "prediction/predictor.hpp"
@@ -12,13 +11,12 @@ struct CommonNeighboursConfig {
     double intercept = -1.7;
     double slope = 0.15;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = CommonNeighboursConfig;
-        return std::make_tuple(
-            core::Field{"intercept", "1", &C::intercept, -50.0, 50.0,
-                        "Log odds of a link without a shared neighbour", "tuned on B10, dense"},
-            core::Field{"slope", "1", &C::slope, 0.0, 50.0,
-                        "Growth of the log odds with each shared neighbour", "tuned on B10, dense"});
+        table(core::Field{"intercept", "1", &C::intercept, -50.0, 50.0,
+                          "Log odds of a link without a shared neighbour", "tuned on B10, dense"},
+              core::Field{"slope", "1", &C::slope, 0.0, 50.0,
+                          "Growth of the log odds with each shared neighbour", "tuned on B10, dense"});
     }
 };
 

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "samples/graph_sample.hpp"
@@ -18,17 +17,16 @@ struct CorrectedConfig {
     double test_share = 0.2;
     Convolution convolution = Convolution::sage;  ///< The net that is named says which.
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = CorrectedConfig;
-        return std::make_tuple(
-            core::Field{"batch_snapshots", "1", &C::batch_snapshots, 1.0, 10000.0,
-                        "Snapshots in one step of Adam", "assumed: a few thousand pairs a step"},
-            core::Field{"patience", "1", &C::patience, 1.0, 100000.0,
-                        "Epochs without a better validation loss before training stops", "assumed"},
-            core::Field{"validation_share", "1", &C::validation_share, 0.01, 0.8,
-                        "Share of the seeds that choose the epoch and the threshold", "assumed"},
-            core::Field{"test_share", "1", &C::test_share, 0.01, 0.8, "Share of the seeds that only measure",
-                        "assumed"});
+        table(core::Field{"batch_snapshots", "1", &C::batch_snapshots, 1.0, 10000.0,
+                          "Snapshots in one step of Adam", "assumed: a few thousand pairs a step"},
+              core::Field{"patience", "1", &C::patience, 1.0, 100000.0,
+                          "Epochs without a better validation loss before training stops", "assumed"},
+              core::Field{"validation_share", "1", &C::validation_share, 0.01, 0.8,
+                          "Share of the seeds that choose the epoch and the threshold", "assumed"},
+              core::Field{"test_share", "1", &C::test_share, 0.01, 0.8,
+                          "Share of the seeds that only measure", "assumed"});
     }
 };
 

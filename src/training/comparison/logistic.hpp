@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -18,17 +17,16 @@ struct LogisticConfig {
     double test_share = 0.2;
     std::uint64_t seed = 1;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = LogisticConfig;
-        return std::make_tuple(
-            core::Field{"ridge", "1", &C::ridge, 0.0, 1e6,
-                        "Weight of half the squared length of the weights, beside the mean loss",
-                        "keeps the solution finite where classes can be separated"},
-            core::Field{"validation_share", "1", &C::validation_share, 0.01, 0.8,
-                        "Share of the seeds that choose the threshold", "as the net's"},
-            core::Field{"test_share", "1", &C::test_share, 0.01, 0.8, "Share of the seeds that only measure",
-                        "as the net's"},
-            core::Field{"seed", "1", &C::seed, 0.0, 9e15, "Seed of the split", "assumed"});
+        table(core::Field{"ridge", "1", &C::ridge, 0.0, 1e6,
+                          "Weight of half the squared length of the weights, beside the mean loss",
+                          "keeps the solution finite where classes can be separated"},
+              core::Field{"validation_share", "1", &C::validation_share, 0.01, 0.8,
+                          "Share of the seeds that choose the threshold", "as the net's"},
+              core::Field{"test_share", "1", &C::test_share, 0.01, 0.8,
+                          "Share of the seeds that only measure", "as the net's"},
+              core::Field{"seed", "1", &C::seed, 0.0, 9e15, "Seed of the split", "assumed"});
     }
 };
 

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <string>
-#include <tuple>
 
 #include "core/fields.hpp"
 #include "training/comparison/torch_net.hpp"
@@ -21,9 +20,9 @@ struct TrainingConfig {
     std::uint32_t output = 5;
     std::uint64_t seed = 1;
 
-    static constexpr auto fields() {
+    static constexpr void fields(const auto& table) {
         using C = TrainingConfig;
-        return std::make_tuple(
+        table(
             core::Field{"epochs", "1", &C::epochs, 1.0, 100000.0, "Passes over the training pairs, at most",
                         "dissertation 5.3"},
             core::Field{"learning_rate", "1", &C::learning_rate, 1e-9, 1e30, "Step size of Adam",
