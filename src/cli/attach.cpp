@@ -17,7 +17,7 @@
 namespace clearway::cli {
 namespace {
 
-struct Arguments {
+struct AttachArguments {
     std::string place;
     std::string folder;
     experiment::AttachJob job;
@@ -39,7 +39,7 @@ void read_place(const std::string& place, experiment::AttachJob& job) {
                                 "Give the port that SUMO was started with (--remote-port)"});
 }
 
-core::ExitCode attach(const Arguments& arguments) {
+core::ExitCode attach(const AttachArguments& arguments) {
     experiment::AttachJob job = arguments.job;
     read_place(arguments.place, job);
     const std::filesystem::path folder =
@@ -75,7 +75,7 @@ core::ExitCode attach(const Arguments& arguments) {
 }  // namespace
 
 Action configure_attach(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<AttachArguments>();
     arguments->described.condition.name = "attached";
     experiment::AttachJob& job = arguments->job;
     app.add_option("place", arguments->place, "Where SUMO waits for a client (its --remote-port)")

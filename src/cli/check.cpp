@@ -10,14 +10,14 @@
 namespace clearway::cli {
 
 Action configure_check(App& app) {
-    struct Arguments {
+    struct CheckArguments {
         std::string scenario;
         std::uint64_t seed = 1;
         std::uint32_t lock_trials = 0;
         campaign::RunOptions run;
         scenario::Options options;
     };
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<CheckArguments>();
     add_scenario_argument(app, arguments->scenario);
     add_seed_option(app, arguments->seed);
     app.add_option(

@@ -26,7 +26,7 @@
 namespace clearway::cli {
 namespace {
 
-struct Arguments {
+struct CompareArguments {
     std::string first;
     std::string second;
     std::string against;               ///< Empty: the baselines.
@@ -73,7 +73,7 @@ report::Tolerance tolerance_from(const std::string& word, const std::vector<std:
 }
 
 /// All tolerances. Their metrics are added to those that are shown.
-std::vector<report::Tolerance> check(Arguments& arguments) {
+std::vector<report::Tolerance> check(CompareArguments& arguments) {
     std::vector<report::Tolerance> tolerances;
     const std::vector<std::string> chosen = arguments.metrics;
     if (chosen.empty()) arguments.metrics = usual_metrics();
@@ -93,7 +93,7 @@ std::vector<report::Tolerance> check(Arguments& arguments) {
     return tolerances;
 }
 
-analysis::Reference reference_of(const Arguments& arguments, const results::Manifest& manifest) {
+analysis::Reference reference_of(const CompareArguments& arguments, const results::Manifest& manifest) {
     if (!arguments.against.empty() && !arguments.second.empty())
         throw core::InputError(
             {"--against", "is for one run folder, and there are two", "", "Leave out " + arguments.second});
@@ -101,7 +101,7 @@ analysis::Reference reference_of(const Arguments& arguments, const results::Mani
 }
 
 /// `reference` is set to what conditions are compared with.
-analysis::Summary summary_of(const Arguments& arguments, analysis::Reference& reference) {
+analysis::Summary summary_of(const CompareArguments& arguments, analysis::Reference& reference) {
     for (const std::string& folder : {arguments.first, arguments.second})
         if (!folder.empty()) campaign::renew_edited_tables(results::Store::open(folder));
     const results::Results first =
@@ -179,7 +179,7 @@ std::string best_text(const analysis::Summary& summary, const report::ConditionT
            "\n";
 }
 
-core::ExitCode compare(Arguments arguments) {
+core::ExitCode compare(CompareArguments arguments) {
     if (!arguments.publication.file.empty() && !arguments.second.empty())
         throw core::InputError({"--publish", "writes the rows of one run folder, and there are two", "",
                                 "Leave out " + arguments.second});
@@ -217,7 +217,7 @@ core::ExitCode compare(Arguments arguments) {
 }  // namespace
 
 Action configure_compare(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<CompareArguments>();
     app.add_option("run", arguments->first, "Run folder; its conditions are compared with their baseline")
         .required()
         .option_text("DIR (required)");

@@ -23,7 +23,7 @@
 namespace clearway::cli {
 namespace {
 
-struct Arguments {
+struct DatasetArguments {
     std::string scenario;
     std::string folder;
     samples::DatasetSeeds seeds;
@@ -87,7 +87,7 @@ void check_link_radius(const experiment::DatasetJob& job) {
                             ""});
 }
 
-core::ExitCode record(Arguments arguments, const Invocation& invocation) {
+core::ExitCode record(DatasetArguments arguments, const Invocation& invocation) {
     const bool many = arguments.job.dataset != experiment::DatasetKind::published;
     if (many && arguments.job.failures.empty()) arguments.job.failures = {"B10"};
     if (!many && arguments.seeds.count > 1) {
@@ -133,7 +133,7 @@ void add_published_options(App& app, experiment::DatasetJob& job, Option samples
         .excludes(samples);
 }
 
-Option add_sample_options(App& app, Arguments& arguments) {
+Option add_sample_options(App& app, DatasetArguments& arguments) {
     const OptionGroup group(app, "Many snapshots (for the other trainings)");
     experiment::DatasetJob& job = arguments.job;
     const Option samples = app.add_flag_callback(
@@ -172,7 +172,7 @@ Option add_sample_options(App& app, Arguments& arguments) {
 }  // namespace
 
 Action configure_dataset(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<DatasetArguments>();
     add_scenario_argument(app, arguments->scenario);
     app.add_option("--out", arguments->folder, "Folder of the data set; made when absent")
         .required()

@@ -21,7 +21,7 @@
 namespace clearway::cli {
 namespace {
 
-struct Arguments {
+struct EnvironmentArguments {
     std::string scenario;
     DescribedCondition described;
     scenario::Options options;
@@ -42,7 +42,7 @@ experiment::RunJob job_of(const study::Plan& plan, const experiment::ConditionSp
 }
 
 /// An environment has policies besides its agent only where they are named; it runs no baseline.
-core::ExitCode serve(const Arguments& arguments, const Invocation& invocation) {
+core::ExitCode serve(const EnvironmentArguments& arguments, const Invocation& invocation) {
     experiment::ConditionSpec condition = condition_of(arguments.described);
     condition.name = experiment::described_name(condition);
     campaign::check_names({condition});
@@ -73,7 +73,7 @@ core::ExitCode serve(const Arguments& arguments, const Invocation& invocation) {
 }  // namespace
 
 Action configure_environment(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<EnvironmentArguments>();
     add_scenario_argument(app, arguments->scenario);
     {
         const OptionGroup group(app, "What acts besides the agent, and how sensors fail");

@@ -20,7 +20,7 @@ constexpr std::size_t most_signals = 10000;
 
 enum class Mode : std::uint8_t { run, dry_run };
 
-struct Arguments {
+struct EquipArguments {
     Mode mode = Mode::run;
     std::string scenario;
     ConditionWords conditions;
@@ -28,7 +28,7 @@ struct Arguments {
     campaign::EquipRequest request;
 };
 
-void add_study_options(App& app, const std::shared_ptr<Arguments>& arguments) {
+void add_study_options(App& app, const std::shared_ptr<EquipArguments>& arguments) {
     campaign::EquipRequest& request = arguments->request;
     app.add_option("--budget", request.budget, "How many signals to equip")
         .required()
@@ -61,7 +61,7 @@ void add_study_options(App& app, const std::shared_ptr<Arguments>& arguments) {
 }  // namespace
 
 Action configure_equip(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<EquipArguments>();
     arguments->request.replications = usual_seeds;
     add_scenario_argument(app, arguments->scenario);
     add_study_options(app, arguments);

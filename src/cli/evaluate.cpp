@@ -14,13 +14,13 @@
 namespace clearway::cli {
 namespace {
 
-struct Arguments {
+struct EvaluateArguments {
     campaign::LinkRequest request;
     std::vector<std::string> settings;  ///< `link_threshold=0.4`, `kalman.link_threshold=0.4`.
     std::vector<std::string> models;    ///< `graphsage=FILE`.
 };
 
-void add_what(App& app, Arguments& arguments) {
+void add_what(App& app, EvaluateArguments& arguments) {
     app.add_option("scenario", arguments.request.scenarios,
                    "Names (clearway list), folders or TOML files; with --benchmark, names of its scenarios")
         .option_text("SCENARIO ... [those of the benchmark]");
@@ -45,7 +45,7 @@ void add_what(App& app, Arguments& arguments) {
         .option_text("PREDICTOR [route_rule, kalman, ...]");
 }
 
-void add_seeds(App& app, Arguments& arguments) {
+void add_seeds(App& app, EvaluateArguments& arguments) {
     const OptionGroup group(app, "Seeds (a benchmark has its own)");
     const auto declare = [&](const char* name, std::uint32_t& value, const char* doc, std::uint32_t least) {
         app.add_option(name, value, doc)
@@ -71,7 +71,7 @@ void add_seeds(App& app, Arguments& arguments) {
 }  // namespace
 
 Action configure_evaluate(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<EvaluateArguments>();
     add_what(app, *arguments);
     app.add_option("--out", arguments->request.folder,
                    "Folder of runs and results; runs that it already holds are not repeated")

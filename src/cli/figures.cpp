@@ -26,7 +26,7 @@ namespace {
 
 enum class Formats { all, svg };
 
-struct Arguments {
+struct FiguresArguments {
     std::filesystem::path folder;
     std::filesystem::path output;
     std::string against;  ///< Empty: the baselines.
@@ -64,7 +64,7 @@ void convert(const std::vector<std::filesystem::path>& drawings, const std::stri
 }
 
 /// Of a folder of clearway equip, which is no run folder.
-core::ExitCode write_equipment(const Arguments& arguments) {
+core::ExitCode write_equipment(const FiguresArguments& arguments) {
     if (!arguments.against.empty())
         throw core::InputError({"--against", "is given for a folder of clearway equip",
                                 "a folder of run or study", "Leave it out"});
@@ -84,7 +84,7 @@ core::ExitCode write_equipment(const Arguments& arguments) {
     return core::ExitCode::ok;
 }
 
-core::ExitCode write(const Arguments& arguments) {
+core::ExitCode write(const FiguresArguments& arguments) {
     if (std::filesystem::exists(arguments.folder / "equip.json")) return write_equipment(arguments);
     if (std::filesystem::exists(arguments.folder / "evaluation.tex"))
         throw core::InputError(
@@ -117,7 +117,7 @@ core::ExitCode write(const Arguments& arguments) {
 }  // namespace
 
 Action configure_figures(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<FiguresArguments>();
     app.add_option("folder", arguments->folder, "Folder of run, study or equip")
         .required()
         .option_text("DIR (required)");

@@ -22,7 +22,7 @@
 namespace clearway::cli {
 namespace {
 
-struct Arguments {
+struct ImportArguments {
     scenario_import::ImportRequest request;
     std::vector<std::string> files;
     std::string name;
@@ -78,7 +78,7 @@ scenario_import::Findings import_watched(const scenario_import::ImportRequest& r
     });
 }
 
-core::ExitCode import(Arguments& arguments) {
+core::ExitCode import(ImportArguments& arguments) {
     arguments.request.files.assign(arguments.files.begin(), arguments.files.end());
     arguments.request.folder = arguments.name;
     const scenario_import::Findings findings = import_watched(arguments.request);
@@ -102,7 +102,7 @@ core::ExitCode import(Arguments& arguments) {
 }  // namespace
 
 Action configure_import(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ImportArguments>();
     scenario_import::ImportRequest& request = arguments->request;
     app.add_option("files", arguments->files,
                    "A map (.osm, .gz, .bz2, .pbf), a .sumocfg, or a .net.xml with its files")

@@ -12,11 +12,11 @@
 namespace clearway::cli {
 
 Action configure_init(App& app) {
-    struct Arguments {
+    struct InitArguments {
         std::string folder;
         std::string from = "intersection";
     };
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<InitArguments>();
     app.add_option("folder", arguments->folder, "New or empty folder; its name becomes the scenario's")
         .required()
         .option_text("DIR (required)");

@@ -139,7 +139,7 @@ void print_text(const std::vector<Section>& sections) {
     }
 }
 
-struct Arguments {
+struct ListArguments {
     std::vector<std::string> words;
     Printing printing = Printing::text;
     bool as_markdown = false;
@@ -179,7 +179,7 @@ core::InputError unknown_list(const std::string& word, const std::vector<Referen
                                                : core::did_you_mean(word, known, "Say `clearway list`")});
 }
 
-void list_settings(const Arguments& arguments) {
+void list_settings(const ListArguments& arguments) {
     const std::string part = arguments.words.size() > 1 ? arguments.words.back() : "";
     const std::vector<experiment::Component> components = experiment::components_named(part);
     if (arguments.as_markdown) {
@@ -196,13 +196,13 @@ void list_settings(const Arguments& arguments) {
     }
 }
 
-void refuse_second_word(const Arguments& arguments, const char* name) {
+void refuse_second_word(const ListArguments& arguments, const char* name) {
     if (arguments.words.size() > 1)
         throw core::InputError({"list", fmt::format("`{}` is one word too many", arguments.words.back()),
                                 fmt::format("list {}", name), ""});
 }
 
-void list_section(const Section& section, const Arguments& arguments) {
+void list_section(const Section& section, const ListArguments& arguments) {
     refuse_second_word(arguments, section.key);
     if (arguments.as_markdown)
         throw core::InputError({"--markdown", fmt::format("has no page of {}", section.key),
@@ -210,7 +210,7 @@ void list_section(const Section& section, const Arguments& arguments) {
     print_sections({section}, arguments.printing);
 }
 
-void list_page(const ReferencePage& page, const Arguments& arguments) {
+void list_page(const ReferencePage& page, const ListArguments& arguments) {
     refuse_second_word(arguments, page.name);
     if (arguments.as_markdown) {
         fmt::print("{}", to_markdown(page));
@@ -221,7 +221,7 @@ void list_page(const ReferencePage& page, const Arguments& arguments) {
     }
 }
 
-void list_alone(const Arguments& arguments) {
+void list_alone(const ListArguments& arguments) {
     const std::string word = arguments.words.empty() ? "" : arguments.words.front();
     if (arguments.with_reasons && word != "settings")
         throw core::InputError({"--reasons", "is for settings", "list settings", "Leave it out"});
@@ -238,7 +238,7 @@ void list_alone(const Arguments& arguments) {
 }  // namespace
 
 Action configure_list(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ListArguments>();
     app.footer(app.get_footer() + "\n  clearway list settings preempt_signals");
     app.add_option(
            "what", arguments->words,

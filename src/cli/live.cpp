@@ -18,7 +18,7 @@
 namespace clearway::cli {
 namespace {
 
-struct Arguments {
+struct LiveArguments {
     std::string scenario;
     ConditionWords conditions;
     std::string against = "baseline";
@@ -35,7 +35,7 @@ void require_traffic(const experiment::ConditionSpec& condition) {
 }
 
 /// The conditions to watch: the other one first, so that it is left.
-std::vector<experiment::ConditionSpec> watched(const Arguments& arguments) {
+std::vector<experiment::ConditionSpec> watched(const LiveArguments& arguments) {
     const experiment::ConditionSpec shown = shown_condition(chosen_conditions(arguments.conditions), "live");
     std::vector<experiment::ConditionSpec> all;
     if (arguments.against == "baseline") {
@@ -49,7 +49,7 @@ std::vector<experiment::ConditionSpec> watched(const Arguments& arguments) {
     return all;
 }
 
-study::StudyConfig study_of(const Arguments& arguments,
+study::StudyConfig study_of(const LiveArguments& arguments,
                             const std::vector<experiment::ConditionSpec>& watched) {
     std::vector<experiment::ConditionSpec> all;
     for (const experiment::ConditionSpec& condition : watched) {
@@ -60,7 +60,7 @@ study::StudyConfig study_of(const Arguments& arguments,
     return campaign::study_of(scenario::load(arguments.scenario, arguments.options), all, arguments.seed, 1);
 }
 
-core::ExitCode live(const Arguments& arguments, const Invocation& invocation) {
+core::ExitCode live(const LiveArguments& arguments, const Invocation& invocation) {
     const std::vector<experiment::ConditionSpec> conditions = watched(arguments);
     campaign::LiveRequest request{study_of(arguments, conditions), conditions, arguments.server,
                                   arguments.run};
@@ -68,7 +68,7 @@ core::ExitCode live(const Arguments& arguments, const Invocation& invocation) {
     return campaign::run_live(std::move(request));
 }
 
-void add_server_options(App& app, const std::shared_ptr<Arguments>& arguments) {
+void add_server_options(App& app, const std::shared_ptr<LiveArguments>& arguments) {
     const OptionGroup group(app, "The server");
     server::LiveConfig& server = arguments->server;
     app.add_option("--host", server.host,
@@ -90,7 +90,7 @@ void add_server_options(App& app, const std::shared_ptr<Arguments>& arguments) {
 }  // namespace
 
 Action configure_live(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<LiveArguments>();
     add_scenario_argument(app, arguments->scenario);
     add_condition_words(app, arguments->conditions);
     app.add_option("--against", arguments->against, "What is shown beside it: a built-in condition, or none")

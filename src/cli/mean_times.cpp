@@ -13,12 +13,12 @@
 namespace clearway::cli {
 
 Action configure_mean_times(App& app) {
-    struct Arguments {
+    struct MeanTimesArguments {
         std::string scenario;
         campaign::MeanTimesOrder order;
         scenario::Options options;
     };
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<MeanTimesArguments>();
     campaign::MeanTimesOrder& order = arguments->order;
     add_scenario_argument(app, arguments->scenario);
     app.add_option("--out", order.file, "The CSV to write; never over a file")

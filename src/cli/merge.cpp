@@ -18,7 +18,7 @@
 namespace clearway::cli {
 namespace {
 
-struct Arguments {
+struct MergeArguments {
     std::vector<std::string> sources;
     std::string out;
     Printing printing = Printing::text;
@@ -59,7 +59,7 @@ campaign::Printout printout_of(const study::MergeResult& result, const std::stri
             text_of(result, out)};
 }
 
-core::ExitCode merge(const Arguments& arguments) {
+core::ExitCode merge(const MergeArguments& arguments) {
     const std::vector<std::filesystem::path> sources(arguments.sources.begin(), arguments.sources.end());
     std::size_t folders = 0;
     for (const std::filesystem::path& source : sources)
@@ -79,7 +79,7 @@ core::ExitCode merge(const Arguments& arguments) {
 }  // namespace
 
 Action configure_merge(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<MergeArguments>();
     app.add_option("folders", arguments->sources,
                    "Run folders of the shards, or folders that hold them in shards/")
         .required()

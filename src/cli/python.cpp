@@ -11,14 +11,14 @@
 namespace clearway::cli {
 namespace {
 
-struct Arguments {
+struct PythonArguments {
     std::string virtual_environment;
     std::string folder;
     std::string python = "/usr/bin/python3";
 };
 
 /// Hands over to python/install.py, because a Python knows best where its packages are.
-core::ExitCode install(const Arguments& arguments) {
+core::ExitCode install(const PythonArguments& arguments) {
     const auto installer = core::shipped("python/install.py");
     if (!installer)
         throw core::EnvironmentError(
@@ -36,7 +36,7 @@ core::ExitCode install(const Arguments& arguments) {
 }  // namespace
 
 Action configure_python(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<PythonArguments>();
     const Option venv = app.add_option("--venv", arguments->virtual_environment,
                                        "Virtual environment; made if it is not there")
                             .option_text("DIR [the user's site-packages]");

@@ -47,7 +47,7 @@ std::vector<std::string> table_names() {
     return names;
 }
 
-struct Arguments {
+struct ReplayArguments {
     std::vector<std::string> runs;
     bool is_viewed = false;
     std::string page;
@@ -67,7 +67,7 @@ struct Arguments {
 
 /// What the replay keeps of the recorded condition, with the files of the user where they are now. What the
 /// command line names, the user has chosen.
-experiment::ConditionSpec kept_of(const trace::RecordingInfo& info, const Arguments& arguments) {
+experiment::ConditionSpec kept_of(const trace::RecordingInfo& info, const ReplayArguments& arguments) {
     experiment::ConditionSpec kept = info.condition;
     if (arguments.predictor) {
         kept.predictor.clear();
@@ -78,7 +78,7 @@ experiment::ConditionSpec kept_of(const trace::RecordingInfo& info, const Argume
 }
 
 /// Drops the settings of policies and predictors that the replay replaces.
-void drop_what_is_gone(const experiment::ConditionSpec& recorded, const Arguments& arguments,
+void drop_what_is_gone(const experiment::ConditionSpec& recorded, const ReplayArguments& arguments,
                        experiment::ConditionSpec& condition) {
     if (arguments.predictor && condition.predictor == recorded.predictor)
         condition.model_file = recorded.model_file;
@@ -94,7 +94,7 @@ void drop_what_is_gone(const experiment::ConditionSpec& recorded, const Argument
 }
 
 /// Refuses settings that act only where something is simulated. The sensors alone act on the failure log.
-void refuse_idle_settings(const Arguments& arguments, const experiment::ConditionSpec& condition) {
+void refuse_idle_settings(const ReplayArguments& arguments, const experiment::ConditionSpec& condition) {
     std::vector<std::string> acting;
     for (const std::string& component : experiment::components_of(condition)) {
         const bool acts = arguments.table == failures_table
@@ -119,7 +119,7 @@ void refuse_idle_settings(const Arguments& arguments, const experiment::Conditio
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }
 
-experiment::ConditionSpec condition_of(const trace::RecordingInfo& info, const Arguments& arguments) {
+experiment::ConditionSpec condition_of(const trace::RecordingInfo& info, const ReplayArguments& arguments) {
     experiment::ConditionSpec condition = kept_of(info, arguments);
     if (arguments.failure) condition.failure = *arguments.failure;
     if (arguments.predictor) condition.predictor = *arguments.predictor;
@@ -142,7 +142,7 @@ trace::RoadNames names_of(const roads::Network& network) {
 }
 
 /// Prints the header, then what `lines` returns for each step between --from and --to.
-core::ExitCode print_csv(trace::RecordingReader& recording, const Arguments& arguments,
+core::ExitCode print_csv(trace::RecordingReader& recording, const ReplayArguments& arguments,
                          const std::string& header,
                          const std::function<std::string(const trace::RecordedStep&)>& lines) {
     fmt::print("{}", header);
@@ -164,7 +164,7 @@ core::ExitCode print_csv(trace::RecordingReader& recording, const Arguments& arg
     return core::ExitCode::ok;
 }
 
-core::ExitCode print_table(trace::RecordingReader& recording, const Arguments& arguments) {
+core::ExitCode print_table(trace::RecordingReader& recording, const ReplayArguments& arguments) {
     const roads::Network network =
         campaign::recorded_network(recording.info(), arguments.file, arguments.network);
     if (arguments.table == failures_table) {
@@ -288,14 +288,14 @@ bool is_same(const trace::ReplayResult& result) {
            result.beliefs.same == result.beliefs.compared && result.leases.same == result.leases.compared;
 }
 
-void require_order(const Arguments& arguments) {
+void require_order(const ReplayArguments& arguments) {
     if (!arguments.from_s || !arguments.to_s || *arguments.from_s <= *arguments.to_s) return;
     throw core::InputError({"--from",
                             fmt::format("{} s is after --to {} s", *arguments.from_s, *arguments.to_s), "",
                             "Swap them"});
 }
 
-core::ExitCode replay_file(Arguments arguments) {
+core::ExitCode replay_file(ReplayArguments arguments) {
     require_order(arguments);
     if (arguments.is_viewed)
         return campaign::write_replay_page(
@@ -329,7 +329,7 @@ core::ExitCode replay_file(Arguments arguments) {
 }
 
 /// Returns what cannot be combined with another replay.
-Option add_view_options(App& app, const std::shared_ptr<Arguments>& arguments) {
+Option add_view_options(App& app, const std::shared_ptr<ReplayArguments>& arguments) {
     const OptionGroup group(app, "Watch, instead of a replay");
     const Option view =
         app.add_flag("--view", arguments->is_viewed,
@@ -340,7 +340,7 @@ Option add_view_options(App& app, const std::shared_ptr<Arguments>& arguments) {
     return view;
 }
 
-void add_csv_options(App& app, const std::shared_ptr<Arguments>& arguments,
+void add_csv_options(App& app, const std::shared_ptr<ReplayArguments>& arguments,
                      const std::vector<Option>& others) {
     const OptionGroup group(app, "Export as CSV, instead of a replay");
     const Option csv = app.add_option("--csv", arguments->table, "Table to print, see below")
@@ -360,7 +360,7 @@ void add_csv_options(App& app, const std::shared_ptr<Arguments>& arguments,
 }  // namespace
 
 Action configure_replay(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ReplayArguments>();
     app.footer(app.get_footer() +
                "\n  clearway replay RUN --csv belief --from 60 --to 90 > belief.csv\n"
                "  clearway replay runs/mine/city/baseline/0 runs/mine/city/mine/0 --view\n\n" +

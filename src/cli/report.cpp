@@ -12,12 +12,12 @@
 namespace clearway::cli {
 
 Action configure_report(App& app) {
-    struct Arguments {
+    struct ReportArguments {
         std::string folder;
         campaign::PublishOptions how;
         campaign::CodeTrust trust = campaign::CodeTrust::none;
     };
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ReportArguments>();
     app.add_option("folder", arguments->folder, "Run folder of run or study, complete or not")
         .required()
         .option_text("DIR (required)");

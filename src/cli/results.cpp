@@ -16,7 +16,7 @@ namespace {
 
 enum class Asked : std::uint8_t { table, names };
 
-struct Arguments {
+struct ResultsArguments {
     std::string folder;
     std::string table = "runs";
     Asked asked = Asked::table;
@@ -37,7 +37,7 @@ void update_tables(const results::Store& store) {
     }
 }
 
-core::ExitCode print_results(const Arguments& arguments) {
+core::ExitCode print_results(const ResultsArguments& arguments) {
     const results::Store store = results::Store::open(arguments.folder);
     campaign::renew_edited_tables(store);
     update_tables(store);
@@ -56,7 +56,7 @@ core::ExitCode print_results(const Arguments& arguments) {
 }  // namespace
 
 Action configure_results(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<ResultsArguments>();
     app.add_option("folder", arguments->folder, "Run folder, complete or not")
         .required()
         .option_text("DIR (required)");

@@ -23,7 +23,7 @@ enum class Floor : std::uint8_t { solo, none };
 
 constexpr std::uint32_t usual_seeds = 10;  // FHWA's minimum number of replications
 
-struct Arguments {
+struct RunArguments {
     std::string scenario;
     ConditionWords conditions;
     Floor floor = Floor::solo;
@@ -39,7 +39,7 @@ struct Arguments {
 };
 
 /// The chosen conditions, or else the usual one, with their baselines and solo.
-std::vector<experiment::ConditionSpec> conditions_of(const Arguments& arguments,
+std::vector<experiment::ConditionSpec> conditions_of(const RunArguments& arguments,
                                                      std::vector<experiment::ConditionSpec> chosen) {
     if (chosen.empty())
         chosen.push_back(experiment::built_in_condition(experiment::usual_condition, "--condition"));
@@ -69,7 +69,7 @@ std::filesystem::path window_settings(const std::string& file) {
                             "view settings of sumo-gui (its Edit Visualization window saves them)", ""});
 }
 
-core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
+core::ExitCode run(const RunArguments& arguments, const Invocation& invocation) {
     campaign::RunOptions options = arguments.run;
     options.command = invocation.command;
     const auto study_of = [&](std::vector<experiment::ConditionSpec> conditions) {
@@ -89,7 +89,7 @@ core::ExitCode run(const Arguments& arguments, const Invocation& invocation) {
     return campaign::show_and_print(plan, options, shown, window);
 }
 
-void add_window_options(App& app, const std::shared_ptr<Arguments>& arguments) {
+void add_window_options(App& app, const std::shared_ptr<RunArguments>& arguments) {
     const OptionGroup group(app, "A window");
     const Option gui = app.add_flag("--gui", arguments->is_shown,
                                     fmt::format("Show the first seed of one condition [{}] in sumo-gui",
@@ -109,7 +109,7 @@ void add_window_options(App& app, const std::shared_ptr<Arguments>& arguments) {
 }  // namespace
 
 Action configure_run(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<RunArguments>();
     add_scenario_argument(app, arguments->scenario);
     add_condition_words(app, arguments->conditions);
     app.add_flag_callback(

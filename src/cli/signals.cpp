@@ -29,7 +29,7 @@ using core::Json;
 using scenario::SecondsRange;
 using scenario::SignalSheet;
 
-struct Arguments {
+struct SignalsArguments {
     std::string scenario;
     std::filesystem::path picture;
     std::filesystem::path parameters;
@@ -195,7 +195,7 @@ void refuse_to_overwrite(const std::filesystem::path& file) {
                                          "choose another name, or remove it first"});
 }
 
-core::ExitCode show(const Arguments& arguments) {
+core::ExitCode show(const SignalsArguments& arguments) {
     refuse_to_overwrite(arguments.parameters);
     const scenario::ScenarioConfig config = scenario::load(arguments.scenario, arguments.options);
     const core::TemporaryFolder folder;
@@ -224,7 +224,7 @@ core::ExitCode show(const Arguments& arguments) {
 }  // namespace
 
 Action configure_signals(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<SignalsArguments>();
     add_scenario_argument(app, arguments->scenario);
     app.add_option("--svg", arguments->picture, "Write a map of the signals with their numbers")
         .option_text("FILE [none]");

@@ -143,11 +143,11 @@ core::ExitCode print_status(const std::filesystem::path& path, Printing printing
 }  // namespace
 
 Action configure_status(App& app) {
-    struct Arguments {
+    struct StatusArguments {
         std::string folder;
         Printing printing = Printing::text;
     };
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<StatusArguments>();
     app.add_option("folder", arguments->folder, "Run folder, or a folder with the shards of a study")
         .required()
         .option_text("DIR (required)");

@@ -15,7 +15,7 @@ namespace {
 
 enum class Mode : std::uint8_t { run, dry_run };
 
-struct Arguments {
+struct StudyArguments {
     std::string file;
     std::vector<std::string> scenarios;
     std::string shard;
@@ -26,7 +26,7 @@ struct Arguments {
     campaign::RunOptions run;
 };
 
-core::ExitCode run_study(const Arguments& arguments, const Invocation& invocation) {
+core::ExitCode run_study(const StudyArguments& arguments, const Invocation& invocation) {
     study::Shard shard;
     if (!arguments.shard.empty()) shard = study::shard_from(arguments.shard, "--shard");
     study::StudyConfig config =
@@ -45,7 +45,7 @@ core::ExitCode run_study(const Arguments& arguments, const Invocation& invocatio
 }  // namespace
 
 Action configure_study(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<StudyArguments>();
     app.add_option("file", arguments->file, "Study file, TOML: scenarios, conditions, factors, replications")
         .required()
         .option_text("FILE (required)");

@@ -12,12 +12,12 @@
 namespace clearway::cli {
 
 Action configure_submit(App& app) {
-    struct Arguments {
+    struct SubmitArguments {
         campaign::SubmitRequest request;
         std::vector<std::string> models;
         std::uint64_t most_runs = results::usual_most_runs;
     };
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<SubmitArguments>();
     campaign::SubmitRequest& request = arguments->request;
     app.add_option("file", request.file, "Study file").required().option_text("FILE (required)");
     app.add_option("--out", request.out, "Folder on a file system that all machines share")

@@ -17,14 +17,14 @@
 namespace clearway::cli {
 namespace {
 
-struct Arguments {
+struct TrajectoriesArguments {
     std::string run;
     std::string folder;
     double every_s = 1.0;
     double reach_m = 50.0;
 };
 
-core::ExitCode write(const Arguments& arguments) {
+core::ExitCode write(const TrajectoriesArguments& arguments) {
     const results::NamedRecording named = results::recording_named(arguments.run, "RUN");
     trace::RecordingReader& recording = *named.reader;
     const experiment::RunKey key = recording.info().key;
@@ -71,7 +71,7 @@ core::ExitCode write(const Arguments& arguments) {
 }  // namespace
 
 Action configure_trajectories(App& app) {
-    const auto arguments = std::make_shared<Arguments>();
+    const auto arguments = std::make_shared<TrajectoriesArguments>();
     app.add_option("run", arguments->run,
                    fmt::format("{} of a recorded run, or a recording", results::run_name_form))
         .required()
