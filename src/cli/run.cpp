@@ -8,6 +8,7 @@
 #include "campaign/plan_text.hpp"
 #include "campaign/shown_run.hpp"
 #include "campaign/study_run.hpp"
+#include "campaign/time_budget.hpp"
 #include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
@@ -28,6 +29,7 @@ struct RunArguments {
     ConditionWords conditions;
     Floor floor = Floor::solo;
     std::uint32_t seeds = usual_seeds;
+    double within_s = 0.0;  ///< 0: no time is given.
     std::uint64_t seed = 1;
     std::uint64_t most_runs = results::usual_most_runs;
     campaign::RunOptions run;
@@ -80,8 +82,16 @@ core::ExitCode run(const RunArguments& arguments, const Invocation& invocation) 
         return study;
     };
     const std::vector<experiment::ConditionSpec> chosen = chosen_conditions(arguments.conditions);
-    if (arguments.is_planned) return campaign::print_plan(study_of(chosen), {}, options);
-    if (!arguments.is_shown) return campaign::run_study(study_of(chosen), options);
+    const bool is_timed = arguments.within_s > 0.0;
+    if (arguments.is_planned) {
+        study::StudyConfig planned = study_of(chosen);
+        if (is_timed) planned = campaign::fitted(std::move(planned), arguments.within_s, options);
+        return campaign::print_plan(planned, {}, options);
+    }
+    if (!arguments.is_shown) {
+        return is_timed ? campaign::run_within(study_of(chosen), arguments.within_s, options)
+                        : campaign::run_study(study_of(chosen), options);
+    }
     const experiment::ConditionSpec shown = shown_condition(chosen, "--gui");
     const experiment::WindowSpec window{.delay_s = arguments.delay_ms / 1000.0,
                                         .settings_file = window_settings(arguments.window_settings)};
@@ -94,7 +104,8 @@ void add_window_options(App& app, const std::shared_ptr<RunArguments>& arguments
     const Option gui = app.add_flag("--gui", arguments->is_shown,
                                     fmt::format("Show the first seed of one condition [{}] in sumo-gui",
                                                 experiment::usual_condition))
-                           .excludes("--dry-run");
+                           .excludes("--dry-run")
+                           .excludes("--within");
     constexpr double longest_delay_ms = 60000.0;
     app.add_option("--gui-delay", arguments->delay_ms,
                    "Minimum wall time per step, from a minute before the first emergency vehicle, ms")
@@ -116,6 +127,7 @@ Action configure_run(App& app) {
         "--no-solo", [arguments] { arguments->floor = Floor::none; },
         "Leave out the runs of emergency vehicles alone and the gap closed [with them]");
     const Option seeds = add_seeds_option(app, arguments->seeds);
+    add_within_option(app, arguments->within_s).excludes(seeds);
     add_seed_option(app, arguments->seed);
     add_most_runs_option(app, arguments->most_runs);
     app.add_option("--out", arguments->run.folder,

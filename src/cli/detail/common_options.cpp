@@ -9,6 +9,7 @@
 #include "campaign/publication.hpp"
 #include "campaign/workers.hpp"
 #include "cli/detail/app.hpp"
+#include "core/duration.hpp"
 #include "experiment/loop_config.hpp"
 #include "experiment/run_job.hpp"
 #include "report/console.hpp"
@@ -61,6 +62,20 @@ Option add_seeds_option(App& app, std::uint32_t& seeds) {
                     "Replications; in each, all conditions share demand, drivers and failures")
         .range(1U, most_replications)
         .option_text(fmt::format("N, 1 to {} [{}]", most_replications, seeds));
+}
+
+Option add_within_option(App& app, double& within_s) {
+    const auto set = [&within_s](const std::string& text) { within_s = core::duration_from(text).value(); };
+    return app
+        .add_option_function<std::string>(
+            "--within", set,
+            "As many seeds as this time allows, three at least, in place of a number of them")
+        .check([](const std::string& text) {
+            return core::duration_from(text)
+                       ? std::string()
+                       : fmt::format("`{}` is no time from 1 s to 1000 h, such as 90s, 10min or 2h", text);
+        })
+        .option_text("TIME, such as 10min [none]");
 }
 
 void add_limit_options(App& app, experiment::RunLimits& limits) {

@@ -43,6 +43,9 @@ Option add_seed_option(App& app, std::uint64_t& seed);
 /// Declares `--seeds`: number of replications; the help shows the current value as the default.
 Option add_seeds_option(App& app, std::uint32_t& seeds);
 
+/// Declares `--within`: wall time, s, for as many seeds as it allows.
+Option add_within_option(App& app, double& within_s);
+
 /// Declares `--run-time-limit` and `--memory-limit`: what a run may use before it is ended as failed.
 void add_limit_options(App& app, experiment::RunLimits& limits);
 

@@ -1,0 +1,111 @@
+#include "campaign/time_budget.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <regex>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "campaign/detail/run_cost.hpp"
+#include "campaign/plan_text.hpp"
+#include "core/counted.hpp"
+#include "results/run_limit.hpp"
+#include "study/side_files.hpp"
+
+namespace clearway::campaign {
+namespace {
+
+/// Fewest that give an interval.
+constexpr std::uint32_t first_round = 3;
+/// Of the time left: a pace is never exact.
+constexpr double planned_share = 0.9;
+/// A round that adds fewer is not worth its while.
+constexpr double least_growth = 0.1;
+
+/// How many more replications the limits of a study allow.
+std::uint32_t room_of(const study::StudyConfig& config) {
+    const std::uint64_t runs = config.scenarios.size() * config.conditions.size();
+    const std::uint64_t most = std::min<std::uint64_t>(config.most_runs / std::max<std::uint64_t>(1, runs),
+                                                       results::most_replications);
+    return static_cast<std::uint32_t>(most - std::min<std::uint64_t>(most, config.replications));
+}
+
+/// How many more replications a study takes where each costs `each_s`.
+std::uint32_t fitting(const study::StudyConfig& config, double left_s, double each_s) {
+    const double count = planned_share * std::max(0.0, left_s) / std::max(each_s, 1e-3);
+    return static_cast<std::uint32_t>(std::min<double>(count, room_of(config)));
+}
+
+/// Of the study in a run folder; 0 where there is none.
+std::uint32_t replications_in(const std::filesystem::path& folder) {
+    return std::filesystem::exists(folder / "manifest.json")
+               ? results::Store::open(folder).manifest().replications
+               : 0;
+}
+
+/// Where `options` name no folder, they get one that no study without a clock has.
+void name_folder(study::StudyConfig config, RunOptions& options) {
+    if (!options.folder.empty()) return;
+    config.replications = first_round;
+    plan_for(config, options);
+    options.folder += "-timed";
+}
+
+/// The command with the number of replications that it came to, which gives these runs on any machine.
+std::string repeatable(const std::string& command, std::uint32_t replications) {
+    return std::regex_replace(command, std::regex("--within[ =]\\S+"),
+                              fmt::format("--seeds {}", replications));
+}
+
+}  // namespace
+
+study::StudyConfig fitted(study::StudyConfig config, double within_s, RunOptions& options) {
+    name_folder(config, options);
+    config.replications = replications_in(options.folder) + first_round;
+    const auto first_s = estimated_time_left_s(plan_for(config, options), options.folder, options.workers);
+    if (!first_s)
+        throw core::InputError({"--within", "the time of a run is unknown: its route files cannot be read",
+                                "a scenario whose files can be read", "Give --seeds instead"});
+    config.replications += fitting(config, within_s - *first_s, *first_s / first_round);
+    return config;
+}
+
+core::ExitCode run_within(study::StudyConfig config, double within_s, RunOptions options) {
+    const auto started = std::chrono::steady_clock::now();
+    const auto elapsed_s = [started] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    };
+    name_folder(config, options);
+    const std::uint32_t before = replications_in(options.folder);
+    config.replications = std::max(first_round, before);
+    double made = 0.0;  // replications
+    while (true) {
+        const study::Plan plan = plan_for(config, options);
+        const results::Store store = prepare_run_folder(plan, options);
+        const StudyResult result = run_missing(plan, store, options);
+        if (is_interrupted(result.exit_code)) return result.exit_code;
+        const StudyProgress& progress = result.progress;
+        made += static_cast<double>(progress.done + progress.failed - progress.resumed) *
+                config.replications / static_cast<double>(plan.run_count());
+        std::uint32_t more = 0;
+        if (made > 0.0) {
+            more = fitting(config, within_s - elapsed_s(), elapsed_s() / made);
+            if (more < least_growth * config.replications) more = 0;
+        } else if (config.replications == before) {  // complete before this command
+            more = std::min(first_round, room_of(config));
+        }
+        if (more == 0) {
+            study::keep_command(store, repeatable(options.command, config.replications), study::Growth::more);
+            fmt::print(stderr, "clearway: {} in {}, of {} given; the same without a clock: --seeds {}\n",
+                       core::counted(config.replications, "replication"), clock_words(elapsed_s()),
+                       clock_words(within_s), config.replications);
+            return publish(store, options.publish);
+        }
+        config.replications += more;
+    }
+}
+
+}  // namespace clearway::campaign
