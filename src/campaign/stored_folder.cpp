@@ -34,7 +34,9 @@ void require_trust(const std::vector<experiment::ConditionSpec>& conditions, con
 experiment::ConditionSpec with_files_found(const experiment::ConditionSpec& condition,
                                            const std::filesystem::path& run_folder) {
     const std::filesystem::path folder = std::filesystem::absolute(run_folder / ".").lexically_normal();
-    return experiment::located(condition, {folder.parent_path().parent_path(), folder, "."},
+    std::vector<std::filesystem::path> folders = experiment::kept_code(folder);
+    folders.insert(folders.end(), {folder.parent_path().parent_path(), folder, "."});
+    return experiment::located(condition, folders,
                                fmt::format("{}: condition {}: ", run_folder.string(), condition.name));
 }
 

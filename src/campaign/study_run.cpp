@@ -24,6 +24,7 @@
 #include "core/leftovers.hpp"
 #include "core/progress.hpp"
 #include "core/shipped_files.hpp"
+#include "experiment/code_parts.hpp"
 #include "prediction/predictor.hpp"
 #include "python/nursery.hpp"
 #include "python/part_name.hpp"
@@ -269,6 +270,7 @@ results::Store prepare_run_folder(const study::Plan& plan, const RunOptions& opt
                             growth.empty() ? study::Growth::none : study::Growth::more);
         study::keep_titles(store, plan.titles);
         study::keep_controls(store, plan.controls);
+        experiment::keep_code(plan.manifest.conditions, store.folder());
         if (!growth.empty() && !plan.manifest.precision)
             fmt::print(stderr, "clearway: {}: extended {}\n", options.folder.string(), growth);
         if (!options.reused.empty()) take_over(store, options.reused);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/files.hpp"
+#include "experiment/code_parts.hpp"
 #include "experiment/settings.hpp"
 #include "loop/road_layout.hpp"
 #include "loop/way_trials.hpp"
@@ -198,7 +199,8 @@ void UnitRun::start_together(const experiment::ConditionSpec& condition, trace::
         .incidents = incidents(),
         .is_read = dispatcher_ && dispatcher_->reads_belief(),
         .mean_times_s = network_.mean_times_s};
-    start_condition(loop_, recorder_, condition,
+    // Its code may have been edited since the study began.
+    start_condition(loop_, recorder_, experiment::with_kept_code(condition, unit_.output),
                     {.context = context, .layout = layout(), .horizon = horizon(), .listener = listener});
 }
 

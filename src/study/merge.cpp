@@ -25,7 +25,7 @@ constexpr std::size_t named_missing = 10;
 /// Everything that a merge reads of a run folder is a file or a folder.
 void require_plain(const fs::path& folder) {
     for (const char* const part : {"manifest.json", ".shard", "command.txt", "titles.json", "controls.json",
-                                   "scenarios", "training", "runs", "errors", "recordings"})
+                                   "scenarios", "training", "code", "runs", "errors", "recordings"})
         core::require_plain_files(folder / part);
 }
 
@@ -92,7 +92,8 @@ void copy_surroundings(const std::vector<fs::path>& folders, const results::Stor
                        MergeResult& result) {
     for (const results::ScenarioEntry& entry : target.manifest().scenarios)
         copy_scenario(folders, entry, target, result);
-    core::copy_folder(first_of(folders, "training"), target.folder() / "training");
+    for (const char* const name : {"training", "code"})
+        core::copy_folder(first_of(folders, name), target.folder() / name);
     for (const char* const name : {"command.txt", "titles.json", "controls.json"}) {
         const fs::path file = first_of(folders, name);
         if (!file.empty() && !fs::exists(target.folder() / name))

@@ -365,11 +365,23 @@ class FaultTest(FolderCase):
         with self.assertRaisesRegex(ValueError, "edges is empty"):
             clearway.Lease.take_route(1, [])
 
-    def test_a_file_that_changes_during_a_study_blames_no_run_and_once_restored_the_study_goes_on(self) -> None:
+    def test_a_study_goes_on_with_the_code_that_it_began_with(self) -> None:
         text = ("import pathlib\nfrom clearway import Policy\nonce = pathlib.Path('%s')\nclass Moody(Policy):\n"
                 "    def act(self, belief):\n        if not once.exists():\n            once.touch()\n"
                 "            pathlib.Path('%s').write_text('# changed')\n        return []\n")
         text %= (self.folder / "once", self.folder / "moody.py")
+        file = self.write("moody.py", text)
+        study = ["run", "intersection", "--policy", "moody.py:Moody", "--seeds", "2", "--no-solo", "--jobs", "1", "--out", "runs"]
+        program(*study)
+        self.assertEqual(file.read_text(), "# changed")
+        self.assertEqual(clearway.open("runs").runs.row_count, 4)
+        self.assertEqual([copy.read_text() for copy in Path("runs/code").glob("*/moody.py")], [text])
+
+    def test_a_file_that_changes_and_has_no_copy_blames_no_run_and_once_restored_the_study_goes_on(self) -> None:
+        text = ("import pathlib, shutil\nfrom clearway import Policy\nonce = pathlib.Path('%s')\nclass Moody(Policy):\n"
+                "    def act(self, belief):\n        if not once.exists():\n            once.touch()\n"
+                "            shutil.rmtree('%s')\n            pathlib.Path('%s').write_text('# changed')\n        return []\n")
+        text %= (self.folder / "once", self.folder / "runs/code", self.folder / "moody.py")
         file = self.write("moody.py", text)
         study = ["run", "intersection", "--policy", "moody.py:Moody", "--seeds", "2", "--no-solo", "--jobs", "1", "--out", "runs"]
         program(*study, code=7)

@@ -1,6 +1,7 @@
 """Policies and predictors in Python equal the same parts in C++, and have settings and sources."""
 import json
 import os
+import shutil
 import subprocess
 import sys
 import unittest
@@ -171,6 +172,8 @@ class EqualPartsTest(FolderCase):
         os.chdir(self.folder)
         Path("runs").mkdir()
         Path("ours/out").rename("runs/out")
+        program("verify", "runs/out/intersection/Preempt/0", "--trust-code")  # by the folder's own copy
+        shutil.rmtree("runs/out/code")
         words = [str(PROGRAMS / "clearway"), "verify", "runs/out/intersection/Preempt/0", "--trust-code"]
         missing = subprocess.run(words, capture_output=True, text=True, check=False)
         self.assertEqual(missing.returncode, 3)
