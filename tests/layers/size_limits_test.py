@@ -85,6 +85,17 @@ class House(unittest.TestCase):
         self.write("src/policy/registry.cpp", '#include "policy/slow.hpp"\n')
         self.assertEqual(self.check(), (0, ""))
 
+    def test_a_policy_without_a_test_of_its_own_is_found(self):
+        self.write("src/policy/CMakeLists.txt", "clearway_module(policy)\n")
+        self.write("src/policy/slow.hpp", "")
+        self.write("src/policy/registry.cpp", '#include "policy/slow.hpp"\nentry<Slow, SlowConfig>(\n    "slow", "Drives slowly");\n')
+        self.write("tests/policy/CMakeLists.txt", "clearway_test(policy_test SOURCES conformance_test.cpp slow_test.cpp USES policy)\n")
+        self.write("tests/policy/conformance_test.cpp", '"slow"')
+        self.write(LIMIT, "9\n")
+        self.refused("the policy `slow` has no test: write tests/policy/slow_test.cpp")
+        self.write("tests/policy/slow_test.cpp", '#include "policy/slow.hpp"\n')
+        self.assertEqual(self.check(), (0, ""))
+
     def test_a_test_that_no_list_names_is_found(self):
         self.write("tests/core/core_test.cpp", "")  # is the name of the program
         self.write("tests/core/deep/b_test.cpp", "")

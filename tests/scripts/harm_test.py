@@ -31,8 +31,8 @@ class Harm(unittest.TestCase):
             (self.root / name).write_text(text)
             (self.root / name).chmod(0o755)
 
-    def start(self, listed='{"policies": [], "scenarios": []}', slow="no"):
-        return subprocess.Popen([sys.executable, ROOT / "scripts/check-harm"], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    def start(self, *words, listed='{"policies": [], "scenarios": []}', slow="no"):
+        return subprocess.Popen([sys.executable, ROOT / "scripts/check-harm", *words], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                 env=os.environ | {"CLEARWAY": str(self.root / "clearway"), "PATH": f"{self.root}:{os.environ['PATH']}",
                                                   "TMPDIR": str(self.root / "tmp"), "LISTED": listed, "SLOW": slow,
                                                   "ENDED": str(self.root / "ended")})
@@ -46,6 +46,16 @@ class Harm(unittest.TestCase):
         self.assertIn("roads: no harm", said)
         self.assertIn("no policy harms anybody", printed)
         self.assertEqual(list((self.root / "tmp").iterdir()), [])
+
+    def test_one_policy_runs_where_it_has_a_condition_and_no_other_does(self):
+        out = self.root / "out"
+        harm = self.start("--policy", "corridor", "--out", out)
+        _, said = harm.communicate(timeout=60)
+        self.assertEqual(harm.returncode, 0, said)
+        self.assertIn("study 1 of 1: roads, 1 conditions on", said)
+        self.assertEqual((out / "studies/roads.toml").read_text().count("policy = ["), 1)
+        _, said = self.start("--policy", "corider").communicate(timeout=60)
+        self.assertIn("no condition of studies/harm has the policy `corider`", said)
 
     def test_a_signal_ends_the_study_and_leaves_nothing(self):
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
@@ -61,7 +71,7 @@ class Harm(unittest.TestCase):
         self.assertEqual((self.root / "ended").read_text(), "ended\n" * 3)
 
     def test_a_policy_without_a_condition_is_told_the_file(self):
-        harm = self.start('{"policies": [{"name": "keep_distance"}], "scenarios": []}')
+        harm = self.start(listed='{"policies": [{"name": "keep_distance"}], "scenarios": []}')
         _, said = harm.communicate(timeout=60)
         self.assertEqual(harm.returncode, 1)
         self.assertIn('add a condition such as {name = "keep_distance", policy = ["keep_distance"]} to studies/harm/roads.toml', said)
