@@ -11,6 +11,11 @@
 
 namespace clearway::campaign {
 
+std::optional<results::Manifest> study_in(const std::filesystem::path& folder) {
+    if (!std::filesystem::exists(folder / "manifest.json")) return std::nullopt;
+    return results::Store::open(folder).manifest();
+}
+
 void require_trust(const std::vector<experiment::ConditionSpec>& conditions, const std::string& where,
                    CodeTrust trust) {
     if (trust == CodeTrust::trusted) return;
@@ -21,7 +26,9 @@ void require_trust(const std::vector<experiment::ConditionSpec>& conditions, con
         problems.push_back(
             {fmt::format("{}: condition {}", where, condition.name),
              fmt::format("names code in Python, {}, which would run with your rights", part->file.string()),
-             "code that you trust", "Read it, then add --trust-code"});
+             "code that you trust",
+             fmt::format("Read it, or its copy in code/{} of the run folder, then add --trust-code",
+                         part->hash)});
     };
     for (const experiment::ConditionSpec& condition : conditions) {
         check(condition, condition.predictor);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace clearway::campaign {
 /// Whether Python code that a stored folder names may run. Neither a path nor an owner nor a file of the
 /// folder proves who wrote the code, so only the user can say so.
 enum class CodeTrust : std::uint8_t { none, trusted };
+
+/// The study that a run folder holds; nothing where there is none yet.
+std::optional<results::Manifest> study_in(const std::filesystem::path& folder);
 
 /// Throws core::InputError, naming each part in Python that a condition of `where` has, unless it is trusted.
 void require_trust(const std::vector<experiment::ConditionSpec>& conditions, const std::string& where,

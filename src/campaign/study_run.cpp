@@ -44,12 +44,6 @@ namespace {
 /// Failed runs that are named one by one; more are in runs.csv.
 constexpr std::size_t named_errors = 10;
 
-/// The study that a run folder holds; nothing where there is none yet.
-std::optional<results::Manifest> study_in(const std::filesystem::path& folder) {
-    if (!std::filesystem::exists(folder / "manifest.json")) return std::nullopt;
-    return results::Store::open(folder).manifest();
-}
-
 /// What a study has more of than its folder had, `from 2 to 4 replications`; empty for the same study.
 std::string growth_of(const results::Manifest& before, const results::Manifest& now) {
     std::vector<std::string> more;
@@ -326,10 +320,10 @@ bool is_interrupted(core::ExitCode code) {
 }
 
 std::uint32_t replications_so_far(const study::StudyConfig& config, const std::filesystem::path& folder) {
-    if (!config.precision || !std::filesystem::exists(folder / "manifest.json")) return config.replications;
-    const results::Manifest stored = results::Store::open(folder).manifest();
-    return stored.precision == config.precision ? std::max(config.replications, stored.replications)
-                                                : config.replications;
+    const auto stored = config.precision ? study_in(folder) : std::nullopt;
+    return stored && stored->precision == config.precision
+               ? std::max(config.replications, stored->replications)
+               : config.replications;
 }
 
 core::ExitCode run_shard(const study::StudyConfig& config, const study::Shard& shard, RunOptions options) {

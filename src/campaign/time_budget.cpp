@@ -9,8 +9,10 @@
 
 #include <fmt/format.h>
 
+#include "analysis/estimate.hpp"
 #include "campaign/detail/run_cost.hpp"
 #include "campaign/plan_text.hpp"
+#include "campaign/stored_folder.hpp"
 #include "core/counted.hpp"
 #include "results/run_limit.hpp"
 #include "study/side_files.hpp"
@@ -18,8 +20,7 @@
 namespace clearway::campaign {
 namespace {
 
-/// Fewest that give an interval.
-constexpr std::uint32_t first_round = 3;
+constexpr std::uint32_t first_round = analysis::fewest_for_interval;
 /// Of the time left: a pace is never exact.
 constexpr double planned_share = 0.9;
 /// A round that adds fewer is not worth its while.
@@ -27,23 +28,22 @@ constexpr double least_growth = 0.1;
 
 /// How many more replications the limits of a study allow.
 std::uint32_t room_of(const study::StudyConfig& config) {
-    const std::uint64_t runs = config.scenarios.size() * config.conditions.size();
-    const std::uint64_t most = std::min<std::uint64_t>(config.most_runs / std::max<std::uint64_t>(1, runs),
-                                                       results::most_replications);
-    return static_cast<std::uint32_t>(most - std::min<std::uint64_t>(most, config.replications));
+    const std::uint64_t allowed = config.most_runs / (config.scenarios.size() * config.conditions.size());
+    const auto most =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(allowed, results::most_replications));
+    return most - std::min(most, config.replications);
 }
 
 /// How many more replications a study takes where each costs `each_s`.
 std::uint32_t fitting(const study::StudyConfig& config, double left_s, double each_s) {
-    const double count = planned_share * std::max(0.0, left_s) / std::max(each_s, 1e-3);
-    return static_cast<std::uint32_t>(std::min<double>(count, room_of(config)));
+    return static_cast<std::uint32_t>(
+        std::min<double>(planned_share * std::max(0.0, left_s) / each_s, room_of(config)));
 }
 
 /// Of the study in a run folder; 0 where there is none.
 std::uint32_t replications_in(const std::filesystem::path& folder) {
-    return std::filesystem::exists(folder / "manifest.json")
-               ? results::Store::open(folder).manifest().replications
-               : 0;
+    const auto stored = study_in(folder);
+    return stored ? stored->replications : 0;
 }
 
 /// Where `options` name no folder, they get one that no study without a clock has.
@@ -81,15 +81,14 @@ core::ExitCode run_within(study::StudyConfig config, double within_s, RunOptions
     name_folder(config, options);
     const std::uint32_t before = replications_in(options.folder);
     config.replications = std::max(first_round, before);
-    double made = 0.0;  // replications
+    double made = 0.0;  // replications; without failed runs, which may be of an earlier command
     while (true) {
         const study::Plan plan = plan_for(config, options);
         const results::Store store = prepare_run_folder(plan, options);
         const StudyResult result = run_missing(plan, store, options);
         if (is_interrupted(result.exit_code)) return result.exit_code;
-        const StudyProgress& progress = result.progress;
-        made += static_cast<double>(progress.done + progress.failed - progress.resumed) *
-                config.replications / static_cast<double>(plan.run_count());
+        const auto runs = static_cast<double>(result.progress.done - result.progress.resumed);
+        made += runs * config.replications / static_cast<double>(plan.run_count());
         std::uint32_t more = 0;
         if (made > 0.0) {
             more = fitting(config, within_s - elapsed_s(), elapsed_s() / made);

@@ -21,11 +21,11 @@ class TimeBudgetTest : public UserTest {
 };
 
 TEST_F(TimeBudgetTest, a_time_in_place_of_seeds_makes_as_many_as_it_allows_and_says_how_many) {
-    const Ended ended = clearway({"run", "line", "--no-solo", "--within", "8s", "--out", "out"});
+    const Ended ended = clearway({"run", "line", "--no-solo", "--within", "15s", "--out", "out"});
     ASSERT_EQ(ended.code, 0) << ended.err;
-    EXPECT_GT(replications(), 3U);
+    EXPECT_GT(replications(), 5U);
     const std::string seeds = "--seeds " + std::to_string(replications());
-    EXPECT_THAT(ended.err, AllOf(HasSubstr("of 0:08 (m:s) given"), HasSubstr(seeds)));
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("of 0:15 (m:s) given"), HasSubstr(seeds)));
     // The report's command gives the same runs on a faster machine, too.
     EXPECT_THAT(read("out/command.txt"), AllOf(HasSubstr(seeds), Not(HasSubstr("--within"))));
     const std::uint32_t before = replications();
@@ -34,10 +34,17 @@ TEST_F(TimeBudgetTest, a_time_in_place_of_seeds_makes_as_many_as_it_allows_and_s
 }
 
 TEST_F(TimeBudgetTest, a_time_that_is_too_short_gives_the_fewest_seeds_with_an_interval) {
-    const Ended ended = clearway({"run", "line", "--no-solo", "--within", "1s", "--out", "out", "--jobs", "1",
-                                  "--condition", "corridor"});
+    const Ended ended = clearway(
+        {"run", "intersection", "--dense", "--no-solo", "--within", "1s", "--out", "out", "--jobs", "1"});
     ASSERT_EQ(ended.code, 0) << ended.err;
-    EXPECT_EQ(replications(), 3U);
+    EXPECT_EQ(replications(), 5U);
+}
+
+TEST_F(TimeBudgetTest, runs_that_fail_do_not_count_as_a_pace) {
+    const Ended ended = clearway(
+        {"run", "line", "--no-solo", "--within", "30s", "--run-time-limit", "0.001", "--out", "out"});
+    EXPECT_EQ(ended.code, 1) << ended.err;
+    EXPECT_EQ(replications(), 5U) << "no round follows one in which nothing was made";
 }
 
 TEST_F(TimeBudgetTest, a_plan_says_how_many_seeds_a_time_allows) {
@@ -46,9 +53,9 @@ TEST_F(TimeBudgetTest, a_plan_says_how_many_seeds_a_time_allows) {
         EXPECT_EQ(ended.code, 0) << ended.err;
         return nlohmann::json::parse(ended.out).at("replications");
     };
-    EXPECT_EQ(planned("1s"), 3U);
+    EXPECT_EQ(planned("1s"), 5U);
     const std::uint32_t of_a_minute = planned("1min");
-    EXPECT_GT(of_a_minute, 3U);
+    EXPECT_GT(of_a_minute, 5U);
     EXPECT_NEAR(planned("2min"), 2.0 * of_a_minute, 4.0);
     EXPECT_FALSE(std::filesystem::exists(folder() / "runs"));
 }

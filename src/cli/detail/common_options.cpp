@@ -1,20 +1,38 @@
 #include "cli/detail/common_options.hpp"
 
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "analysis/estimate.hpp"
 #include "campaign/publication.hpp"
 #include "campaign/workers.hpp"
 #include "cli/detail/app.hpp"
-#include "core/duration.hpp"
+#include "core/number.hpp"
 #include "experiment/loop_config.hpp"
 #include "experiment/run_job.hpp"
 #include "report/console.hpp"
 
 namespace clearway::cli {
+namespace {
+
+/// `90s`, `10min` or `2h` in seconds; nothing for other text and for times outside 1 s to 1000 h.
+std::optional<double> duration_from(std::string_view text) {
+    const std::size_t unit_at = text.find_first_not_of("0123456789.");
+    if (unit_at == std::string_view::npos) return std::nullopt;
+    const std::string_view unit = text.substr(unit_at);
+    const auto number = core::number_from(text.substr(0, unit_at));
+    if (!number || (unit != "s" && unit != "min" && unit != "h")) return std::nullopt;
+    const double seconds = *number * (unit == "s" ? 1.0 : unit == "min" ? 60.0 : 3600.0);
+    if (!(seconds >= 1.0 && seconds <= 3.6e6)) return std::nullopt;
+    return seconds;
+}
+
+}  // namespace
 
 void add_json_option(App& app, Printing& printing, const std::string& what) {
     app.add_flag_callback(
@@ -65,13 +83,14 @@ Option add_seeds_option(App& app, std::uint32_t& seeds) {
 }
 
 Option add_within_option(App& app, double& within_s) {
-    const auto set = [&within_s](const std::string& text) { within_s = core::duration_from(text).value(); };
+    const auto set = [&within_s](const std::string& text) { within_s = duration_from(text).value(); };
     return app
         .add_option_function<std::string>(
             "--within", set,
-            "As many seeds as this time allows, three at least, in place of a number of them")
+            fmt::format("As many seeds as this time allows, {} at least, in place of a number of them",
+                        analysis::fewest_for_interval))
         .check([](const std::string& text) {
-            return core::duration_from(text)
+            return duration_from(text)
                        ? std::string()
                        : fmt::format("`{}` is no time from 1 s to 1000 h, such as 90s, 10min or 2h", text);
         })
