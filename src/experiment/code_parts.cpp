@@ -1,6 +1,8 @@
 #include "experiment/code_parts.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -19,12 +21,10 @@ void keep(const std::vector<std::filesystem::path>& files, const std::string& ha
     const std::filesystem::path from = files.front().parent_path();
     const std::filesystem::path folder = run_folder / code_folder / hash;
     std::vector<std::filesystem::path> copies;
-    bool are_there = true;
-    for (const std::filesystem::path& file : files) {
+    for (const std::filesystem::path& file : files)
         copies.push_back(folder / file.lexically_relative(from));
-        are_there = are_there && std::filesystem::is_regular_file(copies.back());
-    }
-    if (are_there && python::hash_of(copies) == hash) return;
+    const auto is_there = [](const auto& copy) { return std::filesystem::is_regular_file(copy); };
+    if (std::ranges::all_of(copies, is_there) && python::hash_of(copies) == hash) return;
     for (std::size_t i = 0; i < files.size(); ++i) {
         core::make_folder(copies[i].parent_path());
         core::write_atomically(copies[i], core::read_file(files[i]));
@@ -34,9 +34,11 @@ void keep(const std::vector<std::filesystem::path>& files, const std::string& ha
                                 "content hash " + hash, "Give the command again"});
 }
 
-void keep_part(const std::string& word, const std::filesystem::path& run_folder, const std::string& where) {
+/// `kept`: files and hashes that were looked at; conditions of a study often share them.
+void keep_part(const std::string& word, const std::filesystem::path& run_folder, const std::string& where,
+               std::set<std::string>& kept) {
     const auto part = python::part_name_from(word);
-    if (part && !part->hash.empty())
+    if (part && !part->hash.empty() && kept.insert(part->file.string() + part->hash).second)
         keep(python::sources_of(part->file, where), part->hash, run_folder, where);
 }
 
@@ -49,12 +51,13 @@ void resolve_parts(ConditionSpec& condition, const std::filesystem::path& folder
 }
 
 void keep_code(const std::vector<ConditionSpec>& conditions, const std::filesystem::path& run_folder) {
+    std::set<std::string> kept;
     for (const ConditionSpec& condition : conditions) {
         const std::string where = "condition " + condition.name;
-        keep_part(condition.predictor, run_folder, where);
+        keep_part(condition.predictor, run_folder, where, kept);
         for (const std::string& policy : condition.policies)
-            keep_part(policy, run_folder, where);
-        if (!condition.model_file.empty())
+            keep_part(policy, run_folder, where, kept);
+        if (!condition.model_file.empty() && kept.insert(condition.model_file + condition.model_hash).second)
             keep({condition.model_file}, condition.model_hash, run_folder, where);
     }
 }

@@ -52,6 +52,7 @@ TEST_F(ShardsTest, merge_to_the_bytes_of_one_machine) {
         const Ended ended = shard(std::string(part) + "/3", std::string("s/shards/") + part);
         ASSERT_EQ(ended.code, 0) << ended.err;
         EXPECT_THAT(ended.out, HasSubstr(std::string("shard ") + part + "/3: "));
+        write(std::string("s/shards/") + part + "/code/0f/mine.py", "# a policy");
     }
     const Ended status = clearway({"study", "status", "s", "--json"});
     EXPECT_EQ(nlohmann::json::parse(status.out).at("state"), "complete");
@@ -60,6 +61,7 @@ TEST_F(ShardsTest, merge_to_the_bytes_of_one_machine) {
     ASSERT_EQ(merged.code, 0) << merged.err;
     EXPECT_EQ(nlohmann::json::parse(merged.out).at("complete_runs"), 8);
     expect_tables_of_one_machine("all");
+    EXPECT_EQ(read("all/code/0f/mine.py"), "# a policy");
     const Ended report = clearway({"report", "all"});
     EXPECT_EQ(report.code, 0) << report.err;
     EXPECT_EQ(report.out, clearway({"report", "single"}).out);

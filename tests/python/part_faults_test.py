@@ -284,6 +284,9 @@ class Few:
 """
 
 
+MOODY_STUDY = ["run", "intersection", "--policy", "moody.py:Moody", "--seeds", "2", "--no-solo", "--jobs", "1", "--out", "runs"]
+
+
 class FaultTest(FolderCase):
     def setUp(self) -> None:
         super().setUp()
@@ -365,29 +368,29 @@ class FaultTest(FolderCase):
         with self.assertRaisesRegex(ValueError, "edges is empty"):
             clearway.Lease.take_route(1, [])
 
+    def write_moody(self, *more: str) -> Path:
+        """A policy that changes its own file, and does ``more``, when it first acts."""
+        first = [*more, f"pathlib.Path({str(self.folder / 'moody.py')!r}).write_text('# changed')"]
+        return self.write("moody.py", "\n".join((
+            "import pathlib, shutil", "from clearway import Policy", f"once = pathlib.Path({str(self.folder / 'once')!r})", "class Moody(Policy):",
+            "    def act(self, belief):", "        if not once.exists():", "            once.touch()",
+            *(f"            {line}" for line in first), "        return []", "")))
+
     def test_a_study_goes_on_with_the_code_that_it_began_with(self) -> None:
-        text = ("import pathlib\nfrom clearway import Policy\nonce = pathlib.Path('%s')\nclass Moody(Policy):\n"
-                "    def act(self, belief):\n        if not once.exists():\n            once.touch()\n"
-                "            pathlib.Path('%s').write_text('# changed')\n        return []\n")
-        text %= (self.folder / "once", self.folder / "moody.py")
-        file = self.write("moody.py", text)
-        study = ["run", "intersection", "--policy", "moody.py:Moody", "--seeds", "2", "--no-solo", "--jobs", "1", "--out", "runs"]
-        program(*study)
+        file = self.write_moody()
+        text = file.read_text()
+        program(*MOODY_STUDY)
         self.assertEqual(file.read_text(), "# changed")
         self.assertEqual(clearway.open("runs").runs.row_count, 4)
         self.assertEqual([copy.read_text() for copy in Path("runs/code").glob("*/moody.py")], [text])
 
     def test_a_file_that_changes_and_has_no_copy_blames_no_run_and_once_restored_the_study_goes_on(self) -> None:
-        text = ("import pathlib, shutil\nfrom clearway import Policy\nonce = pathlib.Path('%s')\nclass Moody(Policy):\n"
-                "    def act(self, belief):\n        if not once.exists():\n            once.touch()\n"
-                "            shutil.rmtree('%s')\n            pathlib.Path('%s').write_text('# changed')\n        return []\n")
-        text %= (self.folder / "once", self.folder / "runs/code", self.folder / "moody.py")
-        file = self.write("moody.py", text)
-        study = ["run", "intersection", "--policy", "moody.py:Moody", "--seeds", "2", "--no-solo", "--jobs", "1", "--out", "runs"]
-        program(*study, code=7)
+        file = self.write_moody(f"shutil.rmtree({str(self.folder / 'runs/code')!r})")
+        text = file.read_text()
+        program(*MOODY_STUDY, code=7)
         self.assertEqual(list(clearway.open("runs").errors["cause"]), [""])  # missing, not failed
         file.write_text(text)
-        program(*study)
+        program(*MOODY_STUDY)
         self.assertEqual(clearway.open("runs").runs.row_count, 4)
 
     def test_an_answer_that_the_package_did_not_check_is_that_runs_failure(self) -> None:
