@@ -27,8 +27,7 @@ struct ClearLaneConfig : AskSettings {
     double side_room_m = 12.0;
     double lease_s = 2.0;
 
-  private:
-    static constexpr void own_fields(const auto& table) {
+    static constexpr void fields(const auto& table) {
         using C = ClearLaneConfig;
         using core::Field;
         table(
@@ -80,11 +79,6 @@ struct ClearLaneConfig : AskSettings {
             Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
                   "Lifetime of a lease that is not renewed; at least two periods",
                   "assumed: four decisions at the usual period"});
-    }
-
-  public:
-    static constexpr void fields(const auto& table) {
-        own_fields(table);
         AskSettings::fields(table);
     }
 };
