@@ -53,7 +53,9 @@ class Harm(unittest.TestCase):
         _, said = harm.communicate(timeout=60)
         self.assertEqual(harm.returncode, 0, said)
         self.assertIn("study 1 of 1: roads, 1 conditions on", said)
-        self.assertEqual((out / "studies/roads.toml").read_text().count("policy = ["), 1)
+        self.assertEqual((out / "corridor/studies/roads.toml").read_text().count("policy = ["), 1)
+        _, said = self.start("--out", out).communicate(timeout=60)
+        self.assertIn("study 1 of 3: rescue_lane", said)  # all policies in the same folder: none is left out
         _, said = self.start("--policy", "corider").communicate(timeout=60)
         self.assertIn("no condition of studies/harm has the policy `corider`", said)
 
