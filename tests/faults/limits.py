@@ -54,8 +54,8 @@ def try_recording(study):
     study.run("recorded", options=["--record"])
     words = [study.words[0], "replay", "recorded/merge/baseline/0", "--csv", "snapshot"]
     ends = []
-    for size_mb in range(38, 70, 2):
-        limit = size_mb * 1_000_000
+    for size_mb in (half / 2 for half in range(76, 120)):
+        limit = int(size_mb * 1_000_000)
         ended = subprocess.run(words, cwd=study.folder, capture_output=True, text=True, errors="replace", check=False,
                                preexec_fn=lambda limit=limit: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
         begins = any(code in (0, 4) for code in ends)

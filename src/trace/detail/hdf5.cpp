@@ -44,7 +44,8 @@ herr_t take_failure(unsigned depth, const H5E_error2_t* error, void* target) {
     if (depth == 0) failure.message = words;
     const std::size_t at = words.find("errno = ");
     if (at != std::string_view::npos) failure.reason = std::atoi(words.data() + at + 8);
-    if (error->maj_num == H5E_RESOURCE || error->min_num == H5E_CANTALLOC || words.starts_with("inflateInit"))
+    // inflate() gets bytes whose checksum was right: what it can lack is memory for its window.
+    if (error->maj_num == H5E_RESOURCE || error->min_num == H5E_CANTALLOC || words.starts_with("inflate"))
         failure.lacks_memory = true;
     return 0;
 }
