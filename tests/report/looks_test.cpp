@@ -254,6 +254,13 @@ TEST(TradeOff, has_marks_at_the_true_places_of_points) {
     }
 }
 
+TEST(TradeOff, moves_a_mark_that_would_hide_another) {
+    // The third failure of a policy is where the first of the next one is.
+    const std::string figure = figure_of(tests::page_of(crossed(5, 3)), "tradeoff-merge");
+    EXPECT_EQ(count_of(drawing_of(figure), "class=\"leader "), 4u);
+    EXPECT_EQ(count_of(drawing_of(figure), "r=\"2.6\""), 4u) << "a dot at each true place";
+}
+
 TEST(TradeOff, keeps_numbers_for_few_conditions_and_where_they_differ_in_more_than_two_things) {
     const auto has_numbers = [](const StudyFacts& study) {
         return count_of(figure_of(tests::page_of(study), "tradeoff-merge"), "onDot") > 0;

@@ -52,6 +52,7 @@ std::vector<Point> points_of(const StudyFacts& study, const ScenarioFacts& scena
 
 using Place = std::pair<double, double>;
 constexpr double badge_radius = 8.0;
+constexpr double mark_radius = 5.5;
 constexpr const char* hollow = " hollow";  ///< The mark of a condition that loses or hits more EVs.
 
 /// The dash tells colours apart without colour.
@@ -64,16 +65,16 @@ double distance(const Place& a, const Place& b) {
     return std::hypot(a.first - b.first, a.second - b.second);
 }
 
-/// Where the number of a point stands: at the point, or as near as is free of the numbers in `taken`.
-Place free_place(const Place& point, const std::vector<Place>& taken, const Plot& plot) {
-    constexpr double apart = 2.0 * badge_radius + 1.5;
+/// Where the number or mark of a point stands: at the point, or as near as is free of those in `taken`.
+Place free_place(const Place& point, const std::vector<Place>& taken, double radius, const Plot& plot) {
+    const double apart = 2.0 * radius + 1.5;
     constexpr int directions = 16;
     const auto is_free = [&](const Place& place) {
         const auto [x, y] = place;
-        return x > left_edge + badge_radius && x < right_edge - badge_radius &&
-               y > plot.y().to + badge_radius && y < plot.y().from - badge_radius &&
-               std::ranges::none_of(taken,
-                                    [&](const Place& other) { return distance(place, other) < apart; });
+        return x > left_edge + radius && x < right_edge - radius && y > plot.y().to + radius &&
+               y < plot.y().from - radius && std::ranges::none_of(taken, [&](const Place& other) {
+                   return distance(place, other) < apart;
+               });
     };
     for (double away = 0.0; away <= 6.0 * apart; away += 0.5 * apart) {
         for (int step = 0; step < directions; ++step) {
@@ -110,16 +111,14 @@ void draw_number(Plot& plot, const Point& point, const Place& at) {
     plot.text(at.first, at.second + 4.0, std::to_string(point.number), Plot::Anchor::middle, "onDot");
 }
 
-/// A mark at the point itself.
 void draw_mark(Plot& plot, const Point& point, const Place& at) {
-    constexpr double radius = 5.5;
     if (point.series.weight == Series::Weight::lead)
-        plot.circle(at.first, at.second, radius + 4.0, "ring " + colour_of(point.series));
-    plot.add(mark_of(point.series, at.first, at.second, radius, point.objection().empty() ? "" : hollow));
+        plot.circle(at.first, at.second, mark_radius + 4.0, "ring " + colour_of(point.series));
+    plot.add(
+        mark_of(point.series, at.first, at.second, mark_radius, point.objection().empty() ? "" : hollow));
 }
 
-/// Intervals first. Then marks at their places, or dots and what leads to them and numbers, none of which
-/// hides another.
+/// Intervals first. Then numbers or marks, none of which hides another, with dots and what leads to them.
 void draw(Plot& plot, const std::vector<Point>& points) {
     std::vector<Place> places;
     for (const Point& point : points) {
@@ -130,20 +129,17 @@ void draw(Plot& plot, const std::vector<Point>& points) {
         else
             draw_intervals(plot, point, places.back());
     }
-    if (points.front().series.levels) {
-        for (std::size_t at = 0; at < points.size(); ++at)
-            draw_mark(plot, points[at], places[at]);
-        return;
-    }
+    const bool marked = points.front().series.levels.has_value();
+    const auto is_placed = [&](const Point& point) { return marked || !point.turned_alone; };
     std::vector<Place> taken;
     for (std::size_t at = points.size(); at-- > 0;) {  // The one that leads is placed first: at its point.
-        if (points[at].turned_alone) continue;
-        taken.push_back(free_place(places[at], taken, plot));
+        if (!is_placed(points[at])) continue;
+        taken.push_back(free_place(places[at], taken, marked ? mark_radius : badge_radius, plot));
         draw_leader(plot, points[at], places[at], taken.back());
     }
     for (const Point& point : points) {
-        if (point.turned_alone) continue;
-        draw_number(plot, point, taken.back());
+        if (!is_placed(point)) continue;
+        (marked ? draw_mark : draw_number)(plot, point, taken.back());
         taken.pop_back();
     }
 }
@@ -238,7 +234,7 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
         "Up is better for emergency vehicles, left is better for the others. Bars are 95 % intervals. In the "
         "grey band a gain or loss is below {} s and does not count.",
         number(scenario.least_relevant_s, typeset(1)));
-    if (!crossing) note += " A number that would hide another has a line to its dot.";
+    note += fmt::format(" A {} that would hide another has a line to its dot.", crossing ? "mark" : "number");
     if (std::ranges::any_of(points, &Point::turned_alone)) note += " Small dots: one setting turned alone.";
     return {"tradeoff-" + scenario.name, "Gain and cost", plot.finish(), note, data_of(points)};
 }
