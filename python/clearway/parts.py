@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ._channel import Moment, Sheet
-from ._program import Told
+from ._program import Told, did_you_mean
 
 #: Lane of a vehicle whose lane is not known.
 NO_LANE = 4294967295
@@ -263,8 +263,18 @@ class _Fields(dict):
     """Fields of a lease that a class method has checked."""
 
 
+class _Actions(type):
+    """An action that no lease has is told with the nearest, and those that are."""
+
+    def __getattr__(cls, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(f"{cls.__name__} has no {name!r}")
+        there = sorted(one for one in vars(cls) if not one.startswith("_") and callable(getattr(cls, one)))
+        raise AttributeError(f"{cls.__name__} has no {name!r}{did_you_mean(name, there, 2) or '.'} It has {', '.join(there)}")
+
+
 @dataclasses.dataclass(frozen=True)
-class Lease(Told):
+class Lease(Told, metaclass=_Actions):
     """One action for one vehicle or signal. It ends by itself after ``lasting_s`` unless the next decision renews it.
 
     Make one with the class methods; ``vehicle`` is a key (``belief.vehicles.key[row]``) or an ``EmergencyVehicle``, ``serves`` the

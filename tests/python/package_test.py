@@ -54,6 +54,8 @@ class ImportTest(FolderCase):
                                    (table, "collisions", "Table has no 'collisions': a column is table['collisions']"),
                                    (clearway.Condition("a"), "polcy", "Condition has no 'polcy'. Did you mean 'policy'? It has bluelight, "),
                                    (table, "wher", "Did you mean 'where'? It has get, head, "),
+                                   (clearway.Lease, "green", "Lease has no 'green'. Did you mean 'hold_green' or 'adjust_green'? It has adjust_green, "),
+                                   (clearway.Lease, "set_speed", "hold_lane, pass_red, pull_aside, stop_at_line, take_route"),
                                    (table, "_nothing", "Table has no '_nothing'")):
             message = self.message_of(AttributeError, lambda: getattr(thing, wrong))
             self.assertIn(says, message)
