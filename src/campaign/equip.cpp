@@ -286,10 +286,13 @@ std::string short_plan(const EquipRounds& rounds, const EquipRequest& request, s
                 return fmt::format(" A first look, in {} minutes: --seeds {} --budget {}.", minutes, seeds,
                                    budget);
     }
-    const EquipForecast least = rounds.forecast(1, analysis::fewest_for_interval);
+    // Which signals trips pass is known for the seeds that were asked for: more take as much each.
+    const auto known =
+        std::min(request.replications, static_cast<std::uint32_t>(analysis::fewest_for_interval));
+    const double least_s = seconds(rounds.forecast(1, known)) * analysis::fewest_for_interval / known;
     return fmt::format(
         " The smallest plan that can show something of {} takes about {}: --seeds {} --budget 1.{}",
-        report::counted(candidates, "candidate"), clock_words(seconds(least)), analysis::fewest_for_interval,
+        report::counted(candidates, "candidate"), clock_words(least_s), analysis::fewest_for_interval,
         candidates > 1 ? " Fewer --candidates take less." : "");
 }
 

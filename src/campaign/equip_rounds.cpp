@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -206,6 +207,7 @@ std::size_t EquipRounds::later_runs(std::size_t places, std::size_t tries, std::
 }
 
 EquipForecast EquipRounds::forecast(std::size_t budget, std::uint32_t replications) const {
+    assert(replications <= question_.passed.size());
     std::vector<analysis::SignalSet> sets = {{}};
     for (std::size_t candidate = 0; candidate < question_.signals.size(); ++candidate)
         sets.push_back({candidate});

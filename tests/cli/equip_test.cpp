@@ -129,11 +129,11 @@ TEST_F(EquipTest, says_before_it_runs_how_many_runs_it_makes) {
 
 TEST_F(EquipTest, says_before_it_runs_what_a_quarter_of_an_hour_would_do) {
     clearway({"scenario", "check", "./crossings"});
-    const auto plan = [&](double run_s, const std::string& candidates = "2") {
+    const auto plan = [&](double run_s, const std::string& candidates = "2", const std::string& seeds = "8") {
         auto costs = nlohmann::json::parse(read("runs/run-costs.json"));
         costs.front().front() = run_s;
         write("runs/run-costs.json", costs.dump());
-        std::string text = clearway({"equip", "./crossings", "--budget", "2", "--seeds", "8", "--dry-run",
+        std::string text = clearway({"equip", "./crossings", "--budget", "2", "--seeds", seeds, "--dry-run",
                                      "--jobs", "1", "--out", "runs/equip", "--candidates", candidates})
                                .out;
         std::ranges::replace(text, '\n', ' ');
@@ -149,6 +149,9 @@ TEST_F(EquipTest, says_before_it_runs_what_a_quarter_of_an_hour_would_do) {
     EXPECT_THAT(plan(400.0, "1"),
                 AllOf(HasSubstr("something of 1 candidate takes about"), HasSubstr("(h:m:s): --seeds 5"),
                       Not(HasSubstr("Fewer --candidates"))));
+    // With fewer seeds than an interval needs
+    EXPECT_THAT(plan(400.0, "2", "3"), HasSubstr("The smallest plan that can show something of 2 candidates "
+                                                 "takes about 4:26:40 (h:m:s): --seeds 5 --budget 1."));
 }
 
 TEST_F(EquipTest, tries_only_the_signals_that_most_emergency_vehicles_pass_where_that_is_wanted) {
