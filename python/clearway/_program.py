@@ -161,17 +161,21 @@ def tells_keywords(call_name: str, *, cure: str = "") -> Callable[[F], F]:
     return decorate
 
 
+def no_attribute(owner: type, name: str, names: Iterable[str]) -> AttributeError:
+    """What is told where ``owner`` has no ``name``, but ``names`` of which those with an underscore are not for users."""
+    if name.startswith("_"):
+        return AttributeError(f"{owner.__name__} has no {name!r}")
+    there = sorted({one for one in names if not one.startswith("_")})
+    return AttributeError(f"{owner.__name__} has no {name!r}{did_you_mean(name, there, 2) or '.'} It has {', '.join(there)}")
+
+
 class Told:
     """Base of what users look into: an attribute that is not there is told with the nearest, and those that are."""
 
     def __getattr__(self, name: str) -> Any:
         if hasattr(type(self), name):  # a property in which another attribute was missing: that one is told
             return object.__getattribute__(self, name)
-        if name.startswith("_"):
-            raise AttributeError(f"{type(self).__name__} has no {name!r}")
-        there = sorted({one for one in dir(self) if not one.startswith("_")})
-        meant = did_you_mean(name, there, 2) or "."
-        raise AttributeError(f"{type(self).__name__} has no {name!r}{meant} It has {', '.join(there)}")
+        raise no_attribute(type(self), name, dir(self))
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}: {', '.join(sorted({one for one in dir(self) if not one.startswith('_')}))}>"

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ._channel import Moment, Sheet
-from ._program import Told, did_you_mean
+from ._program import Told, no_attribute
 
 #: Lane of a vehicle whose lane is not known.
 NO_LANE = 4294967295
@@ -267,10 +267,7 @@ class _Actions(type):
     """An action that no lease has is told with the nearest, and those that are."""
 
     def __getattr__(cls, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(f"{cls.__name__} has no {name!r}")
-        there = sorted(one for one in vars(cls) if not one.startswith("_") and callable(getattr(cls, one)))
-        raise AttributeError(f"{cls.__name__} has no {name!r}{did_you_mean(name, there, 2) or '.'} It has {', '.join(there)}")
+        raise no_attribute(cls, name, vars(cls))
 
 
 @dataclasses.dataclass(frozen=True)
