@@ -287,8 +287,7 @@ std::string short_plan(const EquipRounds& rounds, const EquipRequest& request, s
                                    budget);
     }
     // Which signals trips pass is known for the seeds that were asked for: more take as much each.
-    const auto known =
-        std::min(request.replications, static_cast<std::uint32_t>(analysis::fewest_for_interval));
+    const auto known = std::min<std::uint32_t>(request.replications, analysis::fewest_for_interval);
     const double least_s = seconds(rounds.forecast(1, known)) * analysis::fewest_for_interval / known;
     return fmt::format(
         " The smallest plan that can show something of {} takes about {}: --seeds {} --budget 1.{}",
