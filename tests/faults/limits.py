@@ -54,8 +54,8 @@ def try_recording(study):
     study.run("recorded", options=["--record"])
     words = [study.words[0], "replay", "recorded/merge/baseline/0", "--csv", "snapshot"]
     ends = []
-    for size_mb in (half / 2 for half in range(76, 120)):
-        limit = int(size_mb * 1_000_000)
+    for size_kb in range(38_000, 70_000, 500):
+        limit = size_kb * 1000
         ended = subprocess.run(words, cwd=study.folder, capture_output=True, text=True, errors="replace", check=False,
                                preexec_fn=lambda limit=limit: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
         begins = any(code in (0, 4) for code in ends)
@@ -63,7 +63,7 @@ def try_recording(study):
         if ended.returncode == -signal.SIGABRT and not begins:
             continue
         if ended.returncode not in (0, 4, 127) or (ended.returncode == 4 and "give the same command again" not in ended.stderr):
-            study.faults.append(f"a recording is read in {size_mb} MB: {ended.returncode}: {ended.stderr[-400:]}")
+            study.faults.append(f"a recording is read in {size_kb} kB: {ended.returncode}: {ended.stderr[-400:]}")
     if 0 not in ends or 4 not in ends:
         study.faults.append(f"no limit of memory let a replay begin and not end: {ends}")
 
