@@ -176,20 +176,29 @@ TEST(Differences, of_many_conditions_have_a_figure_for_each_measure) {
             << measure;
 }
 
-TEST(TradeOff, moves_numbers_so_that_none_hides_another) {
-    const std::string figure = figure_of(tests::page_of(crowd(12)), "tradeoff-merge");
+std::string drawing_of(const std::string& figure) {
+    return figure.substr(0, figure.find("<g transform"));
+}
+
+/// `shape` finds the x and y of `count` centres in the drawing, each two of which are `apart` at least.
+void expect_apart(const std::string& drawing, const char* shape, std::size_t count, double apart) {
+    const std::regex centre(shape);
     std::vector<std::pair<double, double>> places;
-    const std::regex number("<circle class=\"dot s[0-9]\" cx=\"([0-9.]+)\" cy=\"([0-9.]+)\" r=\"8.0\"");
-    const std::string drawing = figure.substr(0, figure.find("<g transform"));
-    for (std::sregex_iterator at(drawing.begin(), drawing.end(), number); at != std::sregex_iterator(); ++at)
+    for (std::sregex_iterator at(drawing.begin(), drawing.end(), centre); at != std::sregex_iterator(); ++at)
         places.emplace_back(std::stod((*at)[1]), std::stod((*at)[2]));
-    ASSERT_EQ(places.size(), 12u);
+    ASSERT_EQ(places.size(), count);
     for (std::size_t one = 0; one < places.size(); ++one) {
         for (std::size_t other = 0; other < one; ++other)
             EXPECT_GE(std::hypot(places[one].first - places[other].first,
                                  places[one].second - places[other].second),
-                      16.0);
+                      apart);
     }
+}
+
+TEST(TradeOff, moves_numbers_so_that_none_hides_another) {
+    const std::string drawing = drawing_of(figure_of(tests::page_of(crowd(12)), "tradeoff-merge"));
+    expect_apart(drawing, "<circle class=\"dot s[0-9]\" cx=\"([0-9.]+)\" cy=\"([0-9.]+)\" r=\"8.0\"", 12,
+                 16.0);
     EXPECT_LT(drawing.rfind("r=\"2.6\""), drawing.find("r=\"8.0\"")) << "no dot lies on a number";
     EXPECT_EQ(count_of(drawing, "class=\"leader "), 11u)
         << "a line leads from each moved number to its point";
@@ -211,10 +220,6 @@ StudyFacts crossed(std::size_t policies, std::size_t failures) {
         }
     }
     return study;
-}
-
-std::string drawing_of(const std::string& figure) {
-    return figure.substr(0, figure.find("<g transform"));
 }
 
 TEST(TradeOff, of_policies_under_failures_has_a_colour_for_each_policy_and_a_mark_for_each_failure) {
@@ -256,9 +261,10 @@ TEST(TradeOff, has_marks_at_the_true_places_of_points) {
 
 TEST(TradeOff, moves_a_mark_that_would_hide_another) {
     // The third failure of a policy is where the first of the next one is.
-    const std::string figure = figure_of(tests::page_of(crossed(5, 3)), "tradeoff-merge");
-    EXPECT_EQ(count_of(drawing_of(figure), "class=\"leader "), 4u);
-    EXPECT_EQ(count_of(drawing_of(figure), "r=\"2.6\""), 4u) << "a dot at each true place";
+    const std::string drawing = drawing_of(figure_of(tests::page_of(crossed(5, 3)), "tradeoff-merge"));
+    expect_apart(drawing, "<path class=\"dot s[1-5]\" d=\"M([0-9.]+) ([0-9.]+)", 15, 11.0);
+    EXPECT_EQ(count_of(drawing, "class=\"leader "), 4u);
+    EXPECT_EQ(count_of(drawing, "r=\"2.6\""), 4u) << "a dot at each true place";
 }
 
 TEST(TradeOff, keeps_numbers_for_few_conditions_and_where_they_differ_in_more_than_two_things) {
