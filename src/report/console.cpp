@@ -314,9 +314,10 @@ void append_verdicts(const ScenarioFacts& scenario, Tables tables, std::string& 
     for (const ConditionFacts& condition : scenario.conditions) {
         const bool is_told = tables == Tables::essential && !condition.control_of.empty();
         if (!condition.is_compared() || is_told) continue;
-        append_wrapped(fmt::format("{}: {}", label(condition),
-                                   printable(verdict(scenario, condition, Script::plain).text())),
-                       text);
+        const Verdict words = verdict(scenario, condition, Script::plain);
+        append_wrapped(fmt::format("{}: {}", label(condition), printable(words.answer())), text);
+        for (const std::string& fact : words.facts)
+            append_wrapped("  - " + printable(fact), text);
     }
 }
 

@@ -216,6 +216,9 @@ struct ScenarioFacts {
     std::optional<RoadMap> roads;                     ///< Nothing if the folder does not list them.
     std::map<std::string, std::string> streets;       ///< Their names, by edge.
     double step_length_s = 0.0;                       ///< Of the simulation; 0 if the manifest does not say.
+    double horizon_s = 0.0;  ///< What an EV that did not arrive counts with, likewise.
+    /// A vehicle that stands in a junction for this long no longer blocks it, s; nothing if it always does.
+    std::optional<double> ignore_junction_blocker_s;
     std::uint64_t replications = 0;
     double least_relevant_s = usual_least_relevant_s;
     double response_threshold_s = 0.0;       ///< Of an EV trip that is in time; 0 if no EV arrived.

@@ -9,10 +9,17 @@ namespace {
 
 std::string needed(const MaybeEstimate& difference, double half_width) {
     if (!difference || difference->n < 2) return "unknown";
-    return grouped(analysis::advised_replications(difference->deviation, half_width));
+    return replications_words(analysis::advised_replications(difference->deviation, half_width));
 }
 
 }  // namespace
+
+std::string lock_remedy(const ScenarioFacts& scenario) {
+    if (!scenario.ignore_junction_blocker_s)
+        return "Fewer locks: --ignore-junction-blocker 10, or less traffic (--density 0.7).";
+    return "Fewer locks: less traffic (--density 0.7), or mend the junction that locks: traffic.locks of "
+           "run.json names it.";
+}
 
 std::string lock_words(const analysis::ConditionSummary& condition) {
     const std::size_t locked = condition.locked_runs();

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "analysis/summary.hpp"
+#include "report/facts.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report {
@@ -11,8 +12,11 @@ namespace clearway::report {
 /// run locked.
 std::string lock_words(const analysis::ConditionSummary& condition);
 
+/// What to do about locks: `Fewer locks: ...`. Plain text.
+std::string lock_remedy(const ScenarioFacts& scenario);
+
 /// What the pairs in which a run locked do to a mean difference: `mean -23.6, median of pairs -19.0, mean of
-/// the 23 pairs without a lock -18.8 [-20.9, -16.7]; replications for +-1: 812, without locks 97`; no
+/// the 23 pairs without a lock -18.8 [-20.9, -16.7]; replications for +-1: 112, without locks 97`; no
 /// second mean where all locked. Empty where no pair locked. `half_width` is in the metric's unit.
 std::string locked_pairs_words(const analysis::Comparison& comparison, double half_width, Script script);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -163,8 +164,7 @@ Tile time_tile(const TileWords& words, const ConditionFacts& condition, Measure 
 }
 
 std::string asked_words(std::size_t replications) {
-    return replications > most_replications_asked ? fmt::format("more than {}", most_replications_asked)
-                                                  : fmt::format("about {}", replications);
+    return (replications > most_replications_asked ? "" : "about ") + replications_words(replications);
 }
 
 /// `about 24 would show the 5.2 s seen, `; empty where these are less than what counts.
@@ -252,7 +252,7 @@ std::string locks_sentence(const ScenarioFacts& scenario, const ConditionFacts& 
         const std::string locks = one == nullptr ? "" : lock_words(*one);
         if (!locks.empty()) words = joined(std::move(words), one->title + ": " + locks);
     }
-    return words.empty() ? words : "Vehicles locked each other. " + words + ".";
+    return words.empty() ? words : "Vehicles locked each other. " + words + ". " + lock_remedy(scenario);
 }
 
 std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scenario) {
@@ -313,9 +313,21 @@ Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& conditi
                           primary, script);
     const std::optional<double> percent = percent_of_baseline(scenario, condition);
     if (percent) tile.figure += fmt::format(", {} %", number(*percent, {0, script, Sign::always}));
+    const std::string survivors = survivors_words(condition, script);
     if (condition.objections.on_emergency()) {
         tile.tone = Tile::Tone::worse;
         tile.meaning = analysis::emergency_objections(condition.objections) + "; no gain can be claimed";
+    }
+    if (condition.objections.loses_emergency()) {
+        // The mean says little more than the horizon that a lost EV counts with.
+        const std::string mean = std::exchange(
+            tile.figure, fmt::format("{} of {} lost", grouped(condition.objections.emergency.lost()),
+                                     grouped(condition.objections.emergency.total())));
+        tile.meaning = joined(std::move(tile.meaning), survivors);
+        tile.meaning += fmt::format("; mean of all {}, where one that did not arrive counts with {} s", mean,
+                                    number(scenario.horizon_s, {0, script}));
+    } else {
+        tile.meaning = joined(std::move(tile.meaning), survivors);
     }
     return tile;
 }
@@ -398,6 +410,11 @@ Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, S
                 return {Badge::Runs::too_few,
                         unmet + " Block a road that EVs pass: clearway scenario check names some."};
             const std::uint64_t needed = condition.precision ? condition.precision->needed : 0;
+            if (!survivors_words(condition, script).empty())
+                return {Badge::Runs::too_few,
+                        fmt::format("Not enough runs: {}; EVs that did not arrive decide their mean, so no "
+                                    "number that would be enough is given",
+                                    pairs)};
             const double counts_s = condition.least_relevant(primary);
             const std::string least = number(counts_s > 0.0 ? counts_s : usual_least_relevant_s, {1, script});
             if (needed <= count)

@@ -253,9 +253,14 @@ std::vector<Provenance> provenance_of(const results::Results& results) {
     return rows;
 }
 
-/// Of a stored scenario.toml; 0 if it does not say.
-double step_length_in(const std::string& configuration) {
-    return core::parse_toml(configuration, "manifest.json")["time"]["step_length_s"].value_or(0.0);
+/// From a stored scenario.toml.
+void add_times(const std::string& configuration, ScenarioFacts& scenario) {
+    const toml::table table = core::parse_toml(configuration, "manifest.json");
+    const auto time = table["time"];
+    scenario.step_length_s = time["step_length_s"].value_or(0.0);
+    scenario.horizon_s = time["horizon_s"].value_or(0.0);
+    const double ignored_after_s = time["ignore_junction_blocker_s"].value_or(-1.0);
+    if (ignored_after_s >= 0.0) scenario.ignore_junction_blocker_s = ignored_after_s;
 }
 
 /// What lies beside a scenario's runs, each file read once.
@@ -273,7 +278,7 @@ void add_files(const results::Store& store, const results::Results& results, Sce
     for (const results::ScenarioEntry& entry : results.manifest.scenarios) {
         if (entry.name != scenario.name) continue;
         scenario.attribution = entry.attribution;
-        scenario.step_length_s = step_length_in(entry.configuration);
+        add_times(entry.configuration, scenario);
     }
 }
 

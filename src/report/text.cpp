@@ -21,6 +21,11 @@ std::string printable(const std::string& text) {
     return result;
 }
 
+std::string replications_words(std::uint64_t replications) {
+    return replications > most_replications_asked ? fmt::format("more than {}", most_replications_asked)
+                                                  : grouped(replications);
+}
+
 std::string missing(Script script) {
     return script == Script::plain ? "-" : "\u2013";
 }

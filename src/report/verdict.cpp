@@ -1,8 +1,10 @@
 #include "report/verdict.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <vector>
 
 #include <fmt/format.h>
@@ -110,22 +112,29 @@ std::string reasons_of(const metrics::LeaseRow& row) {
     }));
 }
 
+std::string sentence(std::string words) {
+    if (!words.empty()) words.front() = static_cast<char>(std::toupper(words.front()));
+    return words + ".";
+}
+
 /// Certain changes of other measures; for the others' time loss also that no effect is shown.
-std::string costs(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
-    std::string text;
+std::vector<std::string> costs(const ScenarioFacts& scenario, const ConditionFacts& condition,
+                               Script script) {
+    std::vector<std::string> facts;
     const auto add = [&](Measure measure, const char* better, const char* worse, const char* none) {
         const Effect effect = effect_of(condition, measure);
         if (effect == Effect::undecided || effect == Effect::too_few || effect == Effect::ruled_out) return;
         const char* const words = effect == Effect::better ? better : effect == Effect::worse ? worse : none;
         if (*words == '\0') return;
-        text += fmt::format("; {} ({})", words, difference_text(scenario, condition, measure, script));
+        facts.push_back(
+            sentence(fmt::format("{} ({})", words, difference_text(scenario, condition, measure, script))));
     };
     add(Measure::other_time_loss, "the others lose less time", "the others lose more time",
         "no effect shown on the others' time loss");
     add(Measure::collisions, "fewer collisions", "more collisions", "");
     add(Measure::teleports, "fewer teleports", condition.objections.teleported ? "" : "more teleports", "");
     add(Measure::unfinished, "fewer unfinished vehicles", "more unfinished vehicles", "");
-    return text;
+    return facts;
 }
 
 }  // namespace
@@ -155,6 +164,24 @@ Effect effect_of(const ConditionFacts& condition, Measure measure) {
     const bool ruled_out = objections.unchecked || (of_emergency && objections.on_emergency()) ||
                            (of_others && objections.on_others());
     return ruled_out ? Effect::ruled_out : effect;
+}
+
+std::string survivors_words(const ConditionFacts& condition, Script script) {
+    const auto& of_all = condition.outcome(primary).comparison;
+    const auto& of_arrived = condition.outcome(Measure::emergency_travel_time).comparison;
+    if (!of_all || !of_arrived || !of_arrived->difference) return {};
+    const analysis::Objections& counts = condition.objections;
+    if (counts.emergency.lost() + counts.baseline_emergency.lost() == 0) return {};
+    const NumberStyle style{.decimals = 1, .script = script, .sign = Sign::always};
+    const std::string all_but =
+        of_arrived->incomplete_pairs > 0 ? "" : fmt::format(", all but {}", of_arrived->vehicles_left_out);
+    const MaybeEstimate& theirs = of_arrived->difference;
+    const analysis::Interval* const interval = shown_interval(theirs);
+    std::string words =
+        fmt::format("EVs that arrived in both: {} s{}{}", number(theirs->mean, style),
+                    interval == nullptr ? "" : " " + interval_text(*interval, style), all_but);
+    if (of_all->median) words += fmt::format("; median of the pairs {} s", number(*of_all->median, style));
+    return words;
 }
 
 bool is_void_for_lost(const ConditionFacts& condition, Measure measure) {
@@ -208,30 +235,30 @@ std::string sentence_of_parts(const char* what, const std::vector<analysis::Idle
     std::string text;
     for (const auto& [runs, names] : groups)
         text += fmt::format("{}{} in {}", text.empty() ? "" : "; ", names, runs);
-    return text.empty() ? text : fmt::format(" {}: {}.", what, text);
+    return text.empty() ? text : fmt::format("{}: {}.", what, text);
 }
 
-/// ` Locks: none (baseline: 2 locks in 1 of 20 runs).`, or empty where there are none.
+/// `Locks: none (baseline: 2 locks in 1 of 20 runs). Fewer locks: ...`, or empty where there are none.
 std::string locks_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     const ConditionFacts* const baseline = scenario.baseline_of(condition);
     const std::string with = lock_words(condition);
     const std::string without = baseline == nullptr ? "" : lock_words(*baseline);
     if (with.empty() && without.empty()) return {};
-    return fmt::format(" Locks: {} (baseline: {}).", with.empty() ? "none" : with,
-                       without.empty() ? "none" : without);
+    return fmt::format("Locks: {} (baseline: {}). {}", with.empty() ? "none" : with,
+                       without.empty() ? "none" : without, lock_remedy(scenario));
 }
 
-/// `; EV travel time, s: ...`, what locked pairs make of the effect, or empty without any.
+/// `EV travel time where runs locked, s: ...`, what locked pairs make of the effect, or empty without any.
 std::string locked_pairs_of(const ConditionFacts& condition, Script script) {
     const auto& comparison = condition.outcome(primary).comparison;
     if (!comparison) return {};
     const double wanted_s =
         condition.least_relevant_s > 0.0 ? condition.least_relevant_s : usual_least_relevant_s;
     const std::string pairs = locked_pairs_words(*comparison, wanted_s, script);
-    return pairs.empty() ? pairs : fmt::format("; EV travel time, s: {}", pairs);
+    return pairs.empty() ? pairs : fmt::format("EV travel time where runs locked, s: {}.", pairs);
 }
 
-/// ` 3 EVs came to a closed road (baseline: 12, whose trips take -9.0 [-12.0, -6.0] s).`, or empty where none
+/// `3 EVs came to a closed road (baseline: 12, whose trips take -9.0 [-12.0, -6.0] s).`, or empty where none
 /// did in either.
 std::string incidents_of(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     const ConditionFacts* const baseline = scenario.baseline_of(condition);
@@ -242,22 +269,24 @@ std::string incidents_of(const ScenarioFacts& scenario, const ConditionFacts& co
     const std::string theirs =
         difference ? fmt::format(", whose trips take {} s", estimate(difference, {1, script, Sign::always}))
                    : "";
-    return fmt::format(" {} came to a closed road (baseline: {}{}).", counted(met, "EV"), met_before, theirs);
+    return fmt::format("{} came to a closed road (baseline: {}{}).", counted(met, "EV"), met_before, theirs);
 }
 
 /// What trials of other units and other ways found, or empty without them.
 std::string regrets_of(const ConditionFacts& condition, Script script) {
-    std::string text;
+    std::vector<std::string> facts;
     const MaybeEstimate& wrong = condition.metric("wrong_unit_share").estimate;
     const MaybeEstimate& unit_s = condition.metric("unit_regret_s").estimate;
     if (wrong && unit_s)
-        text += fmt::format(" The wrong unit in {} % of decisions, {} s lost each.",
-                            number(100.0 * wrong->mean, {0, script}), estimate(unit_s, {1, script}));
+        facts.push_back(fmt::format("The wrong unit in {} % of decisions, {} s lost each.",
+                                    number(100.0 * wrong->mean, {0, script}), estimate(unit_s, {1, script})));
     const MaybeEstimate& way_s = condition.metric("way_regret_s").estimate;
-    if (way_s) text += fmt::format(" Against the best way, {} s lost on each.", estimate(way_s, {1, script}));
+    if (way_s)
+        facts.push_back(
+            fmt::format("Against the best way, {} s lost on each.", estimate(way_s, {1, script})));
     if (const std::uint64_t missing = condition.count("units_missing"); missing > 0)
-        text += fmt::format(" {} missing.", counted(missing, "called unit"));
-    return text;
+        facts.push_back(fmt::format("{} missing.", counted(missing, "called unit")));
+    return fmt::format("{}", fmt::join(facts, " "));
 }
 
 /// Those who are called to an incident stop before it.
@@ -305,23 +334,34 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
         absent += fmt::format("{} of {} are missing; ", condition.missing_runs, counted(all, "run"));
     Verdict words = lead(scenario, condition, script);
     words.finding = absent + unmet_of(scenario, condition) + cut_off_of(condition) + words.finding;
-    std::string& text = words.figures;
+    if (const std::string survivors = survivors_words(condition, script); !survivors.empty())
+        words.facts.push_back(fmt::format("{}; one that did not arrive counts with {} s.", survivors,
+                                          number(scenario.horizon_s, {0, script})));
     const std::string others = analysis::other_objections(condition.objections);
-    if (!others.empty()) text += "; " + others;
-    if (shown_interval(condition.difference(primary)) != nullptr) text += costs(scenario, condition, script);
-    text += locked_pairs_of(condition, script) + ".";
-    if (const std::string controls = controls_sentence(scenario, condition, script); !controls.empty())
-        text += " " + controls;
-    text += incidents_of(scenario, condition, script) + regrets_of(condition, script) +
-            locks_of(scenario, condition);
-    text += sentence_of_parts("Never acted", condition.idle_parts, &analysis::IdlePart::idle_runs);
-    text += sentence_of_parts("Only changed the EV's own lane", condition.idle_parts,
-                              &analysis::IdlePart::own_runs);
+    if (!others.empty()) words.facts.push_back(sentence(others));
+    if (shown_interval(condition.difference(primary)) != nullptr)
+        std::ranges::move(costs(scenario, condition, script), std::back_inserter(words.facts));
+    using analysis::IdlePart;
+    for (std::string fact :
+         {controls_sentence(scenario, condition, script), incidents_of(scenario, condition, script),
+          regrets_of(condition, script), locked_pairs_of(condition, script), locks_of(scenario, condition),
+          sentence_of_parts("Never acted", condition.idle_parts, &IdlePart::idle_runs),
+          sentence_of_parts("Only changed the EV's own lane", condition.idle_parts, &IdlePart::own_runs)})
+        if (!fact.empty()) words.facts.push_back(std::move(fact));
     if (const std::size_t same = scenario.place_of(condition.same_as); same < scenario.conditions.size())
-        text += fmt::format(" Every run is identical to that of {}.", scenario.conditions[same].label());
+        words.facts.push_back(
+            fmt::format("Every run is identical to that of {}.", scenario.conditions[same].label()));
     if (condition.is_unchecked())
-        text += " Safety checks of the simulator were off: vehicles may drive through each other.";
+        words.facts.push_back(
+            "Safety checks of the simulator were off: vehicles may drive through each other.");
     return words;
+}
+
+std::string Verdict::text() const {
+    std::string text = answer();
+    for (const std::string& fact : facts)
+        text += " " + fact;
+    return text;
 }
 
 namespace {

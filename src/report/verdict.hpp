@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/spellings.hpp"
 #include "report/facts.hpp"
@@ -42,12 +43,21 @@ bool is_void_for_lost(const ConditionFacts& condition, Measure measure);
 /// if none was asked for. Plain text.
 std::string lease_sentence(const ConditionFacts& condition);
 
-/// One sentence on a condition against the baseline. Plain text, not escaped.
+/// `EVs that arrived in both: -10.3 s [-30.1, 9.5], all but 1; median of the pairs -4.7 s`: the travel time
+/// without the horizon that stands for an EV that did not arrive. Empty where all arrived in both.
+std::string survivors_words(const ConditionFacts& condition, Script script);
+
+/// What is said of a condition against the baseline. Plain text, not escaped.
 struct Verdict {
     std::string finding;  ///< `helped`: objections on the side of EVs, or whether EVs were faster.
-    std::string figures;  ///< By how much, what it cost the others, and what its policies did.
+    std::string figures;  ///< By how much.
+    /// A sentence each: what it cost the others, what weighs on the figure, what its policies did.
+    std::vector<std::string> facts = {};
 
-    std::string text() const { return finding + ": " + figures; }
+    /// The answer: `helped: EV travel time -12.3 s [-15.0, -9.6].`
+    std::string answer() const { return finding + ": " + figures + "."; }
+    /// All in one paragraph.
+    std::string text() const;
 };
 Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "report/controls.hpp"
+#include "report/locks.hpp"
 #include "report/sample.hpp"
 #include "report/verdict.hpp"
 
@@ -10,6 +11,7 @@ namespace clearway::report {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -64,9 +66,12 @@ TEST_F(Overview, NamesTheLongestTripsAndTheLocks) {
     EXPECT_EQ(
         locks_sentence(scenario_, corridor()),
         "Vehicles locked each other. baseline: 2 locks in 1 of 20 runs, the longest 300 s; 30 vehicles stood "
-        "in them, 1 of them EV.");
-    EXPECT_THAT(verdict(scenario_, corridor(), Script::plain).figures,
+        "in them, 1 of them EV. Fewer locks: --ignore-junction-blocker 10, or less traffic (--density "
+        "0.7).");
+    EXPECT_THAT(verdict(scenario_, corridor(), Script::plain).text(),
                 HasSubstr(" Locks: none (baseline: 2 locks in 1 of 20 runs"));
+    scenario_.ignore_junction_blocker_s = 10.0;
+    EXPECT_THAT(lock_remedy(scenario_), Not(HasSubstr("--ignore-junction-blocker")));
 }
 
 TEST_F(Overview, ClaimsNothingThatTheIntervalDoesNotShow) {
@@ -95,6 +100,33 @@ TEST_F(Overview, NeverPraisesAConditionThatLosesEmergencyVehicles) {
     EXPECT_THAT(headline(), Not(HasSubstr("saves")));
     EXPECT_EQ(emergency().tone, Tile::Tone::worse);
     EXPECT_THAT(emergency().meaning, HasSubstr("no gain can be claimed"));
+}
+
+TEST_F(Overview, LeadsWithTheLostVehiclesAndNotWithTheHorizonThatTheyCountWith) {
+    tests::compare(corridor(), around(96.2, 330.0), around(6.1, 20.0));
+    tests::difference(corridor(), Measure::emergency_travel_time) = around(-10.3, 20.0);
+    tests::comparison(corridor(), primary).median = -4.7;
+    auto& arrived = tests::comparison(corridor(), Measure::emergency_travel_time);
+    arrived.incomplete_pairs = 0;
+    arrived.vehicles_left_out = 1;
+    scenario_.horizon_s = 3600.0;
+    EXPECT_EQ(survivors_words(corridor(), Script::plain), "");
+    EXPECT_EQ(emergency().figure, "+96 s, +96 %");
+    corridor().objections.emergency = {.arrived = 29, .teleported = 1};
+    corridor().objections.baseline_emergency = {.arrived = 30};
+    EXPECT_EQ(emergency().figure, "1 of 30 lost");
+    const std::string survivors =
+        "EVs that arrived in both: -10.3 s [-30.3, 9.7], all but 1; median of the pairs -4.7 s";
+    EXPECT_THAT(
+        emergency().meaning,
+        AllOf(StartsWith("lost 1 of 30 emergency vehicles"), HasSubstr(survivors),
+              EndsWith("mean of all +96 s, +96 %, where one that did not arrive counts with 3600 s")));
+    EXPECT_EQ(verdict(scenario_, corridor(), Script::plain).facts.front(),
+              survivors + "; one that did not arrive counts with 3600 s.");
+    EXPECT_THAT(badge().words, Not(HasSubstr("would show")));
+    // Lost by the baseline alone: a gain that is no saved time.
+    std::swap(corridor().objections.emergency, corridor().objections.baseline_emergency);
+    EXPECT_THAT(emergency().meaning, HasSubstr(survivors));
 }
 
 TEST_F(Overview, SaysThatSafetyChecksWereOff) {
@@ -198,7 +230,7 @@ TEST_F(Controls, tell_what_a_part_is_worth) {
         sentence(),
         "Controls, each with a part of it off; EV travel time minus its own, s: deaf: +12.0 [10.8, 13.2]; "
         "blind: 0.0 [-2.5, 2.5], no difference shown.");
-    EXPECT_THAT(verdict(scenario_, corridor(), Script::plain).figures, HasSubstr(sentence()));
+    EXPECT_THAT(verdict(scenario_, corridor(), Script::plain).text(), HasSubstr(sentence()));
     EXPECT_EQ(controls_sentence(scenario_, scenario_.conditions[2], Script::plain), "")
         << "a control has none";
     EXPECT_EQ(controls_note(scenario_, corridor(), Script::plain), sentence());

@@ -48,14 +48,13 @@ TEST(Effect, of_fewer_than_five_pairs_is_not_told) {
 TEST(Verdict, says_helped_harmed_or_no_effect_shown) {
     const ScenarioFacts scenario = tests::scenario("merge");
     EXPECT_EQ(verdict(scenario, scenario.conditions[1], Script::plain).text(),
-              "helped: EV travel time -12.4 s [-15.5, -9.3], -12 %; no effect shown on the others' time loss "
-              "(+0.4 s "
-              "[-0.8, 1.6]).");
+              "helped: EV travel time -12.4 s [-15.5, -9.3], -12 %. No effect shown on the others' time loss "
+              "(+0.4 s [-0.8, 1.6]).");
     EXPECT_EQ(
         verdict(scenario, scenario.conditions[3], Script::plain).text(),
-        "harmed: EV travel time +29.5 s [21.0, 38.0], +29 %; the others lose more time (+3.9 s [1.7, 6.1]).");
+        "harmed: EV travel time +29.5 s [21.0, 38.0], +29 %. The others lose more time (+3.9 s [1.7, 6.1]).");
     EXPECT_THAT(verdict(scenario, scenario.conditions[4], Script::plain).text(),
-                StartsWith("no effect shown: EV travel time -0.6 s [-3.4, 2.2], -1 %;"));
+                StartsWith("no effect shown: EV travel time -0.6 s [-3.4, 2.2], -1 %."));
 }
 
 TEST(Verdict, says_first_whom_an_incident_cut_off) {
@@ -106,7 +105,7 @@ TEST(Verdict, does_not_call_a_fifth_of_a_second_help) {
     scenario.conditions[1].least_relevant_s = 1.0;
     EXPECT_THAT(
         verdict(scenario, scenario.conditions[1], Script::plain).text(),
-        StartsWith("no relevant effect: EV travel time -0.2 s [-0.3, -0.1], 0 %, where 1.0 s would count;"));
+        StartsWith("no relevant effect: EV travel time -0.2 s [-0.3, -0.1], 0 %, where 1.0 s would count."));
 }
 
 TEST(Verdict, of_no_effect_says_that_the_network_has_no_signals) {
@@ -119,7 +118,7 @@ TEST(Verdict, of_no_effect_says_that_the_network_has_no_signals) {
     scenario.conditions[4].condition.policies = {"clear_lane", "preempt_signals"};
     EXPECT_THAT(of_four(),
                 StartsWith("no effect shown: EV travel time -0.6 s [-3.4, 2.2], -1 %; the network has "
-                           "no signals, so signal policies have no effect;"));
+                           "no signals, so signal policies have no effect."));
     EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(), Not(HasSubstr("signals")));
 }
 
@@ -149,7 +148,7 @@ TEST(Verdict, names_collisions_when_their_interval_excludes_zero) {
     ScenarioFacts scenario = tests::scenario("merge");
     tests::difference(scenario.conditions[1], Measure::collisions) = tests::around(4.5, 1.5);
     EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(),
-                EndsWith("; more collisions (+4.50 per run [3.00, 6.00])."));
+                EndsWith(" More collisions (+4.50 per run [3.00, 6.00])."));
 }
 
 TEST(Verdict, says_that_safety_checks_were_off) {
@@ -223,11 +222,11 @@ TEST(Verdict, does_not_praise_the_others_time_loss_where_they_never_departed) {
     ScenarioFacts scenario = tests::scenario("merge");
     ConditionFacts& condition = scenario.conditions[1];
     tests::difference(condition, Measure::other_time_loss) = tests::around(-9.0, 2.0);
-    EXPECT_THAT(verdict(scenario, condition, Script::plain).text(), HasSubstr("the others lose less time"));
+    EXPECT_THAT(verdict(scenario, condition, Script::plain).text(), HasSubstr("The others lose less time"));
     condition.objections.not_inserted = analysis::Estimate{20, 8.0, 1.0, analysis::Interval{6.0, 10.0}};
     const std::string text = verdict(scenario, condition, Script::plain).text();
     EXPECT_THAT(text, Not(HasSubstr("lose less time")));
-    EXPECT_THAT(text, HasSubstr("; more other vehicles not inserted (+8.0 per run [6.0, 10.0])"));
+    EXPECT_THAT(text, HasSubstr(" More other vehicles not inserted (+8.0 per run [6.0, 10.0])"));
 }
 
 TEST(LeaseSentence, names_lane_changes_even_where_none_was_asked) {

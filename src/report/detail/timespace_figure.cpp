@@ -97,7 +97,7 @@ Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& con
     return {
         "trip-" + scenario.name, "One trip with and without", plot.finish(),
         fmt::format("Vehicle {}, replication {}: {} s {}.{} A level piece is a stop. {} Of the trips that "
-                    "were kept its gain is nearest to the mean.",
+                    "were kept its gain is nearest to the median of the pairs.",
                     with->vehicle, with->replication, number(std::abs(saved_s), typeset(1)),
                     saved_s >= 0.0 ? "sooner" : "later", ways,
                     without->signals.empty() && with->signals.empty()

@@ -21,7 +21,7 @@ class RunTraffic {
 };
 
 /// One emergency vehicle's journey under the baseline and the conditions that help most: of all journeys that
-/// were kept, the one whose gain is nearest to the mean. Empty if none was kept.
+/// were kept, the one whose gain is nearest to the median of the pairs. Empty if none was kept.
 std::vector<JourneyFacts> journeys_in(RunTraffic& traffic, const ScenarioFacts& scenario);
 
 }  // namespace clearway::report::detail

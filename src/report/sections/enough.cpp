@@ -11,13 +11,9 @@ namespace {
 
 std::string replications_needed(const ConditionFacts& condition) {
     if (!condition.precision) return missing(Script::typeset);
-    const auto words = [](std::uint64_t needed) {
-        return needed > most_replications_asked ? fmt::format("more than {}", most_replications_asked)
-                                                : grouped(needed);
-    };
     const auto& unlocked = condition.precision->needed_unlocked;
-    return words(condition.precision->needed) +
-           (unlocked ? fmt::format(" ({} without locks)", words(*unlocked)) : "");
+    return replications_words(condition.precision->needed) +
+           (unlocked ? fmt::format(" ({} without locks)", replications_words(*unlocked)) : "");
 }
 
 Figure precision_figure(const ScenarioFacts& scenario, const Looks& looks) {
