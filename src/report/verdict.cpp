@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <vector>
 
 #include <fmt/format.h>
@@ -238,6 +239,60 @@ std::string sentence_of_parts(const char* what, const std::vector<analysis::Idle
     return text.empty() ? text : fmt::format("{}: {}.", what, text);
 }
 
+/// What a policy asked for in all runs of a condition; standing back is no request.
+struct Requests {
+    std::uint64_t issued = 0;
+    std::uint64_t acted = 0;
+    std::map<traffic::Refusal, std::uint64_t> refused = {};
+
+    /// From 20 on a share is more than chance, and with a quarter carried out, a policy is tried at all.
+    bool are_mostly_vain() const { return issued >= 20 && acted > 0 && 4 * acted <= issued; }
+};
+
+/// What a writer of a policy can do about a refusal; empty where its name says it.
+const char* cure_of(traffic::Refusal reason) {
+    using traffic::Refusal;
+    switch (reason) {
+        case Refusal::not_controllable:
+            return ": human drivers; ask only where belief.vehicles.is_automated";
+        case Refusal::vehicle_gone:
+            return ": not on the road; name vehicles by belief.vehicles.key, not by row";
+        case Refusal::no_such_lane:
+            return ": lane numbers count from the outermost, 0";
+        case Refusal::outranked:
+            return ": other leases for the same target go first; see priority";
+        default:
+            return "";
+    }
+}
+
+/// `Of P's 3,687 requests 99 % were never carried out, mostly refused as not_controllable: ...`, for each
+/// policy of whose requests so few were carried out that the runs say little about it; those of which none
+/// was are told elsewhere.
+std::string refusals_of(const ConditionFacts& condition) {
+    std::map<std::string, Requests> policies;
+    for (const metrics::LeaseRow& row : condition.leases) {
+        if (row.action == traffic::LeaseKind::stand_back) continue;
+        Requests& requests = policies[row.policy];
+        requests.issued += row.issued;
+        requests.acted += row.acted;
+        for (const auto& [reason, count] : row.refused)
+            requests.refused[reason] += count;
+    }
+    std::vector<std::string> facts;
+    for (const auto& [policy, requests] : policies) {
+        const auto most =
+            std::ranges::max_element(requests.refused, {}, [](const auto& one) { return one.second; });
+        if (!requests.are_mostly_vain() || most == requests.refused.end()) continue;
+        const double vain = 100.0 * static_cast<double>(requests.issued - requests.acted) /
+                            static_cast<double>(requests.issued);
+        facts.push_back(fmt::format(
+            "Of {}'s {} requests {:.0f} % were never carried out, mostly refused as {}{}.", policy,
+            grouped(requests.issued), std::floor(vain), name(most->first), cure_of(most->first)));
+    }
+    return fmt::format("{}", fmt::join(facts, " "));
+}
+
 /// `Locks: none (baseline: 2 locks in 1 of 20 runs). Fewer locks: ...`, or empty where there are none.
 std::string locks_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     const ConditionFacts* const baseline = scenario.baseline_of(condition);
@@ -343,8 +398,9 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
         std::ranges::move(costs(scenario, condition, script), std::back_inserter(words.facts));
     using analysis::IdlePart;
     for (std::string fact :
-         {controls_sentence(scenario, condition, script), incidents_of(scenario, condition, script),
-          regrets_of(condition, script), locked_pairs_of(condition, script), locks_of(scenario, condition),
+         {refusals_of(condition), controls_sentence(scenario, condition, script),
+          incidents_of(scenario, condition, script), regrets_of(condition, script),
+          locked_pairs_of(condition, script), locks_of(scenario, condition),
           sentence_of_parts("Never acted", condition.idle_parts, &IdlePart::idle_runs),
           sentence_of_parts("Only changed the EV's own lane", condition.idle_parts, &IdlePart::own_runs)})
         if (!fact.empty()) words.facts.push_back(std::move(fact));

@@ -276,6 +276,25 @@ TEST(Verdict, says_in_how_many_runs_a_part_never_acted) {
                           "most refused as not_controllable), Late (1 lease, none carried out) in 20 of 20"));
 }
 
+TEST(Verdict, says_that_most_of_a_policys_requests_were_refused_and_what_helps) {
+    using traffic::LeaseKind;
+    using traffic::Refusal;
+    ScenarioFacts scenario = tests::scenario("merge");
+    ConditionFacts& condition = scenario.conditions[1];
+    const auto text = [&] { return verdict(scenario, condition, Script::plain).text(); };
+    condition.leases = {
+        {"Mine", LeaseKind::change_lane, 3600, 0, 50, 70, {{Refusal::not_controllable, 3500}}},
+        {"Mine", LeaseKind::hold_green, 87, 0, 2, 70, {{Refusal::lockout, 80}}},
+        {"Mine", LeaseKind::stand_back, 90000, 0, 0, 0, {{Refusal::stood_back, 90000}}}};
+    EXPECT_THAT(text(), HasSubstr(" Of Mine's 3,687 requests 98 % were never carried out, mostly refused as "
+                                  "not_controllable: human drivers; ask only where "
+                                  "belief.vehicles.is_automated."));
+    condition.leases[0].acted = 1000;
+    EXPECT_THAT(text(), Not(HasSubstr("never carried out"))) << "more than a quarter was";
+    condition.leases = {{"Few", LeaseKind::hold_green, 19, 0, 1, 0, {{Refusal::lockout, 18}}}};
+    EXPECT_THAT(text(), Not(HasSubstr("never carried out")));
+}
+
 TEST(Verdict, says_which_condition_has_the_same_runs) {
     ScenarioFacts scenario = tests::scenario("merge");
     scenario.conditions[1].same_as = scenario.conditions[2].name();
