@@ -116,13 +116,16 @@ def there_are(word: Any, known: Sequence[str], noun: str, all_by: str, count: in
 
 
 #: What keywords mean that others use.
-_MEANT = {"dense": 'variant="dense"', "replications": "seeds", "replication": "seeds", "n_seeds": "seeds", "num_seeds": "seeds"}
+_MEANT = {"dense": 'variant="dense"', "replications": "seeds", "replication": "seeds", "n_seeds": "seeds", "num_seeds": "seeds",
+          **dict.fromkeys(("duration", "duration_s", "seconds", "time_s", "for_s", "expiry", "until_s"), "lasting_s"),
+          **dict.fromkeys(("ev", "beneficiary", "emergency_vehicle"), "serves"), "lane": "lane_number", "speed": "speed_mps"}
 
 
 def no_keyword(call_name: str, unknown: str, own: Iterable[str], overrides: Iterable[str] = (), meant: str | None = None) -> InputError:
     """What is raised for a keyword that a call does not have: the one that is meant, or those that there are."""
     own, overrides = list(own), list(overrides)
-    meant = meant or (_MEANT.get(unknown) if _MEANT.get(unknown) in own or overrides else None)
+    usual = _MEANT.get(unknown)
+    meant = meant or (usual if usual in own or (overrides and "=" in (usual or "")) else None)
     near = f". Did you mean {repr(meant) if meant in own else meant}?" if meant else did_you_mean(unknown, [*own, *overrides], 2)
     there = f"; it has {', '.join(own)}"
     there += f", and overrides (docs/reference/study-file.md): {', '.join(overrides[:3])}, ..." if overrides else ""

@@ -5,13 +5,17 @@ import dataclasses
 import functools
 import math
 import numbers
-from collections.abc import Iterable, Sequence
-from typing import Any
+import os
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ._channel import Moment, Sheet
-from ._program import Told, no_attribute
+from ._program import Told, keywords_of, no_attribute, no_keyword
+
+F = TypeVar("F", bound=Callable[..., Any])
 
 #: Lane of a vehicle whose lane is not known.
 NO_LANE = 4294967295
@@ -270,6 +274,23 @@ class _Actions(type):
         raise no_attribute(cls, name, vars(cls))
 
 
+def _action(make: F) -> F:
+    """A class method of ``Lease``: it tells a keyword that it does not have, and keeps the line that called it for errors that
+    show later."""
+    known = keywords_of(make)
+
+    @functools.wraps(make)
+    def call(*words: Any, **given: Any) -> "Lease":
+        for name in given:
+            if name not in known:
+                raise TypeError(str(no_keyword(f"Lease.{make.__name__}", name, known)))
+        lease: Lease = make(*words, **given)
+        caller = sys._getframe(1)
+        object.__setattr__(lease, "place", f"{os.path.basename(caller.f_code.co_filename)}, line {caller.f_lineno}")
+        return lease
+    return call  # type: ignore[return-value]
+
+
 @dataclasses.dataclass(frozen=True)
 class Lease(Told, metaclass=_Actions):
     """One action for one vehicle or signal. It ends by itself after ``lasting_s`` unless the next decision renews it.
@@ -277,10 +298,11 @@ class Lease(Told, metaclass=_Actions):
     Make one with the class methods; ``vehicle`` is a key (``belief.vehicles.key[row]``) or an ``EmergencyVehicle``, ``serves`` the
     emergency vehicle for which it is, ``reason`` a few words for tables. Whether it can be carried out is judged as for every
     policy: what cannot is counted under its reason in ``results.leases`` (a vehicle that is gone: ``vehicle_gone``). What no lease
-    can ever be, as a speed of NaN, raises here. ``fields`` holds what was asked for.
+    can ever be, as a speed of NaN, raises here. ``fields`` holds what was asked for, ``place`` the line that made the lease.
     """
 
     fields: dict[str, Any]
+    place: str = dataclasses.field(default="", compare=False, repr=False)
 
     def __post_init__(self) -> None:
         if type(self.fields) is not _Fields:
@@ -298,6 +320,7 @@ class Lease(Told, metaclass=_Actions):
                               "reason": str(reason).encode("utf-8", "replace").decode() or "not said"}))
 
     @staticmethod
+    @_action
     def drive_at(vehicle: Any, speed_mps: float, *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0,
                  reason: str = "") -> "Lease":
         """Drive at this speed as far as safety allows."""
@@ -305,6 +328,7 @@ class Lease(Told, metaclass=_Actions):
                            speed_mps=_number("speed_mps", speed_mps, 0.0, 200.0))
 
     @staticmethod
+    @_action
     def change_lane(vehicle: Any, lane_number: int, *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0,
                     reason: str = "") -> "Lease":
         """Move to the lane with this number on the present edge, 0 the outermost, and stay there while the lease lasts."""
@@ -312,11 +336,13 @@ class Lease(Told, metaclass=_Actions):
                            lane_number=_whole("lane_number", lane_number, 255))
 
     @staticmethod
+    @_action
     def hold_lane(vehicle: Any, *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0, reason: str = "") -> "Lease":
         """Do not change lanes except where the route demands it."""
         return Lease._make("hold_lane", {"vehicle": _key("vehicle", vehicle)}, serves, lasting_s, priority, reason)
 
     @staticmethod
+    @_action
     def pull_aside(vehicle: Any, side: str = "right", *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0,
                    reason: str = "") -> "Lease":
         """Keep to one edge of the lane, ``right`` or ``left`` (sublane model only)."""
@@ -325,16 +351,19 @@ class Lease(Told, metaclass=_Actions):
         return Lease._make("pull_aside", {"vehicle": _key("vehicle", vehicle)}, serves, lasting_s, priority, reason, side=side)
 
     @staticmethod
+    @_action
     def stop_at_line(vehicle: Any, *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0, reason: str = "") -> "Lease":
         """Give way at the stop line of the present lane."""
         return Lease._make("stop_at_line", {"vehicle": _key("vehicle", vehicle)}, serves, lasting_s, priority, reason)
 
     @staticmethod
+    @_action
     def pass_red(vehicle: Any, *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0, reason: str = "") -> "Lease":
         """Pass red slowly and yielding; emergency vehicles only."""
         return Lease._make("pass_red", {"vehicle": _key("vehicle", vehicle)}, serves, lasting_s, priority, reason)
 
     @staticmethod
+    @_action
     def take_route(vehicle: Any, edges: Sequence[int], *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0,
                    reason: str = "") -> "Lease":
         """Drive over these edges (numbers of the network) to the destination; emergency vehicles only. A way that was taken stays.
@@ -348,6 +377,7 @@ class Lease(Told, metaclass=_Actions):
         return Lease._make("take_route", {"vehicle": _key("vehicle", vehicle)}, serves, lasting_s, priority, reason, edges=way)
 
     @staticmethod
+    @_action
     def hold_green(signal: int, links: Sequence[int], own_links: Sequence[int] = (), *, serves: Any = None, lasting_s: float = 2.0,
                    priority: int = 0, reason: str = "") -> "Lease":
         """Show green for these links and red for those that conflict; ``own_links`` are those of the one it serves."""
@@ -355,6 +385,7 @@ class Lease(Told, metaclass=_Actions):
                            links=_links("links", links), own_links=_links("own_links", own_links))
 
     @staticmethod
+    @_action
     def adjust_green(signal: int, links: Sequence[int], *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0,
                      reason: str = "") -> "Lease":
         """Lead the signal's own plan to these links sooner."""
@@ -448,7 +479,7 @@ def checked_leases(answer: Any) -> list[dict[str, Any]]:
     for lease in leases:
         if not isinstance(lease, Lease):
             raise TypeError(f"act returned {lease!r} in its list, which is not a clearway.Lease")
-    return [lease.fields for lease in leases]
+    return [{**lease.fields, "place": lease.place} for lease in leases]
 
 
 def checked_probabilities(answer: Any, count: int) -> np.ndarray:

@@ -23,6 +23,17 @@ struct PythonPolicy::State {
                    .network = &context.network,
                    .period_s = context.period.value}) {}
 
+    /// Adds to the error what a reader needs to find the lease: action, time and the line that made it.
+    void check(const traffic::Lease& lease, const std::string& place, core::Seconds now) const {
+        try {
+            targets.check(lease);
+        } catch (const python::PartError& error) {
+            throw python::PartError(fmt::format("{} ({} at {:.1f} s{}{})", error.what(),
+                                                traffic::name(lease.action), now.value,
+                                                place.empty() ? "" : "; ", place));
+        }
+    }
+
     const roads::Network& network;
     detail::BelievedWays ways;
     detail::KnownTargets targets;
@@ -44,8 +55,10 @@ void PythonPolicy::act(const traffic::BelievedGraph& belief, std::vector<traffic
     state_->process.ask();
     try {
         const std::size_t before = leases.size();
-        detail::read_leases(state_->process.answer_text(), *name_, belief.time, leases);
-        state_->targets.check(std::span(leases).subspan(before));
+        const std::vector<std::string> places =
+            detail::read_leases(state_->process.answer_text(), *name_, belief.time, leases);
+        for (std::size_t lease = before; lease < leases.size(); ++lease)
+            state_->check(leases[lease], places[lease - before], belief.time);
     } catch (const python::PartError& error) {
         throw python::PartError(fmt::format("{}: {}", *name_, error.what()));
     }

@@ -356,7 +356,7 @@ class FaultTest(FolderCase):
 
     def test_a_number_that_names_nothing_fails_with_what_is_allowed(self) -> None:
         says = {"Row": r"Row: a lease is for vehicle 12345, which was never in a belief \(allowed: belief.vehicles.key\[row\], ",
-                "NoSignal": r"a lease is for signal 77 \(allowed: 0 to 0\)", "NoLink": r"link 99 of signal 0 \(allowed: 0 to \d+\)",
+                "NoSignal": r"a lease is for signal 77 \(allowed: 0 to 0\) \(hold_green at \d+\.\d s; bad.py, line \d+\)", "NoLink": r"link 99 of signal 0 \(allowed: 0 to \d+\)",
                 "NoWay": r"a way over edge 99 \(allowed: 0 to \d+\)"}
         with self.assertWarns(RuntimeWarning):
             results = clearway.run("intersection", [clearway.Condition(name, policy=f"bad.py:{name}") for name in says], seeds=1,
@@ -365,8 +365,19 @@ class FaultTest(FolderCase):
             (failed,) = results.errors.where(condition=name)["message"]
             self.assertRegex(failed, message)
         self.assertEqual(set(results.errors["cause"]), {"python"})
+        (line,) = [number for number, text in enumerate(Path("bad.py").read_text().splitlines(), 1) if "hold_green(77, [99]" in text]
+        self.assertIn(f"bad.py, line {line})", results.errors.where(condition="NoSignal")["message"][0])
         with self.assertRaisesRegex(ValueError, "edges is empty"):
             clearway.Lease.take_route(1, [])
+
+    def test_a_keyword_that_no_lease_has_is_told_with_the_one_that_is_meant(self) -> None:
+        with self.assertRaisesRegex(TypeError, r"^Lease.hold_green\(\) has no keyword 'duration'. Did you mean 'lasting_s'\?$"):
+            clearway.Lease.hold_green(0, [0], duration=5)
+        with self.assertRaisesRegex(TypeError, "'lane'. Did you mean 'lane_number'"):
+            clearway.Lease.change_lane(1, lane=0)
+        with self.assertRaisesRegex(TypeError, r"has no keyword 'x'; it has vehicle, serves, lasting_s, priority, reason"):
+            clearway.Lease.pass_red(1, x=0)
+        self.assertEqual(clearway.Lease.pass_red(1), clearway.Lease.pass_red(1), "wherever they were made")
 
     def write_moody(self, *more: str) -> Path:
         """A policy that changes its own file, and does ``more``, when it first acts."""

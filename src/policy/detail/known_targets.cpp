@@ -1,6 +1,6 @@
 #include "policy/detail/known_targets.hpp"
 
-#include <vector>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -25,12 +25,10 @@ void KnownTargets::see(const traffic::BelievedGraph& belief) {
         vehicles_.insert(emergency.key.value);
 }
 
-void KnownTargets::check(std::span<const traffic::Lease> leases) const {
-    for (const traffic::Lease& lease : leases) {
-        if (const auto* vehicle = std::get_if<core::VehicleKey>(&lease.target)) check(*vehicle);
-        if (const auto* signal = std::get_if<core::SignalIndex>(&lease.target)) check(*signal, lease.action);
-        if (const auto* way = std::get_if<traffic::TakeRoute>(&lease.action)) check(*way);
-    }
+void KnownTargets::check(const traffic::Lease& lease) const {
+    if (const auto* vehicle = std::get_if<core::VehicleKey>(&lease.target)) check(*vehicle);
+    if (const auto* signal = std::get_if<core::SignalIndex>(&lease.target)) check(*signal, lease.action);
+    if (const auto* way = std::get_if<traffic::TakeRoute>(&lease.action)) check(*way);
 }
 
 void KnownTargets::check(core::VehicleKey vehicle) const {

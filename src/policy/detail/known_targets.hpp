@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <unordered_set>
 
 #include "roads/network.hpp"
@@ -18,8 +17,8 @@ class KnownTargets {
     explicit KnownTargets(const roads::Network& network) : network_(network) {}
 
     void see(const traffic::BelievedGraph& belief);
-    /// Throws python::PartError, without the part's name, for the first lease of another target.
-    void check(std::span<const traffic::Lease> leases) const;
+    /// Throws python::PartError, without the part's name, for a lease of another target.
+    void check(const traffic::Lease& lease) const;
 
   private:
     void check(core::VehicleKey vehicle) const;

@@ -106,18 +106,22 @@ const std::string& kept_text(const std::string& text) {
     return *texts.insert(text).first;
 }
 
-void read_leases(const std::string& answer, const std::string& policy, core::Seconds now,
-                 std::vector<traffic::Lease>& leases) {
+std::vector<std::string> read_leases(const std::string& answer, const std::string& policy, core::Seconds now,
+                                     std::vector<traffic::Lease>& leases) {
+    std::vector<std::string> places;
     try {
         const Json rows = Json::parse(answer);
         if (!rows.is_array()) throw std::invalid_argument("it is no list");
-        for (const Json& row : rows)
+        for (const Json& row : rows) {
             leases.push_back(lease_of(row, policy, now));
+            places.push_back(row.value("place", std::string()));
+        }
     } catch (const Json::exception& error) {
         throw refused(error.what());
     } catch (const std::invalid_argument& error) {
         throw refused(error.what());
     }
+    return places;
 }
 
 }  // namespace clearway::policy::detail
