@@ -132,6 +132,11 @@ std::string response_word(const MaybeEstimate& difference, Better better) {
 }
 
 void append_measure(const ScenarioFacts& scenario, const MeasureInfo& measure, std::string& text) {
+    if (std::ranges::none_of(scenario.conditions, [&](const ConditionFacts& condition) {
+            return condition.value(measure.measure) || condition.difference(measure.measure) ||
+                   is_void_for_lost(condition, measure.measure);
+        }))
+        return;  // dashes alone
     auto out = std::back_inserter(text);
     fmt::format_to(out, "\n{}, {}\n", measure.title, measure.unit);
     const int decimals = decimals_of(scenario, measure.measure);
@@ -175,7 +180,7 @@ std::string ends_of(const std::string& lines) {
     return text.substr(0, first) + " ... " + text.substr(text.rfind('\n') + 1);
 }
 
-void append_runs(const ScenarioFacts& scenario, std::string& text) {
+void append_failed(const ScenarioFacts& scenario, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
         if (condition.failed.empty()) continue;
         append_wrapped(fmt::format("Failed: {}: {} of {}; first: replication {}: {}", label(condition),
@@ -201,8 +206,13 @@ void append_tails(const ScenarioFacts& scenario, std::string& text) {
 
 using Trips = MaybeEstimate analysis::ResponseTime::*;
 
-void append_trips(const ScenarioFacts& scenario, Trips value, Trips difference, double factor,
-                  std::string& text) {
+void append_trips(const ScenarioFacts& scenario, const std::string& title, Trips value, Trips difference,
+                  double factor, std::string& text) {
+    if (std::ranges::none_of(scenario.conditions, [&](const ConditionFacts& condition) {
+            return condition.response.*value || condition.response.*difference;
+        }))
+        return;
+    text += fmt::format("\n{}\n", title);
     for (const ConditionFacts& condition : scenario.conditions) {
         const analysis::ResponseTime& response = condition.response;
         std::string line = row_start(condition) + split_cell(response.*value, {}, factor);
@@ -214,14 +224,15 @@ void append_trips(const ScenarioFacts& scenario, Trips value, Trips difference, 
 }
 
 /// How many EVs are in time, and how late the slow ones are.
-void append_response(const ScenarioFacts& scenario, std::string& text) {
+void append_response(const ScenarioFacts& scenario, Tables tables, std::string& text) {
     using Response = analysis::ResponseTime;
     if (scenario.response_threshold_s <= 0.0) return;
     constexpr double percent = 100.0;
-    text += "\nEV response time, 90th percentile, s\n";
-    append_trips(scenario, &Response::percentile_90_s, &Response::percentile_90_difference_s, 1.0, text);
-    fmt::format_to(std::back_inserter(text), "\nEV trips within {:g} s, %\n", scenario.response_threshold_s);
-    append_trips(scenario, &Response::in_time, &Response::in_time_difference, percent, text);
+    if (tables == Tables::all)
+        append_trips(scenario, "EV response time, 90th percentile, s", &Response::percentile_90_s,
+                     &Response::percentile_90_difference_s, 1.0, text);
+    append_trips(scenario, fmt::format("EV trips within {:g} s, %", scenario.response_threshold_s),
+                 &Response::in_time, &Response::in_time_difference, percent, text);
 }
 
 /// How signals served EVs, a line for each condition that asked them.
@@ -323,15 +334,17 @@ void append_verdicts(const ScenarioFacts& scenario, Tables tables, std::string& 
 
 void append_measures(const ScenarioFacts& scenario, Tables tables, std::string& text) {
     const bool has_emergency = emergency_vehicles(scenario) > 0;
-    fmt::format_to(std::back_inserter(text), "\n{:<{}}{:>7}  {:<14} {:>7}  {:<14} {}\n{:-<{}}\n",
-                   "Measure, condition", label_width, "mean", "95 % interval", "diff.", "95 % interval",
-                   "effect", "", page_width);
+    std::string rows;
     for (const MeasureInfo& measure : measures()) {
         const bool wanted = tables == Tables::all || is_essential(measure.measure);
         if (wanted && (has_emergency || !is_about_emergency(measure)))
-            append_measure(scenario, measure, text);
+            append_measure(scenario, measure, rows);
     }
-    if (has_emergency) append_response(scenario, text);
+    if (has_emergency) append_response(scenario, tables, rows);
+    if (!rows.empty())
+        fmt::format_to(std::back_inserter(text), "\n{:<{}}{:>7}  {:<14} {:>7}  {:<14} {}\n{:-<{}}\n{}",
+                       "Measure, condition", label_width, "mean", "95 % interval", "diff.", "95 % interval",
+                       "effect", "", page_width, rows);
     if (tables == Tables::all && has_emergency) append_tails(scenario, text);
     if (tables == Tables::all) append_signals(scenario, text);
 }
@@ -340,7 +353,6 @@ void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& 
     append_head(scenario, text);
     append_wrapped(coarse_step_sentence(scenario.step_length_s), text);
     append_wrapped(incidents_sentence(scenario, Script::plain), text);
-    append_runs(scenario, text);
     if (const std::string caption = published_caption(scenario); !caption.empty()) {
         text += fmt::format("\n{}\n", printable(caption));
         append_published_table(scenario, text);
@@ -352,7 +364,8 @@ void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& 
     const std::string wide = wide_edges_sentence(scenario);
     if (tables == Tables::all && !wide.empty()) append_wrapped(wide, text);
     if (tables == Tables::all) append_leases(scenario, text);
-    append_verdicts(scenario, tables, text);  // last, where a terminal shows it
+    append_failed(scenario, text);  // last, where a terminal shows them
+    append_verdicts(scenario, tables, text);
 }
 
 /// What the words of the tables mean.

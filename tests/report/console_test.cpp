@@ -152,7 +152,20 @@ TEST(ConsoleTables, survive_a_condition_whose_runs_all_failed) {
     const std::string text = console_tables(study);
     EXPECT_THAT(text, HasSubstr("broken: 2 of 2 runs failed; no verdict: no complete pair of runs."));
     EXPECT_THAT(text, HasSubstr("Failed: broken: 2 runs of 2"));
+    EXPECT_GT(text.find("Failed: broken"), text.find("Time loss, others")) << "where a terminal shows it";
     EXPECT_THAT(text, Not(HasSubstr("nan")));
+}
+
+TEST(ConsoleTables, leave_out_what_has_dashes_alone) {
+    StudyFacts study = tests::study({"merge"});
+    for (ConditionFacts& condition : study.scenarios[0].conditions)
+        tests::value(condition, primary) = tests::difference(condition, primary) = {};
+    EXPECT_THAT(console_tables(study),
+                AllOf(Not(HasSubstr("EV travel time, all, s")), HasSubstr("Time loss, others, s")));
+    for (ConditionFacts& condition : study.scenarios[0].conditions)
+        for (const MeasureInfo& measure : measures())
+            tests::value(condition, measure.measure) = tests::difference(condition, measure.measure) = {};
+    EXPECT_THAT(console_tables(study), Not(HasSubstr("Measure, condition")));
 }
 
 TEST(ConsoleTables, say_emergency_vehicle_before_they_say_ev) {
@@ -304,7 +317,9 @@ StudyFacts study_with_response() {
 }
 
 TEST(ConsoleTables, show_response_times_and_the_share_in_time) {
-    const std::string text = console_tables(study_with_response());
+    EXPECT_THAT(console_tables(study_with_response(), Tables::essential),
+                AllOf(Not(HasSubstr("90th percentile")), HasSubstr("\nEV trips within 85 s, %\n")));
+    const std::string text = console_tables(study_with_response(), Tables::all);
     EXPECT_THAT(text, HasSubstr("\nEV response time, 90th percentile, s\n"));
     EXPECT_THAT(text, HasSubstr("92.0  [88.0, 99.0]"));
     EXPECT_THAT(text, HasSubstr("-21.5  [-30.0, -14.0] better\n"));
