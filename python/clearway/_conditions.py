@@ -49,6 +49,15 @@ class Conditions:
             titles.setdefault(one["title"], set()).add(one["condition"])
         return titles
 
+    def title_of(self, name: str) -> str:
+        """What tables call a condition that factors made; the name of another one, and where there is no title of its own."""
+        if "+" not in name:
+            return name
+        try:
+            return next((title for title, names in self.titles.items() if names == {name}), name)
+        except _program.ClearwayError:  # nothing to compare yet
+            return name
+
     def require_scenario(self, name: Any) -> None:
         if name not in self.scenarios:
             there = _program.there_are(name, self.scenarios, "scenario", 'set(results.runs["scenario"])')

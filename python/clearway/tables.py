@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 SHOWN_ROWS = 10
 #: Columns that say which run a row is of.
 _KEYS = ("scenario", "condition", "replication")
+#: Columns for which a table is looked at: they are shown before others, and before what else says which run a row is of.
+_TELLING = ("cause", "message", "outcome", "reason", "leases", "action", "policy")
 #: What a condition is made of, which is no column where it is no factor.
 _OF_CONDITIONS = ("policy", "failure", "predictor", "model", "dispatch")
 
@@ -138,6 +140,10 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
         condition's name."""
         keys = self._keys()
         others = [name for name in self._columns if name not in keys]
+        telling = [name for name in _TELLING if name in others] if {"reason", "message"} & set(others) else []
+        if telling:
+            others = [name for name in others if name not in telling]
+            keys = ["condition", *telling, *(name for name in keys if name != "condition")]
         tells = {name: self._differs(name) and not ("." in name and "condition" in keys) for name in others}
         return [*keys, *(name for name in others if tells[name]), *(name for name in others if not tells[name])]
 
@@ -145,7 +151,8 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
         return len(set(map(_cell, self._columns[name][:1000]))) > 1
 
     def __repr__(self) -> str:
-        """The first rows: keys, then as many columns as the terminal is wide, and how many are left out."""
+        """The first rows: keys, then as many columns as the terminal is wide, and how many are left out. Conditions that factors
+        made are shown by their titles, which ``where`` takes, too."""
         if not self._columns:
             return "<Table without columns>"
         order = [*self._keys(), *(name for name in self._asked if name not in _KEYS)] if self._asked else self._by_weight()
@@ -160,7 +167,10 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
         left = width = shutil.get_terminal_size().columns
         shown: dict[str, list[str]] = {}
         for name in order:
-            cells = _lined(name, self._columns[name][:SHOWN_ROWS], max(12, width // 2 - 6))
+            array = self._columns[name][:SHOWN_ROWS]
+            if name == "condition" and self._conditions is not None:
+                array = np.array([self._conditions.title_of(str(value)) for value in array], dtype=str)
+            cells = _lined(name, array, max(12, width // 2 - 6))
             needed = len(cells[0]) + 2 * bool(shown)
             if needed <= left or name in self._asked or not shown:
                 shown[name] = cells

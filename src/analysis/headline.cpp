@@ -1,6 +1,7 @@
 #include "analysis/headline.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -29,7 +30,8 @@ std::optional<double> value_of(const results::RunRecord& run, const results::Run
 
 }  // namespace
 
-Headline::Headline(const results::Store& store) : store_(store) {
+Headline::Headline(const results::Store& store, core::Settings titles)
+    : store_(store), titles_(std::move(titles)) {
     choose();
     for (std::uint32_t replication = 0; replication < store.manifest().replications; ++replication)
         open_.insert(replication);
@@ -88,7 +90,9 @@ std::string Headline::text() const {
     std::string text = fmt::format("EV travel time {} s", mean);
     if (now->interval && now->n >= fewest_for_interval)
         text += fmt::format(" [{:.1f}, {:.1f}]", now->interval->low, now->interval->high);
-    text += fmt::format(", n {}: {} {}", now->n, scenario_, condition_);
+    const auto title = titles_.find(condition_);
+    text +=
+        fmt::format(", n {}: {} {}", now->n, scenario_, title == titles_.end() ? condition_ : title->second);
     if (objections_.on_emergency()) text += "; " + emergency_objections(objections_);
     return text;
 }

@@ -7,6 +7,7 @@
 
 #include "analysis/estimate.hpp"
 #include "analysis/objections.hpp"
+#include "core/settings.hpp"
 #include "results/store.hpp"
 
 namespace clearway::analysis {
@@ -16,7 +17,8 @@ namespace clearway::analysis {
 /// first condition. Each pair of runs is read once.
 class Headline {
   public:
-    explicit Headline(const results::Store& store);
+    /// `titles` of conditions, by name, are what `text` calls them.
+    explicit Headline(const results::Store& store, core::Settings titles = {});
 
     /// Reads what has been completed since the last call. Throws core::InputError for a damaged record.
     void refresh();
@@ -36,6 +38,7 @@ class Headline {
     bool read(std::uint32_t replication);
 
     results::Store store_;
+    core::Settings titles_;
     std::string scenario_;
     std::string condition_;
     std::string baseline_;

@@ -11,8 +11,11 @@
 
 #include "campaign/detail/run_cost.hpp"
 #include "core/counted.hpp"
+#include "core/error.hpp"
 #include "core/terminal.hpp"
+#include "experiment/code_parts.hpp"
 #include "experiment/settings.hpp"
+#include "report/read_facts.hpp"
 #include "results/store.hpp"
 #include "study/reuse.hpp"
 
@@ -119,7 +122,9 @@ std::string precision_text(const results::PrecisionTarget& target) {
 }
 
 std::string policy_of(const experiment::ConditionSpec& condition) {
-    std::vector<std::string> means = condition.policies;
+    std::vector<std::string> means;
+    for (const std::string& word : condition.policies)
+        means.push_back(experiment::part_called(word).value_or(word));
     if (condition.bluelight == traffic::BlueLight::on) means.emplace_back("bluelight");
     if (condition.rerouting_s > 0.0)
         means.push_back(fmt::format("rerouting every {:g} s{}", condition.rerouting_s,
@@ -134,10 +139,11 @@ std::string policy_of(const experiment::ConditionSpec& condition) {
            (is_checked ? "" : ", safety checks off (!)") + (settings.empty() ? "" : ", " + settings);
 }
 
-Table table_of(const std::vector<Cell>& cells) {
+Table table_of(const std::vector<Cell>& cells, const core::Settings& titles) {
     Table table{"cells",
                 {{"scenario", "scenario"},
-                 {"condition", "condition"},
+                 {"condition", ""},
+                 {"", "condition"},
                  {"traffic_model", "traffic"},
                  {"failure", ""},
                  {"settings", ""},
@@ -156,8 +162,9 @@ Table table_of(const std::vector<Cell>& cells) {
     for (const Cell& cell : cells) {
         const experiment::ConditionSpec& condition = cell.condition;
         table.rows.push_back(
-            {{cell.scenario, condition.name, experiment::name(condition.traffic_model), condition.failure,
-              condition.settings, condition.model_file, condition.predictor, condition.policies,
+            {{cell.scenario, condition.name, titles.at(condition.name),
+              experiment::name(condition.traffic_model), condition.failure, condition.settings,
+              condition.model_file, condition.predictor, condition.policies,
               experiment::name(condition.safety_checks), cell.runs, cell.complete, cell.reused,
               fmt::format("{}, {}, {}", condition.failure, condition.predictor, policy_of(condition)),
               core::to_json_value(cell.cost.wall_s), cell.cost.disk_bytes,
@@ -196,7 +203,7 @@ Printout plan_printout(const study::Plan& plan, const RunOptions& options) {
              {"reused_runs", rest.reused},
              {"estimated_time_left_s", core::to_json_value(rest.wall_s)},
              {"estimated_disk_left_bytes", rest.disk_bytes}},
-            {table_of(cells)},
+            {table_of(cells, report::titles_of(plan.manifest.conditions, plan.titles))},
             text};
 }
 
@@ -205,8 +212,14 @@ core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, 
     study::Plan plan = plan_for(config, options);
     study::check_roads(plan);
     study::keep_shard(plan, shard);
-    results::Store::require_fits(options.folder, plan.manifest);
+    std::optional<core::InputError> refusal;
+    try {
+        results::Store::require_fits(options.folder, plan.manifest);
+    } catch (const core::InputError& error) {
+        refusal = error;  // the plan is wanted all the same
+    }
     print(plan_printout(plan, options), options.publish.printing);
+    if (refusal) throw *refusal;
     return core::ExitCode::ok;
 }
 

@@ -78,7 +78,7 @@ std::unique_ptr<python::Nursery> nursery_for(const study::Plan& plan) {
 /// The headline of a study while it runs, read again every two seconds.
 class PresentEstimate {
   public:
-    explicit PresentEstimate(const results::Store& store) : headline_(store) {}
+    explicit PresentEstimate(const results::Store& store) : headline_(store, report::titles_of(store)) {}
 
     /// `done`: runs that have ended; all of them are read at the end.
     const std::string& text(std::size_t done, std::size_t total) {
@@ -266,7 +266,11 @@ results::Store prepare_run_folder(const study::Plan& plan, const RunOptions& opt
         study::keep_controls(store, plan.controls);
         experiment::keep_code(plan.manifest.conditions, store.folder());
         if (!growth.empty() && !plan.manifest.precision)
-            fmt::print(stderr, "clearway: {}: extended {}\n", options.folder.string(), growth);
+            fmt::print(
+                stderr,
+                "clearway: {0}: extended {1}. It keeps what was added; a study with less takes its runs "
+                "from here: --out NEW --reuse {0}\n",
+                options.folder.string(), growth);
         if (!options.reused.empty()) take_over(store, options.reused);
         const auto trainings = core::shipped(std::filesystem::path("models") / "training");
         if (trainings && learns(plan)) study::copy_trainings(*trainings, store);

@@ -16,6 +16,7 @@
 #include "cli/verb.hpp"
 #include "core/counted.hpp"
 #include "core/progress.hpp"
+#include "report/read_facts.hpp"
 #include "study/merge.hpp"
 
 namespace clearway::cli {
@@ -80,7 +81,7 @@ Json json_of(const analysis::Headline& headline) {
             {"n", estimate->n}};
 }
 
-campaign::Table table_of(const std::vector<CellStatus>& cells) {
+campaign::Table table_of(const std::vector<CellStatus>& cells, const core::Settings& titles) {
     campaign::Table table{"cells",
                           {{"scenario", "scenario"},
                            {"condition", ""},
@@ -92,8 +93,9 @@ campaign::Table table_of(const std::vector<CellStatus>& cells) {
                           {}};
     for (const CellStatus& cell : cells) {
         const bool is_unsafe = cell.safety_checks == traffic::SafetyChecks::off;
-        table.rows.push_back({{cell.scenario, cell.condition, cell.condition + (is_unsafe ? " (!)" : ""),
-                               experiment::name(cell.safety_checks), cell.runs, cell.complete, cell.failed}});
+        table.rows.push_back(
+            {{cell.scenario, cell.condition, titles.at(cell.condition) + (is_unsafe ? " (!)" : ""),
+              experiment::name(cell.safety_checks), cell.runs, cell.complete, cell.failed}});
     }
     return table;
 }
@@ -111,7 +113,8 @@ std::string text_of(const StudyStatus& status, const std::string& headline) {
     return text + "\n" + (headline.empty() ? "" : headline + "\n");
 }
 
-campaign::Printout printout_of(const StudyStatus& status, const analysis::Headline* headline) {
+campaign::Printout printout_of(const StudyStatus& status, const analysis::Headline* headline,
+                               const core::Settings& titles) {
     return {{{"folder", status.folder.string()},
              {"state", study::name(status.state)},
              {"holder", status.holder.empty() ? Json(nullptr) : Json(status.holder)},
@@ -120,23 +123,27 @@ campaign::Printout printout_of(const StudyStatus& status, const analysis::Headli
              {"failed_runs", status.failed},
              {"time_left_s", core::to_json_value(status.time_left_s)},
              {"headline", headline == nullptr ? Json(nullptr) : json_of(*headline)}},
-            {table_of(status.cells)},
+            {table_of(status.cells, titles)},
             text_of(status, headline == nullptr ? "" : headline->text())};
 }
 
 core::ExitCode print_status(const std::filesystem::path& path, Printing printing) {
     const std::vector<std::filesystem::path> folders = study::run_folders(path);
     std::vector<StudyStatus> parts;
-    for (const std::filesystem::path& folder : folders)
+    core::Settings titles;
+    for (const std::filesystem::path& folder : folders) {
         parts.push_back(study::read_status(folder));
+        titles.merge(report::titles_of(results::Store::open(folder)));
+    }
     const StudyStatus status = sum_of(parts, path);
     // Conditions of a pair may be in different shards, so shards have no estimate of their own.
     std::optional<analysis::Headline> headline;
     if (folders.size() == 1) {
-        headline.emplace(results::Store::open(folders.front()));
+        const results::Store store = results::Store::open(folders.front());
+        headline.emplace(store, report::titles_of(store));
         headline->refresh();
     }
-    campaign::print(printout_of(status, headline ? &*headline : nullptr), printing);
+    campaign::print(printout_of(status, headline ? &*headline : nullptr, titles), printing);
     return core::ExitCode::ok;
 }
 

@@ -316,6 +316,22 @@ Titles titles_of(const results::Store& store, const analysis::Summary& summary,
     return found;
 }
 
+core::Settings titles_of(const std::vector<experiment::ConditionSpec>& conditions,
+                         const core::Settings& given) {
+    std::vector<ConditionFacts> titled;
+    for (const experiment::ConditionSpec& condition : conditions)
+        titled.emplace_back().condition = condition;
+    detail::ConditionTitles(given).give(titled);
+    core::Settings titles;
+    for (const ConditionFacts& condition : titled)
+        titles[condition.name()] = condition.title;
+    return titles;
+}
+
+core::Settings titles_of(const results::Store& store) {
+    return titles_of(store.manifest().conditions, detail::titles_in(store.folder() / "titles.json"));
+}
+
 StudyFacts facts_of(const results::Store& store, const results::Results& results,
                     const analysis::Summary& summary, double least_relevant_s) {
     StudyFacts study;

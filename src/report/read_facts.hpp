@@ -3,8 +3,11 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "analysis/summary.hpp"
+#include "core/settings.hpp"
+#include "experiment/condition.hpp"
 #include "report/comparison.hpp"
 #include "report/facts.hpp"
 #include "results/store.hpp"
@@ -39,6 +42,12 @@ struct Titles {
 };
 Titles titles_of(const results::Store& store, const analysis::Summary& summary,
                  const analysis::Reference& reference);
+
+/// What conditions are called, by name, with titles that a study file gave (study::StudyConfig::titles).
+core::Settings titles_of(const std::vector<experiment::ConditionSpec>& conditions,
+                         const core::Settings& given);
+/// The same of a run folder.
+core::Settings titles_of(const results::Store& store);
 
 /// Whether an SVG file may go into the page as it is: one <svg> element without scripts, event handlers,
 /// foreign elements or external resources. Run folders may come from others, so an unsafe picture is left

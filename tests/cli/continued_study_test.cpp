@@ -111,6 +111,10 @@ TEST_F(ContinuedStudyTest, a_study_with_a_changed_condition_takes_over_the_runs_
     write("my.toml", study("corridor"));
     EXPECT_THAT(clearway({"study", "my.toml"}).err,
                 AllOf(HasSubstr("different conditions"), HasSubstr("--reuse runs/mine")));
+    const Ended planned = clearway({"study", "my.toml", "--dry-run"});
+    EXPECT_EQ(planned.code, clearway({"study", "my.toml"}).code);
+    EXPECT_THAT(planned.err, HasSubstr("holds another study: different conditions"));
+    EXPECT_THAT(planned.out, HasSubstr("0 complete in runs/mine")) << "the plan is shown all the same";
     const Ended refused = clearway({"study", "my.toml", "--out", "runs/new", "--reuse", "nowhere"});
     EXPECT_EQ(refused.code, 3) << refused.err;
     EXPECT_FALSE(std::filesystem::exists(folder() / "runs/new/manifest.json"));
@@ -227,7 +231,8 @@ TEST_F(ContinuedStudyTest, a_condition_that_is_added_to_a_study_keeps_the_runs_o
     write("my.toml", study("\"graph_simulation\", "));
     const Ended extended = clearway({"study", "my.toml"});
     ASSERT_EQ(extended.code, 0) << extended.err;
-    EXPECT_THAT(extended.err, AllOf(HasSubstr("extended from 2 to 3 conditions"), HasSubstr("6/6")));
+    EXPECT_THAT(extended.err, AllOf(HasSubstr("extended from 2 to 3 conditions"), HasSubstr("6/6"),
+                                    HasSubstr("--out NEW --reuse runs/mine")));
     EXPECT_EQ(std::filesystem::last_write_time(folder() / "runs/mine/runs/line/corridor/00001/run.json"),
               made);
     ASSERT_EQ(clearway({"study", "my.toml", "--out", "whole"}).code, 0);

@@ -104,6 +104,23 @@ class ResultsTest(FolderCase):
         self.assertLessEqual(max(map(len, lines[:-1])), columns)
         return lines
 
+    def test_reasons_and_messages_are_shown_and_conditions_by_their_titles(self) -> None:
+        class Titles:
+            def title_of(self, name: str) -> str:
+                return "Ours, B10" if name == "p+failure=B10+policy=my.py_Mine" else name
+        rows = 12
+        keys = {"scenario": np.array(["intersection"] * rows), "condition": np.array(["p+failure=B10+policy=my.py_Mine", "baseline"] * 6),
+                "replication": np.arange(rows)}
+        leases = clearway.Table({**keys, "policy": np.array(["Mine"] * rows), "action": np.array(["hold_green", "change_lane"] * 6),
+                                 "outcome": np.array(["refused"] * rows), "reason": np.array(["not_controllable", ""] * 6),
+                                 "leases": np.arange(rows)}, conditions=Titles())  # type: ignore[arg-type]
+        names, first, *_ = self.printed(leases)
+        self.assertEqual(names.split()[:4], ["condition", "outcome", "reason", "leases"])
+        self.assertTrue(first.startswith("Ours, B10  "), first)
+        self.assertEqual(leases["condition"][0], "p+failure=B10+policy=my.py_Mine")
+        errors = clearway.Table({**keys, "cause": np.array(["python"] * rows), "message": np.array(["TypeError: " + "x" * 90] * rows)})
+        self.assertEqual(self.printed(errors)[0].split(), ["condition", "cause", "message"])
+
     def test_a_printed_table_shows_rows_as_wide_as_the_terminal(self) -> None:
         runs, metric = self.results.runs, "emergency_restricted_travel_time_s"
         names, first, *others, last = self.printed(runs.head())

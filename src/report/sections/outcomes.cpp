@@ -59,7 +59,7 @@ void write_failures(const ScenarioFacts& scenario, Writer& writer) {
         writer.markup(fmt::format("<details open><summary>{}, {}: {} failed</summary>\n",
                                   escaped(scenario.name), condition_label(condition),
                                   counted(condition.failed.size(), "run")));
-        writer.table({fmt::format("failed-{}-{}", scenario.name, condition.name()),
+        writer.table({fmt::format("failed-{}-{}", scenario.name, condition.title),
                       fmt::format("{}, {}: failed runs", scenario.name, condition.label()),
                       std::move(table)});
         if (condition.failed.size() > shown_failures)

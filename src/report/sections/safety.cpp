@@ -38,7 +38,7 @@ void safety_section(const StudyFacts& study, Writer& writer) {
         for (const ConditionFacts& condition : scenario.conditions) {
             if (condition.complete_runs == 0) continue;
             writer.open_fold(condition_label(condition));
-            writer.table({fmt::format("safety-{}-{}", scenario.name, condition.name()),
+            writer.table({fmt::format("safety-{}-{}", scenario.name, condition.title),
                           fmt::format("{}, {}: safety, comfort and flow", scenario.name, condition.label()),
                           table_of(condition)});
             writer.close_fold();
