@@ -286,7 +286,7 @@ def _action(make: F) -> F:
                 raise TypeError(str(no_keyword(f"Lease.{make.__name__}", name, known)))
         lease: Lease = make(*words, **given)
         caller = sys._getframe(1)
-        object.__setattr__(lease, "place", f"{os.path.basename(caller.f_code.co_filename)}, line {caller.f_lineno}")
+        object.__setattr__(lease, "_place", f"{os.path.basename(caller.f_code.co_filename)}, line {caller.f_lineno}")
         return lease
     return call  # type: ignore[return-value]
 
@@ -298,11 +298,11 @@ class Lease(Told, metaclass=_Actions):
     Make one with the class methods; ``vehicle`` is a key (``belief.vehicles.key[row]``) or an ``EmergencyVehicle``, ``serves`` the
     emergency vehicle for which it is, ``reason`` a few words for tables. Whether it can be carried out is judged as for every
     policy: what cannot is counted under its reason in ``results.leases`` (a vehicle that is gone: ``vehicle_gone``). What no lease
-    can ever be, as a speed of NaN, raises here. ``fields`` holds what was asked for, ``place`` the line that made the lease.
+    can ever be, as a speed of NaN, raises here. ``fields`` holds what was asked for.
     """
 
     fields: dict[str, Any]
-    place: str = dataclasses.field(default="", compare=False, repr=False)
+    _place: str = dataclasses.field(default="", compare=False, repr=False)
 
     def __post_init__(self) -> None:
         if type(self.fields) is not _Fields:
@@ -479,7 +479,7 @@ def checked_leases(answer: Any) -> list[dict[str, Any]]:
     for lease in leases:
         if not isinstance(lease, Lease):
             raise TypeError(f"act returned {lease!r} in its list, which is not a clearway.Lease")
-    return [{**lease.fields, "place": lease.place} for lease in leases]
+    return [{**lease.fields, "place": lease._place} for lease in leases]
 
 
 def checked_probabilities(answer: Any, count: int) -> np.ndarray:

@@ -88,15 +88,32 @@ bool counts_runs(const std::string& word) {
            words.end();
 }
 
-/// `Did you mean 'a', 'b' or 'c'?` with candidates that contain the word, three at most; empty without one.
+/// The words between underscores; what users call an EV is `emergency` in names.
+std::vector<std::string> parts_of(const std::string& word) {
+    std::vector<std::string> parts;
+    for (std::size_t start = 0; start <= word.size();) {
+        const std::size_t end = std::min(word.find('_', start), word.size());
+        const std::string part = word.substr(start, end - start);
+        if (!part.empty()) parts.push_back(part == "ev" ? "emergency" : part);
+        start = end + 1;
+    }
+    return parts;
+}
+
+/// `Did you mean 'a', 'b' or 'c'?` with candidates that contain all parts of the word, three at most; empty
+/// without one.
 std::string question_of_parts(const std::string& word, const std::vector<std::string>& candidates) {
     constexpr std::size_t least_letters = 4;
     constexpr std::size_t most_candidates = 3;
+    const std::vector<std::string> parts = parts_of(word);
     std::vector<std::string> found;
-    for (const std::string& candidate : candidates)
-        if (word.size() >= least_letters && candidate.find(word) != std::string::npos &&
-            found.size() < most_candidates)
+    for (const std::string& candidate : candidates) {
+        const bool has_all = !parts.empty() && std::ranges::all_of(parts, [&](const std::string& part) {
+            return candidate.find(part) != std::string::npos;
+        });
+        if (word.size() >= least_letters && has_all && found.size() < most_candidates)
             found.push_back("'" + candidate + "'");
+    }
     return found.empty() ? "" : fmt::format("Did you mean {}?", fmt::join(found, " or "));
 }
 

@@ -366,7 +366,10 @@ std::vector<core::Problem> check_setting(const std::string& name, const std::str
     if (std::ranges::find(parts, component) != parts.end()) return {};
     if (known == nullptr) {
         std::vector<std::string> all = component_names();
-        const std::string cure = question(name, all);
+        // Of a part in Python any setting may be meant; its own are known where it is loaded.
+        const std::string cure = !component.empty() && parts.size() == 1 && !field.empty()
+                                     ? fmt::format("Did you mean '{}.{}'?", parts.front(), field)
+                                     : question(name, all);
         all.insert(all.end(), parts.begin(), parts.end());
         return {{where + name, "is unknown",
                  "COMPONENT.NAME, the component being one of " + core::listed(all), cure}};

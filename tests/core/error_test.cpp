@@ -77,6 +77,7 @@ TEST(DidYouMean, NamesWhatContainsTheWordWhereNothingIsNear) {
     EXPECT_EQ(did_you_mean("travel", metrics),
               "Did you mean 'emergency_travel_time_s' or 'others_travel_time_s'?");
     EXPECT_EQ(did_you_mean("tim", metrics, "no"), "no") << "three letters are in too many words";
+    EXPECT_EQ(did_you_mean("ev_time", metrics), "Did you mean 'emergency_travel_time_s'?");
 }
 
 TEST(DidYouMean, PrefersThePartsOfARoadThatWasCut) {

@@ -37,6 +37,13 @@ std::string problems_of(const std::string& name, const std::string& value) {
     return problems_of(condition);
 }
 
+TEST(Settings, of_an_unknown_component_are_taken_for_those_of_the_part_in_python) {
+    const std::vector<core::Problem> found = check_setting("Q.within_m", "80", "--set ", {"Mine"});
+    ASSERT_THAT(found, testing::SizeIs(1));
+    EXPECT_EQ(found[0].cure, "Did you mean 'Mine.within_m'?");
+    EXPECT_THAT(check_setting("Q.within_m", "80", "").at(0).cure, testing::Not(testing::HasSubstr("Mine")));
+}
+
 TEST(Settings, HaveDefaultsThatTheirOwnTablesAllow) {
     std::set<std::string> names;
     for (const Component& component : components()) {

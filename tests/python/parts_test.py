@@ -262,7 +262,7 @@ class SettingsTest(FolderCase):
         said = program("study", "study.toml", "--dry-run", "--out", "runs")
         for share in ("0.2", "0.6"):
             for most in ("1", "2"):
-                self.assertIn(f"mine+share={share}+most={most}", said)
+                self.assertIn(f"mine, most {most}, share {share}", said)
 
     def test_what_does_not_fit_is_told_before_anything_runs(self) -> None:
         for setting, says in (("Slow.shares=1", "Slow.shares is unknown (allowed: arguments of __init__ that have a default: share=1.0"),
@@ -273,7 +273,7 @@ class SettingsTest(FolderCase):
                               ("Slow.share=nan", "Slow.share is 'nan' (allowed: a finite number"),
                               ("Slow.within_m=-inf", "Slow.within_m is '-inf' (allowed: a finite number"),
                               ("Slow.most=1.5", "Slow.most is '1.5' (allowed: a whole number"), ("Slow.on=1", "allowed: true, false"),
-                              ("Fast.share=1", ", Slow). `clearway list settings`")):
+                              ("Fast.share=1", ", Slow). Did you mean 'Slow.share'?")):
             ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "slow.py:Slow", "--set", setting,
                                     "--out", "runs"], capture_output=True, text=True, check=False)
             self.assertEqual(ended.returncode, 3, setting)

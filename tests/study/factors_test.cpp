@@ -366,8 +366,8 @@ TEST_F(Factors, NeedAConditionToVary) {
 }
 
 TEST_F(Factors, TwiceTheSameValueIsRefusedByName) {
-    const StudyConfig config = read("[factors]\nfailure.dark_share = [0.1, 0.1]\n");
-    EXPECT_THROW(make_plan(config, {"0.1.0", "1.15.0"}, "/out"), core::InputError);
+    EXPECT_THAT(problems("[factors]\nfailure.dark_share = [0.1, 0.3, 0.1]\n"),
+                HasSubstr("factors.failure.dark_share: has the level 0.1 twice"));
 }
 
 class Precision : public testing::Test {

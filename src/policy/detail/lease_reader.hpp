@@ -16,6 +16,6 @@ const std::string& kept_text(const std::string& text);
 /// Throws python::PartError, without the part's name, for an answer of another form, which the package does
 /// not write: user code can reach behind it.
 std::vector<std::string> read_leases(const std::string& answer, const std::string& policy, core::Seconds now,
-                 std::vector<traffic::Lease>& leases);
+                                     std::vector<traffic::Lease>& leases);
 
 }  // namespace clearway::policy::detail

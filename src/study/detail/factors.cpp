@@ -169,6 +169,16 @@ void check_repeated(const std::vector<Factor>& factors, Problems& problems) {
     }
 }
 
+void check_levels(const std::vector<Factor>& factors, Problems& problems) {
+    for (const Factor& factor : factors) {
+        std::set<std::string> seen;
+        for (const FactorValue& value : factor.values)
+            if (!seen.insert(value.text).second)
+                problems.push_back({factor.where, fmt::format("has the level {} twice", value.text),
+                                    "each level once", "Remove one of them"});
+    }
+}
+
 /// A factor on a key would change nothing where another factor is an override of that key.
 void check_replaced(const std::vector<Factor>& factors, Problems& problems) {
     for (const Factor& factor : factors) {
@@ -309,6 +319,7 @@ Factors read_factors(const toml::table& table, const SettingsPlace& settings, Pr
     drop_unknown_keys(factors.list, problems);
     check_names(factors.list, settings, problems);
     check_repeated(factors.list, problems);
+    check_levels(factors.list, problems);
     check_replaced(factors.list, problems);
     check_design(factors, problems);
     return factors;
