@@ -32,6 +32,7 @@ struct FiguresArguments {
     std::string against;  ///< Empty: the baselines.
     double least_relevant_s = report::usual_least_relevant_s;
     Formats formats = Formats::all;
+    report::FigureChoice choice;
 };
 
 constexpr const char* rasteriser = "rsvg-convert";
@@ -68,6 +69,9 @@ core::ExitCode write_equipment(const FiguresArguments& arguments) {
     if (!arguments.against.empty())
         throw core::InputError({"--against", "is given for a folder of clearway equip",
                                 "a folder of run or study", "Leave it out"});
+    if (!arguments.choice.only.empty())
+        throw core::InputError({"--only", "is given for a folder of clearway equip",
+                                "a folder of run or study", "Leave it out"});
     std::vector<std::filesystem::path> drawings;
     core::claim(arguments.output, report::figure_folder());
     for (const char* const name : {"curve.svg", "map.svg"}) {
@@ -96,7 +100,7 @@ core::ExitCode write(const FiguresArguments& arguments) {
     const report::StudyFacts facts = report::read_facts(
         arguments.folder, arguments.least_relevant_s,
         campaign::reference_from(arguments.against, manifest.conditions, arguments.folder));
-    const report::FigureFiles files = report::write_figures(facts, arguments.output);
+    const report::FigureFiles files = report::write_figures(facts, arguments.output, arguments.choice);
     report::write_index(files, arguments.output, {});
     if (all) {
         const std::vector<std::string> converted = {"pdf", "png"};
@@ -135,6 +139,16 @@ Action configure_figures(App& app) {
     app.add_flag_callback(
            "--svg-only", [arguments] { arguments->formats = Formats::svg; },
            "Write no PDF and no PNG files, which need the program rsvg-convert")
+        .option_text("[off]");
+    app.add_option("--only", arguments->choice.only,
+                   "Figure or table by name, or by what its name begins with: tradeoff, factors, "
+                   "differences, travel-time, map, ...; another word lists those of the folder; may be "
+                   "repeated")
+        .allow_extra_args(false)
+        .option_text("NAME [all]");
+    app.add_flag_callback(
+           "--bare", [arguments] { arguments->choice.words = report::FigureChoice::Words::bare; },
+           "Leave title, seeds and note out of the drawings, for a text that has them in its captions")
         .option_text("[off]");
     return [arguments](const Invocation&) { return write(*arguments); };
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -9,12 +10,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/leftovers.hpp"
 #include "report/detail/figures.hpp"
 #include "report/detail/style.hpp"
 #include "report/detail/table_files.hpp"
 #include "report/sections/sections.hpp"
+#include "report/text.hpp"
 
 namespace clearway::report {
 namespace {
@@ -42,10 +45,66 @@ void remove_former(const fs::path& folder) {
     fs::remove(folder / list_name);
 }
 
+/// Whether `only` names a figure or table, by its whole name or what it begins with.
+bool is_meant(const std::string& only, const std::string& name) {
+    return name == only || name.starts_with(only + "-");
+}
+
+/// Collects the names of all figures and tables.
+class NameWriter : public detail::Writer {
+  public:
+    void markup(std::string_view /*html*/) override {}
+    const std::vector<std::string>& names() const { return names_; }
+
+  private:
+    void put(const Figure& figure) override { names_.push_back(figure.name); }
+    void put(const Table& table) override { names_.push_back(table.name); }
+
+    std::vector<std::string> names_;
+};
+
+template <class Begin>
+void write_sections(const StudyFacts& study, detail::Writer& writer, const Begin& begin) {
+    for (const detail::Section& section : detail::sections()) {
+        if (!section.applies(study)) continue;
+        begin(section.title);
+        section.write(study, writer);
+    }
+}
+
+/// What names begin with that end in the name of a scenario, so that few words list them all.
+std::vector<std::string> stems_of(const std::vector<std::string>& names) {
+    std::vector<std::string> stems;
+    for (const std::string& name : names) {
+        const std::string stem = name.substr(0, name.find('-'));
+        if (std::ranges::find(stems, stem) == stems.end()) stems.push_back(stem);
+    }
+    return stems;
+}
+
+/// Throws core::InputError for names that nothing has.
+void check_only(const StudyFacts& study, const std::vector<std::string>& only) {
+    if (only.empty()) return;
+    NameWriter writer;
+    write_sections(study, writer, [](const char* /*section*/) {});
+    std::vector<core::Problem> problems;
+    for (const std::string& word : only) {
+        const bool is_there = std::ranges::any_of(
+            writer.names(), [&](const std::string& name) { return is_meant(word, name); });
+        if (is_there) continue;
+        std::vector<std::string> known = stems_of(writer.names());
+        const std::string all = core::listed(known);
+        known.insert(known.end(), writer.names().begin(), writer.names().end());
+        problems.push_back({"--only", fmt::format("`{}` names no figure and no table", word),
+                            all + ", or a whole name of index.html", core::did_you_mean(word, known)});
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+}
+
 class FileWriter : public detail::Writer {
   public:
-    FileWriter(const std::filesystem::path& folder, const StudyFacts& study)
-        : folder_(folder), study_(study) {}
+    FileWriter(const std::filesystem::path& folder, const StudyFacts& study, const FigureChoice& choice)
+        : folder_(folder), study_(study), choice_(choice) {}
 
     void begin(const char* section) { section_ = topic_ = section; }
 
@@ -95,16 +154,38 @@ class FileWriter : public detail::Writer {
         }
         return caption;
     }
-    void put(const Figure& figure) override {
+    bool is_chosen(const std::string& name) const {
+        return choice_.only.empty() ||
+               std::ranges::any_of(choice_.only, [&](const auto& only) { return is_meant(only, name); });
+    }
+    /// `; 8 seeds`, where all that a figure shows has as many; by its name.
+    std::string seeds_of(const std::string& name) const {
+        std::set<std::uint64_t> seeds;
+        for (const ScenarioFacts& scenario : study_.scenarios) {
+            if (name.find("-" + plain_name(scenario.name)) != std::string::npos)
+                return "; " + counted(scenario.replications, "seed");
+            seeds.insert(scenario.replications);
+        }
+        return seeds.size() == 1 ? "; " + counted(*seeds.begin(), "seed") : "";
+    }
+    std::string title_of(const Figure& figure) const {
+        return full(figure.caption, figure.name) + seeds_of(figure.name);
+    }
+    std::string drawing_of(const Figure& figure) const {
         const std::string drawing = named(figure.drawing, escaped(study_.reference));
-        files_.drawings.push_back(write(figure.name, ".svg", detail::standalone(drawing)));
+        if (choice_.words == FigureChoice::Words::bare) return detail::standalone(drawing);
+        return detail::standalone(drawing, title_of(figure), named(figure.note, study_.reference));
+    }
+    void put(const Figure& figure) override {
+        if (!is_chosen(figure.name)) return;
+        files_.drawings.push_back(write(figure.name, ".svg", drawing_of(figure)));
         if (!figure.data.rows.empty())
             files_.tables.push_back(write(figure.name, ".csv", detail::to_csv(figure.data)));
-        files_.entries.push_back({section_, figure.name, label(figure.name),
-                                  full(figure.caption, figure.name), named(figure.note, study_.reference),
-                                  true, !figure.data.rows.empty()});
+        files_.entries.push_back({section_, figure.name, label(figure.name), title_of(figure),
+                                  named(figure.note, study_.reference), true, !figure.data.rows.empty()});
     }
     void put(const Table& table) override {
+        if (!is_chosen(table.name)) return;
         files_.tables.push_back(write(table.name, ".csv", detail::to_csv(table.data)));
         Table typeset = table;
         typeset.caption = caption(table.caption);
@@ -115,6 +196,7 @@ class FileWriter : public detail::Writer {
 
     std::filesystem::path folder_;
     const StudyFacts& study_;
+    const FigureChoice& choice_;
     std::string section_;
     std::string topic_;  ///< The latest heading, or the section.
     std::vector<std::string> names_;
@@ -177,15 +259,13 @@ core::OwnFolder figure_folder() {
     return {"clearway export figures", {list_name}};
 }
 
-FigureFiles write_figures(const StudyFacts& study, const std::filesystem::path& folder) {
+FigureFiles write_figures(const StudyFacts& study, const std::filesystem::path& folder,
+                          const FigureChoice& choice) {
+    check_only(study, choice.only);
     remove_former(folder);
     core::make_folder(folder);
-    FileWriter writer(folder, study);
-    for (const detail::Section& section : detail::sections()) {
-        if (!section.applies(study)) continue;
-        writer.begin(section.title);
-        section.write(study, writer);
-    }
+    FileWriter writer(folder, study, choice);
+    write_sections(study, writer, [&](const char* section) { writer.begin(section); });
     FigureFiles files = writer.files();
     files.title = study.title;
     return files;

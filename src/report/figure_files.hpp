@@ -31,11 +31,20 @@ struct FigureFiles {
 /// By what `clearway export figures` knows the folders that it has written.
 core::OwnFolder figure_folder();
 
+/// Which figures and tables are written, and how.
+struct FigureChoice {
+    /// Names, or their beginnings up to a hyphen: `tradeoff` for `tradeoff-city`; none: all.
+    std::vector<std::string> only = {};
+    /// Whether a drawing has its title, seeds and note in it; a paper has them in its caption.
+    enum class Words { framed, bare } words = Words::framed;
+};
+
 /// Writes every figure of the report as NAME.svg, on white paper, and its data as NAME.csv; every table as
 /// NAME.csv and NAME.tex. Names are those of the page's downloads. Makes the folder, and removes what an
-/// earlier call has written there. Throws core::InputError for a folder with other content,
-/// core::EnvironmentError when it cannot be written.
-FigureFiles write_figures(const StudyFacts& study, const std::filesystem::path& folder);
+/// earlier call has written there. Throws core::InputError for a folder with other content, and for a name of
+/// `choice` that nothing has; core::EnvironmentError when it cannot be written.
+FigureFiles write_figures(const StudyFacts& study, const std::filesystem::path& folder,
+                          const FigureChoice& choice = {});
 
 /// Writes `index.html` into the folder of the files: every figure and table with its caption and its files,
 /// and the LaTeX that includes a figure. `more` are endings of files that were made of each drawing, such as

@@ -100,6 +100,18 @@ ChangedWay changed_way(const std::string& vehicle, double gain_s) {
     return {vehicle, 0, {0, 2, 4, 7, 18}, {0, 3, 14, 16, 18}, 100.0 + gain_s, 100.0};
 }
 
+TEST(Page, gives_no_colour_to_edges_that_few_vehicles_passed) {
+    StudyFacts study = tests::study({"merge"});
+    std::vector<EdgeTimes>& times = study.scenarios[0].map->times;
+    for (EdgeTimes& one : times)
+        one.passages = 5;
+    const std::string few = page_of(study);
+    EXPECT_EQ(count_of(few, "class=\"way few\""), times.size() + 1) << "and the legend";
+    EXPECT_EQ(count_of(few, "class=\"way better"), 0u);
+    times.front().passages = 6;
+    EXPECT_THAT(page_of(study), HasSubstr("class=\"way better much\""));
+}
+
 TEST(Page, draws_the_ways_that_were_changed_and_one_trip_on_both) {
     StudyFacts study = tests::study({"merge"});
     EXPECT_THAT(page_of(study), Not(HasSubstr("One trip on two ways")));

@@ -161,8 +161,10 @@ TEST(Looks, make_the_condition_of_the_headline_the_most_prominent) {
         EXPECT_EQ(count_of(figure, " lead\" points"), 1u) << id;
     }
     const std::string trade = figure_of(page, "tradeoff-merge");
-    EXPECT_EQ(count_of(trade, "class=\"ring s1\""), 1u);
-    EXPECT_EQ(count_of(trade, "class=\"ring"), 1u);
+    EXPECT_EQ(count_of(trade, "class=\"ring s1\""), 2u) << "around the mark, and in the legend";
+    EXPECT_EQ(count_of(trade, "class=\"ring"), 2u);
+    EXPECT_THAT(trade, AllOf(HasSubstr(">ring: headline, Graph made by simulation attributes<"),
+                             HasSubstr(">grey: below 1.0 s, does not count<"), HasSubstr("up is better")));
     EXPECT_EQ(count_of(figure_of(page, "differences-merge"), "label lead"), 3u) << "once for each measure";
 }
 

@@ -63,6 +63,29 @@ TEST(MapCanvas, breaks_a_long_credit_into_two_lines_below_the_scale_bar) {
     EXPECT_GE(number_of(svg, "shipped", " y") - number_of(svg, "Scenarios", " y"), 11.0);
 }
 
+TEST(MapCanvas, writes_the_names_of_stations_in_full_and_the_kind_of_those_without) {
+    RoadMap map = diamond();
+    map.stations = {{map.edges[0].id, "hospital", "Institut Mon\u00e9gasque de M\u00e9decine du Sport"},
+                    {map.edges[1].id, "fire_station", ""}};
+    detail::MapCanvas canvas("t", map);
+    canvas.stations(map);
+    const std::string svg = canvas.finish();
+    EXPECT_THAT(svg, ::testing::AllOf(::testing::HasSubstr(">Institut Mon\u00e9gasque de<"),
+                                      ::testing::HasSubstr(">M\u00e9decine du Sport<"),
+                                      ::testing::HasSubstr(">fire station<"),
+                                      ::testing::Not(::testing::HasSubstr("\u2026"))));
+}
+
+TEST(Grid, writes_intervals_into_cells_that_are_wide_enough_for_them) {
+    using Tone = detail::GridCell::Tone;
+    const std::vector<std::string> names = {"a", "b", "c", "d", "e", "f"};
+    const std::vector<detail::GridCell> cells(6, {"-11.1", Tone::better, "[-20.8, -1.5]"});
+    const std::string svg = detail::draw_grids("t", {{"h", names, {{"B10", cells}}}}, {"unit: s"}).finish();
+    EXPECT_THAT(svg, ::testing::HasSubstr(">[-20.8, -1.5]<"));
+    EXPECT_GT(number_of(svg, "f<", " y"), number_of(svg, "a<", " y")) << "six do not fit into one row";
+    EXPECT_THAT(svg, ::testing::HasSubstr(">unit: s<"));
+}
+
 TEST(Grid, breaks_long_headings_of_columns_so_that_none_meets_its_neighbour) {
     const std::vector<std::string> names = {"Green", "corridor", "preempt_signals", "check_in_out",
                                             "line_of_sight_far_away"};

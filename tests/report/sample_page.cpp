@@ -24,6 +24,6 @@ int main(int argument_count, char** arguments) {
     write_html(study, page);
     page.close();
     std::filesystem::remove_all(arguments[2]);
-    write_figures(study, arguments[2]);
+    write_figures(study, arguments[2], {.only = {}, .words = FigureChoice::Words::bare});  // as the page's
     return page ? 0 : 1;
 }

@@ -118,6 +118,34 @@ TEST(FigureFiles, HoldEveryFigureAndTableOfTheReport) {
                 AllOf(HasSubstr("\\toprule"), HasSubstr("\\label{tab:times-merge}"), HasSubstr("\\num{")));
 }
 
+TEST(FigureFiles, HaveTitleSeedsAndNoteInThemUnlessTheyAreBare) {
+    const core::TemporaryFolder folder;
+    FigureChoice choice{{"tradeoff"}};
+    write_figures(tests::study({"merge"}), folder.path() / "figures", choice);
+    const std::string framed = text_of(folder.path() / "figures" / "tradeoff-merge.svg");
+    EXPECT_THAT(framed, AllOf(HasSubstr(">merge: Gain and cost; 20 seeds</text>"),
+                              HasSubstr(">Up is better for emergency vehicles")));
+    choice.words = FigureChoice::Words::bare;
+    write_figures(tests::study({"merge"}), folder.path() / "figures", choice);
+    EXPECT_THAT(text_of(folder.path() / "figures" / "tradeoff-merge.svg"), Not(HasSubstr("seeds</text>")));
+}
+
+TEST(FigureFiles, AreThoseThatWereChosen) {
+    const core::TemporaryFolder folder;
+    const std::filesystem::path out = folder.path() / "figures";
+    const FigureFiles files = write_figures(tests::study({"merge"}), out, {{"tradeoff", "times-merge"}});
+    EXPECT_EQ(files.drawings.size(), 1u);
+    EXPECT_EQ(files.typeset, std::vector{out / "times-merge.tex"});
+    try {
+        write_figures(tests::study({"merge"}), out, {{"tradeof"}});
+        ADD_FAILURE() << "no figure has this name";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(), AllOf(HasSubstr("`tradeof` names no figure"), HasSubstr("differences"),
+                                        HasSubstr("Did you mean 'tradeoff'?")));
+    }
+    EXPECT_TRUE(std::filesystem::exists(out / "tradeoff-merge.svg")) << "nothing was removed";
+}
+
 /// Texts of the SVG files of a study with a CSS class.
 std::vector<std::string> texts_of_drawings(const FigureFiles& files, const std::string& style) {
     std::vector<std::string> texts;

@@ -1,6 +1,7 @@
 #include "report/detail/canvas.hpp"
 
 #include <array>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -78,6 +79,20 @@ std::string shortened(const std::string& text, std::size_t longest) {
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
         --end;
     return text.substr(0, end) + "\u2026";
+}
+
+std::vector<std::string> lines_of(const std::string& text, std::size_t letters) {
+    std::vector<std::string> lines;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        const bool fits =
+            !lines.empty() && core::characters_in(lines.back()) + 1 + core::characters_in(word) <= letters;
+        if (fits)
+            lines.back() += " " + word;
+        else
+            lines.push_back(word);
+    }
+    return lines;
 }
 
 LegendEntry line_entry(const Series& series, std::string words) {

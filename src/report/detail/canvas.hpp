@@ -27,6 +27,9 @@ struct Series {
 /// The start of a long text, cut between characters, with an ellipsis.
 std::string shortened(const std::string& text, std::size_t longest);
 
+/// The words of a text in lines of at most so many letters; a longer word has a line of its own.
+std::vector<std::string> lines_of(const std::string& text, std::size_t letters);
+
 /// An entry of a legend: its mark, as markup in a box of 28 x 10 units, and what it stands for. Without a
 /// mark it is a heading.
 struct LegendEntry {

@@ -103,6 +103,35 @@ std::string standalone(const std::string& drawing) {
         drawing.substr(inside + 1));
 }
 
+std::string standalone(const std::string& drawing, const std::string& title, const std::string& note) {
+    const auto [left, top, width, height] = view_box(drawing);
+    if (width <= 0.0 || !drawing.starts_with("<svg")) return standalone(drawing);
+    // As large beside the drawing as they are beside one that is as wide as those of the page.
+    const double size = width / Canvas::width;
+    std::string words;
+    double y = 4.0 * size;
+    const auto write = [&](const std::string& text, std::size_t letters, double height_of_line,
+                           const char* style) {
+        for (const std::string& line : lines_of(text, letters)) {
+            y += height_of_line * size;
+            words += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" {} font-size=\"{:.1f}\">{}</text>\n",
+                                 6.0 * size, y, style, (height_of_line - 4.0) * size, escaped(line));
+        }
+    };
+    write(title, 54, 17.0, "font-weight=\"bold\"");
+    const double drawing_top = y + 8.0 * size;
+    y = drawing_top + height;
+    write(note, 92, 13.0, "fill=\"#555\"");
+    std::string inner = standalone(drawing);
+    inner.insert(4, fmt::format(" x=\"0\" y=\"{:.1f}\"", drawing_top));  // behind `<svg`
+    y += 6.0 * size;
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:.1f}\" width=\"{0:g}\" "
+        "height=\"{1:.1f}\" font-family=\"Liberation Sans, Helvetica, Arial, sans-serif\">\n<rect "
+        "width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{2}{3}</svg>\n",
+        width, y, words, inner);
+}
+
 Looks looks_of(const StudyFacts& study, const ScenarioFacts& scenario) {
     const ConditionFacts* const featured = featured_condition(study, scenario);
     const std::optional<Crossing> crossing = crossing_of(study, scenario);

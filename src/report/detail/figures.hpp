@@ -15,6 +15,8 @@ namespace clearway::report::detail {
 /// A drawing of the page, one `<svg>` element with a view box, as a file of its own: with a size, a style
 /// sheet and white paper. A picture with a style of its own keeps it.
 std::string standalone(const std::string& drawing);
+/// The same in a frame with a title above it and a note below it.
+std::string standalone(const std::string& drawing, const std::string& title, const std::string& note);
 
 // Figures of the first screen. Without a drawing if there is nothing to draw.
 

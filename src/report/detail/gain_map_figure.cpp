@@ -27,8 +27,13 @@ constexpr std::array<Band, 5> bands = {{{5.0, "way better much", "gain 5 s or mo
                                         {-5.0, "way worse", "loss 0.5 to 5 s"},
                                         {-1e30, "way worse much", "loss 5 s or more"}}};
 
-const Band& band_of(double gain_s) {
-    return *std::ranges::find_if(bands, [&](const Band& band) { return gain_s >= band.from_s; });
+/// One or a few trips say nothing of an edge: what one of them met there by chance is all of the mean.
+constexpr std::uint64_t fewest_passages = 6;
+constexpr Band too_few = {0.0, "way few", "up to 5 passages: too few to say"};
+
+const Band& band_of(const EdgeTimes& times) {
+    if (times.passages < fewest_passages) return too_few;
+    return *std::ranges::find_if(bands, [&](const Band& band) { return times.gain_s() >= band.from_s; });
 }
 
 /// How many trips more than in the baseline drove each edge, of those that have two ways.
@@ -55,19 +60,23 @@ void draw_changed(MapCanvas& canvas, const RoadMap& roads, const WayCounts& coun
 /// The ways, small changes first, so that large ones lie on top.
 void draw_ways(MapCanvas& canvas, const RoadMap& roads, const ScenarioMap& map) {
     std::vector<EdgeTimes> times = map.times;
-    std::ranges::stable_sort(times, {}, [](const EdgeTimes& one) { return std::abs(one.gain_s()); });
+    std::ranges::stable_sort(times, {}, [](const EdgeTimes& one) {
+        return &band_of(one) == &too_few ? -1.0 : std::abs(one.gain_s());
+    });
     for (const EdgeTimes& one : times)
-        canvas.edge(roads.edges[one.edge], band_of(one.gain_s()).style);
+        canvas.edge(roads.edges[one.edge], band_of(one).style);
 }
 
 void draw_holds(MapCanvas& canvas, const RoadMap& roads, const ScenarioMap& map) {
     double longest_s = 0.0;
     for (const SignalHolds& one : map.holds)
         longest_s = std::max(longest_s, one.held_s);
+    constexpr double roomy = 30.0;  // more of the usual size hide each other
+    const double size = std::clamp(std::sqrt(roomy / static_cast<double>(map.holds.size() + 1)), 0.4, 1.0);
     for (const SignalHolds& one : map.holds) {
         if (one.held_s <= 0.0) continue;
         const auto [x, y] = canvas.place(roads.signals[one.signal].place);
-        canvas.circle(x, y, 3.0 + 4.0 * std::sqrt(one.held_s / longest_s), "held");
+        canvas.circle(x, y, size * (3.0 + 4.0 * std::sqrt(one.held_s / longest_s)), "held");
     }
 }
 
@@ -143,11 +152,12 @@ DataTable data_of(const RoadMap& roads, const ScenarioMap& map, const WayCounts&
 
 std::vector<LegendEntry> entries_of(const RoadMap& roads, const ScenarioMap& map, bool losing) {
     std::vector<LegendEntry> entries;
-    for (const Band& band : bands) {
-        const bool used = std::ranges::any_of(
-            map.times, [&](const EdgeTimes& one) { return &band_of(one.gain_s()) == &band; });
-        if (used) entries.push_back(stripe_entry(band.style, band.words));
-    }
+    const auto add = [&](const Band& band) {
+        if (std::ranges::any_of(map.times, [&](const EdgeTimes& one) { return &band_of(one) == &band; }))
+            entries.push_back(stripe_entry(band.style, band.words));
+    };
+    std::ranges::for_each(bands, add);
+    add(too_few);
     if (!map.holds.empty()) entries.push_back(dot_entry("held", "signal held, larger: longer"));
     if (!map.locks.empty())
         entries.push_back({"<path class=\"lock\" d=\"M17 3l6 6m0 -6l-6 6\"/>",

@@ -11,10 +11,14 @@ constexpr double heading_height = 20.0;
 constexpr double columns_height = 18.0;
 constexpr double line_height = 13.0;
 constexpr double row_height = 24.0;
+constexpr double below_height = 12.0;  ///< More for a second line.
+constexpr double small_letter = 5.1;   ///< Width of one of that line.
 constexpr double cells_right = 396.0;
 constexpr double gap = 2.0;
 constexpr double letter = 6.5;  ///< Width of one.
 constexpr std::size_t longest_label = 18;
+
+}  // namespace
 
 std::string style_of(GridCell::Tone tone) {
     switch (tone) {
@@ -30,13 +34,15 @@ std::string style_of(GridCell::Tone tone) {
     return "cell empty";
 }
 
+namespace {
+
 /// Letters of a column's heading in one line; one is left free between neighbours.
 std::size_t letters_in(double width) {
     return static_cast<std::size_t>(std::max(width / letter - 1.0, 1.0));
 }
 
 /// A heading that is too long for one line goes on in a second behind its last separator that fits.
-std::vector<std::string> lines_of(const std::string& heading, std::size_t letters) {
+std::vector<std::string> heading_lines(const std::string& heading, std::size_t letters) {
     if (core::characters_in(heading) <= letters) return {heading};
     const std::size_t end = heading.find_last_of("_ +.,:-", letters - 1);
     if (end == std::string::npos || end + 1 == heading.size()) return {shortened(heading, letters - 1)};
@@ -61,14 +67,27 @@ double column_width(const Grid& grid) {
 double columns_height_of(const Grid& grid) {
     const std::size_t letters = letters_in(column_width(grid));
     const bool is_long = std::ranges::any_of(
-        grid.columns, [&](const std::string& column) { return lines_of(column, letters).size() > 1; });
+        grid.columns, [&](const std::string& column) { return heading_lines(column, letters).size() > 1; });
     return columns_height + (is_long ? line_height : 0.0);
+}
+
+/// Letters of the longest second line of a cell; 0 without any.
+std::size_t letters_below(const Grid& grid) {
+    std::size_t letters = 0;
+    for (const Grid::Row& row : grid.rows)
+        for (const GridCell& cell : row.cells)
+            letters = std::max(letters, core::characters_in(cell.below));
+    return letters;
+}
+
+double row_height_of(const Grid& grid) {
+    return row_height + (letters_below(grid) > 0 ? below_height : 0.0);
 }
 
 /// Units that a grid takes from its top.
 double grid_height(const Grid& grid) {
     return (grid.heading.empty() ? 0.0 : heading_height) + columns_height_of(grid) +
-           row_height * static_cast<double>(grid.rows.size()) + 8.0;
+           row_height_of(grid) * static_cast<double>(grid.rows.size()) + 8.0;
 }
 
 /// Draws a grid with its upper edge at `top`.
@@ -82,21 +101,24 @@ void draw_grid(const Grid& grid, double top, Canvas& canvas) {
     const double width = column_width(grid);
     for (std::size_t column = 0; column < grid.columns.size(); ++column) {
         double bottom = top + columns_height_of(grid) - 6.0;
-        const std::vector<std::string> lines = lines_of(grid.columns[column], letters_in(width));
+        const std::vector<std::string> lines = heading_lines(grid.columns[column], letters_in(width));
         for (auto line = lines.rbegin(); line != lines.rend(); ++line, bottom -= line_height)
             canvas.text(cells_left + (static_cast<double>(column) + 0.5) * width - gap / 2.0, bottom, *line,
                         Anchor::middle, "tick");
     }
     top += columns_height_of(grid);
+    const double height = row_height_of(grid);
     for (const Grid::Row& row : grid.rows) {
         canvas.text(2.0, top + 16.0, shortened(row.label, longest_label), Anchor::start, "label");
         for (std::size_t column = 0; column < row.cells.size(); ++column) {
             const double left = cells_left + static_cast<double>(column) * width;
-            canvas.rectangle(left, top, width - gap, row_height - gap, style_of(row.cells[column].tone));
-            canvas.text(left + (width - gap) / 2.0, top + 15.5, row.cells[column].text, Anchor::middle,
-                        "celltext");
+            const GridCell& cell = row.cells[column];
+            const double middle = left + (width - gap) / 2.0;
+            canvas.rectangle(left, top, width - gap, height - gap, style_of(cell.tone));
+            canvas.text(middle, top + 15.5, cell.text, Anchor::middle, "celltext");
+            if (!cell.below.empty()) canvas.text(middle, top + 28.0, cell.below, Anchor::middle, "range");
         }
-        top += row_height;
+        top += height;
     }
 }
 
@@ -112,7 +134,13 @@ std::vector<Cell> part_of(const std::vector<Cell>& cells, std::size_t first, std
 /// Adds the grid as several that are narrow enough, about equally wide.
 void split(const Grid& grid, std::vector<Grid>& parts) {
     const std::size_t columns = grid.columns.size();
-    const std::size_t count = (columns + most_columns - 1) / most_columns;
+    std::size_t most = most_columns;
+    if (const std::size_t letters = letters_below(grid); letters > 0) {
+        const double wanted = small_letter * static_cast<double>(letters) + 2.0 * gap;
+        most = std::clamp<std::size_t>(static_cast<std::size_t>((cells_right - cells_left_of(grid)) / wanted),
+                                       1, most_columns);
+    }
+    const std::size_t count = (columns + most - 1) / most;
     const std::size_t each = count == 0 ? 1 : (columns + count - 1) / count;
     for (std::size_t first = 0; first < columns; first += each) {
         Grid& part = parts.emplace_back(Grid{grid.heading, part_of(grid.columns, first, each), {}});
@@ -123,16 +151,20 @@ void split(const Grid& grid, std::vector<Grid>& parts) {
 
 }  // namespace
 
-Canvas draw_grids(const std::string& title, const std::vector<Grid>& wide, const std::string& axes) {
+Canvas draw_grids(const std::string& title, const std::vector<Grid>& wide,
+                  const std::vector<std::string>& axes) {
     std::vector<Grid> grids;
     for (const Grid& grid : wide)
         split(grid, grids);
-    double top = axes.empty() ? 0.0 : 24.0;
+    constexpr double axes_line = 16.0;
+    double top = axes.empty() ? 0.0 : 8.0 + axes_line * static_cast<double>(axes.size());
     double height = top;
     for (const Grid& grid : grids)
         height += grid_height(grid);
     Canvas canvas(title, height);
-    if (!axes.empty()) canvas.text(2.0, 14.0, shortened(axes, 62), Canvas::Anchor::start, "axis");
+    for (std::size_t line = 0; line < axes.size(); ++line)
+        canvas.text(2.0, 14.0 + axes_line * static_cast<double>(line), shortened(axes[line], 62),
+                    Canvas::Anchor::start, "axis");
     for (const Grid& grid : grids) {
         draw_grid(grid, top, canvas);
         top += grid_height(grid);

@@ -11,7 +11,11 @@ namespace clearway::report::detail {
 struct GridCell {
     std::string text;
     enum class Tone { empty, neutral, better, worse } tone = Tone::empty;
+    std::string below = {};  ///< A second, smaller line: an interval. Grids with any have fewer columns.
 };
+
+/// CSS classes of a cell.
+std::string style_of(GridCell::Tone tone);
 
 /// Rows of coloured cells under headings. Every row has a cell for each column.
 struct Grid {
@@ -24,8 +28,9 @@ struct Grid {
     std::vector<Row> rows;
 };
 
-/// A drawing of grids below each other, under a line that says what their columns and rows are. A grid with
+/// A drawing of grids below each other, under lines that say what cells, columns and rows are. A grid with
 /// more columns than there is room for becomes several.
-Canvas draw_grids(const std::string& title, const std::vector<Grid>& wide, const std::string& axes = {});
+Canvas draw_grids(const std::string& title, const std::vector<Grid>& wide,
+                  const std::vector<std::string>& axes = {});
 
 }  // namespace clearway::report::detail

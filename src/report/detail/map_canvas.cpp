@@ -100,16 +100,20 @@ void MapCanvas::scale_bar() {
 }
 
 void MapCanvas::stations(const RoadMap& map) {
-    constexpr std::size_t letters = 24;
     for (const MapStation& station : map.stations) {
         const auto edge = map.find_edge(station.edge);
         if (!edge || map.edges[*edge].shape.empty()) continue;
         const auto [x, y] = place(map.edges[*edge].shape.front());
         add(fmt::format("<path class=\"station\" d=\"M{:.1f} {:.1f}l6 6l-6 6l-6 -6z\"/>\n", x, y - 6.0));
         const bool is_left = x < 0.6 * width;
-        if (!station.name.empty())
-            text(is_left ? x + 9.0 : x - 9.0, y + 4.0, shortened(station.name, letters),
-                 is_left ? Anchor::start : Anchor::end, "rank");
+        std::string label = station.name.empty() ? station.kind : station.name;
+        if (station.name.empty()) std::ranges::replace(label, '_', ' ');
+        const std::vector<std::string> lines = lines_of(label, 22);
+        double baseline = y + 4.0 - 6.0 * static_cast<double>(lines.size() - 1);
+        for (const std::string& line : lines) {
+            text(is_left ? x + 9.0 : x - 9.0, baseline, line, is_left ? Anchor::start : Anchor::end, "halo");
+            baseline += 12.0;
+        }
     }
 }
 

@@ -92,6 +92,8 @@ table.data{min-width:0}table.words td,table.words thead th{text-align:left;overf
 table.data th,table.data td{padding:.22rem .65rem}
 .unsafe{display:inline-block;font-size:.75rem;font-weight:600;border:1px solid var(--worse);color:var(--worse);
 border-radius:4px;padding:0 .35em}
+@media screen{.cut{max-height:60vh;overflow:hidden;border-bottom:1px dashed var(--muted)}}
+@media print{.more{display:none}}
 .figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,350px),1fr));gap:28px 32px;margin:1rem 0}
 .figures.one{grid-template-columns:1fr}
 .figures.pair{grid-template-columns:repeat(auto-fit,minmax(min(100%,440px),1fr))}
@@ -154,12 +156,13 @@ stroke-width:4px;stroke-linejoin:round}
 .plot .dot.hollow{fill:var(--paper);stroke:currentColor;stroke-width:2}
 .plot .bar.thin{stroke-width:1.4}.plot .onDot{fill:var(--paper);font-weight:700}
 .plot .uncounted{fill:var(--muted);fill-opacity:.16}
+.plot .range{font-size:11.2px}
 .plot .cell{fill:var(--rule);fill-opacity:.45}.plot .cell.empty{fill:none}
 .plot .cell.better{fill:var(--better);fill-opacity:.3}.plot .cell.worse{fill:var(--worse);fill-opacity:.32}
 .plot .road,.plot .way{fill:none;stroke-linejoin:round}.plot .road{stroke:var(--road);stroke-width:1.2}
 .plot .way{stroke:var(--muted);stroke-width:2}.plot .way.reached{stroke:var(--ink);stroke-width:1.8}
 .plot .way.better,.plot .way.worse{stroke:currentColor;stroke-width:2.6}.plot .way.better.much,.plot .way.worse.much{stroke-width:5}
-.plot .way.worse{stroke-dasharray:6 2}
+.plot .way.worse{stroke-dasharray:6 2}.plot .way.few{stroke-width:1.6;stroke-dasharray:1 3}
 .plot .way.taken,.plot .way.left{stroke:var(--ink);stroke-width:7;stroke-opacity:.22}
 .plot .way.left{stroke-dasharray:1.5 2.5;stroke-opacity:.45}
 .plot .held{fill:none;stroke:var(--ink);stroke-width:1.5}.plot .losing{fill:var(--worse);stroke:var(--paper);stroke-width:.8}

@@ -173,7 +173,23 @@ std::vector<LegendEntry> entries_of(const std::vector<Point>& points) {
     return entries;
 }
 
-/// `policy: ...` in colours, `failure: ...` in marks, and what rings and hollow marks mean.
+/// What the ring and the grey band mean.
+std::vector<LegendEntry> sign_entries(const ScenarioFacts& scenario, const std::vector<Point>& points) {
+    std::vector<LegendEntry> entries;
+    for (const Point& point : points) {
+        if (point.series.weight == Series::Weight::lead)
+            entries.push_back(
+                dot_entry("ring " + colour_of(point.series), "ring: headline, " + point.condition->label()));
+    }
+    if (scenario.least_relevant_s > 0.0)
+        entries.push_back(
+            {"<rect class=\"uncounted\" x=\"6\" y=\"0\" width=\"22\" height=\"10\"/>",
+             fmt::format("grey: below {} s, does not count", number(scenario.least_relevant_s, typeset(1)))});
+    entries.push_back({"<path class=\"bar thin s0\" d=\"M6 5H28M17 0V10\"/>", "95 % intervals"});
+    return entries;
+}
+
+/// `policy: ...` in colours, `failure: ...` in marks, and what hollow marks mean.
 void add_legends(Plot& plot, const Crossing& crossing, const std::vector<Point>& points) {
     const auto named = [](const Crossing::Aspect& aspect, const auto& entry_of) {
         std::vector<LegendEntry> entries = {{"", aspect.name.substr(aspect.name.rfind('.') + 1) + ":"}};
@@ -187,17 +203,13 @@ void add_legends(Plot& plot, const Crossing& crossing, const std::vector<Point>&
     plot.legend(named(crossing.mark, [](std::size_t level, const std::string& words) {
         return mark_entry({.levels = Series::Levels{0, level}}, words);
     }));
-    std::vector<LegendEntry> entries;
     std::set<std::string> objections;
     for (const Point& point : points) {
-        if (point.series.weight == Series::Weight::lead)
-            entries.push_back(dot_entry("ring " + colour_of(point.series), point.condition->label()));
         if (!point.objection().empty()) objections.insert(point.objection());
     }
     if (!objections.empty())
-        entries.push_back(mark_entry({.levels = Series::Levels{0, 1}},
-                                     fmt::format("hollow: {}", fmt::join(objections, " or ")), hollow));
-    plot.legend(entries);
+        plot.legend({mark_entry({.levels = Series::Levels{0, 1}},
+                                fmt::format("hollow: {}", fmt::join(objections, " or ")), hollow)});
 }
 
 }  // namespace
@@ -217,8 +229,8 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
     }
     const std::string title =
         fmt::format("{}: gain of emergency vehicles and cost to the others", scenario.name);
-    Chart plot(title, 330.0, padded(costs, 0.1), labelled(cost, "difference"), padded(gains, 0.1),
-               labelled(gain, "gain"));
+    Chart plot(title, 330.0, padded(costs, 0.1), labelled(cost, "difference (left is better)"),
+               padded(gains, 0.1), labelled(gain, "gain (up is better)"));
     const double top = plot.y().place(scenario.least_relevant_s);
     plot.rectangle(left_edge, top, right_edge - left_edge, plot.y().place(-scenario.least_relevant_s) - top,
                    "uncounted");
@@ -230,6 +242,7 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
         add_legends(plot, *crossing, points);
     else
         plot.legend(entries_of(points));
+    plot.legend(sign_entries(scenario, points));
     std::string note = fmt::format(
         "Up is better for emergency vehicles, left is better for the others. Bars are 95 % intervals. In the "
         "grey band a gain or loss is below {} s and does not count.",

@@ -58,7 +58,8 @@ void Writer::figure(Figure figure) {
 void Writer::figures(std::vector<Figure> figures) {
     const auto drawn = std::ranges::count_if(figures, [](const Figure& one) { return !one.drawing.empty(); });
     if (drawn == 0) return;
-    markup(drawn == 1 ? "<div class=\"figures one\">\n" : "<div class=\"figures\">\n");
+    // Three beside each other would leave the fourth alone.
+    markup(fmt::format("<div class=\"figures{}\">\n", drawn == 1 ? " one" : drawn == 4 ? " pair" : ""));
     for (Figure& one : figures)
         figure(std::move(one));
     markup("</div>\n");

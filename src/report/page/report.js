@@ -144,6 +144,20 @@
       ['tex', () => offer(part.id + '.tex', 'application/x-tex', latex(part.id, caption, data))]]);
   }
 
+  // A table that has become a list of several screens on a phone is shown in part until it is asked for.
+  if (matchMedia('(max-width:560px)').matches) {
+    for (const part of document.querySelectorAll('.table')) {
+      if (part.offsetHeight < 1.5 * innerHeight) continue;
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.className = 'more';
+      button.textContent = 'Show the whole table';
+      button.addEventListener('click', () => { part.classList.remove('cut'); button.remove(); });
+      part.classList.add('cut');
+      part.after(button);
+    }
+  }
+
   let unfolded = [];
   addEventListener('beforeprint', () => {
     unfolded = [...document.querySelectorAll('details.fold:not([open])')];

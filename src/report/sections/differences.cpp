@@ -68,7 +68,8 @@ Figure forest_figure(const ScenarioFacts& scenario, const Looks& looks, std::spa
     const double rows = static_cast<double>(compared_in(scenario)) * row_height + heading_height;
     const double height = static_cast<double>(measures.size()) * rows + 10.0 + label_space;
     Plot plot(fmt::format("{}: paired differences to the baseline", scenario.name), height,
-              {padded(forest_range(scenario), 0.06), "difference to the baseline, s", 10.0, forest_right},
+              {padded(forest_range(scenario), 0.06), "difference to the baseline (left: better), s", 10.0,
+               forest_right},
               {{}, "", 6.0, height - label_space});
     plot.grid_x();
     plot.vertical(0.0);

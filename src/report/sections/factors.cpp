@@ -103,10 +103,12 @@ GridCell cell_of(const Made& made, Measure measure) {
     const Effect effect = effect_of(*made.condition, measure);
     const bool lost =
         measure == Measure::emergency_restricted_time && made.condition->objections.on_emergency();
+    const analysis::Interval* const interval = shown_interval(difference);
     return {number(difference->mean, typeset(1, Sign::always)) + (lost ? " (!)" : ""),
             lost || effect == Effect::worse ? GridCell::Tone::worse
             : effect == Effect::better      ? GridCell::Tone::better
-                                            : GridCell::Tone::neutral};
+                                            : GridCell::Tone::neutral,
+            interval == nullptr ? "" : interval_text(*interval, typeset(1))};
 }
 
 using Panels = std::map<std::string, std::vector<Made>>;
@@ -224,6 +226,24 @@ DataTable data_of(const std::vector<Made>& made, const std::vector<Factor>& fact
     return table;
 }
 
+/// What the colours of the cells and `(!)` mean.
+std::vector<LegendEntry> entries_of(const std::vector<Grid>& grids) {
+    const auto sample = [](GridCell::Tone tone, const char* words) {
+        return LegendEntry{
+            fmt::format("<rect class=\"{}\" x=\"6\" y=\"0\" width=\"22\" height=\"11\"/>", style_of(tone)),
+            words};
+    };
+    std::vector<LegendEntry> entries = {sample(GridCell::Tone::better, "better"),
+                                        sample(GridCell::Tone::worse, "worse"),
+                                        sample(GridCell::Tone::neutral, "no effect shown or too small")};
+    for (const Grid& grid : grids)
+        for (const Grid::Row& row : grid.rows)
+            for (const GridCell& cell : row.cells)
+                if (cell.text.ends_with("(!)") && entries.size() == 3)
+                    entries.push_back({"", "(!) more EVs lost or hit, or safety checks off"});
+    return entries;
+}
+
 Figure factors_figure(const std::vector<Made>& made, const std::vector<Factor>& factors, Measure measure,
                       const char* name, const std::string& caption) {
     std::vector<Grid> grids;
@@ -231,8 +251,10 @@ Figure factors_figure(const std::vector<Made>& made, const std::vector<Factor>& 
         grids.push_back(grid_of(heading, panel, factors, measure));
     Canvas canvas =
         draw_grids(caption, grids,
-                   fmt::format("across: {}{}", last_part(factors[0].name),
-                               factors.size() > 1 ? "; down: " + last_part(factors[1].name) : ""));
+                   {fmt::format("{} [95 % interval]", caption),
+                    fmt::format("across: {}{}", last_part(factors[0].name),
+                                factors.size() > 1 ? "; down: " + last_part(factors[1].name) : "")});
+    canvas.legend(entries_of(grids));
     return {name, caption, canvas.finish(), "", data_of(made, factors, measure)};
 }
 
