@@ -68,6 +68,9 @@ TEST_F(HeadlineOfAStudy, IsThePairedDifferenceOfWhatIsThere) {
     // Differences -3 and -1: deviation sqrt(2), half width 12.706 * sqrt(2) / sqrt(2); too few to print.
     EXPECT_NEAR(headline.estimate()->interval->high, 10.7, 0.05);
     EXPECT_EQ(headline.text(), "EV travel time -2.0 s, n 2: alpha treated");
+    Headline titled(store_, {{"treated", "Ours, B10"}});
+    titled.refresh();
+    EXPECT_EQ(titled.text(), "EV travel time -2.0 s, n 2: alpha Ours, B10");
 }
 
 TEST_F(HeadlineOfAStudy, TellsWhichConditionNeedsMost) {
