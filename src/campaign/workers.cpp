@@ -346,7 +346,9 @@ class Workers : private core::TaskList {
             work_s += running_work_s(row);
         }
         const double all_s = work_.total_s();
-        progress_.work = all_s > 0.0 ? std::min(1.0, work_s / all_s) : 1.0;
+        // At an interruption what ran is lost: the last share stays, else the time left by it would leap.
+        if (!running.empty() || interruption_.signal() == 0)
+            progress_.work = all_s > 0.0 ? std::min(1.0, work_s / all_s) : 1.0;
         progress_.done = counts.complete;
         progress_.failed = counts.failed;
         progress_.elapsed_s = std::chrono::duration<double>(reported_ - started_).count();

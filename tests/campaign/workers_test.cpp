@@ -295,6 +295,22 @@ TEST_F(Study, EndsItsWorkersOnSignalsAndTellsWhich) {
     }
 }
 
+TEST_F(Study, KeepsItsShareOfTheWorkWhenItIsInterrupted) {
+    plan({"baseline", "hang"}, 4);
+    const pid_t study = fork();
+    if (study == 0) {
+        run_in("out");
+        const std::size_t reports = reported_.size();
+        _exit(reports > 1 && reported_[reports - 1].work >= reported_[reports - 2].work ? 0 : 1);
+    }
+    wait_for(store_in("out"), {"alpha", "baseline", 0});
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    kill(study, SIGINT);
+    int status = 0;
+    waitpid(study, &status, 0);
+    EXPECT_EQ(WEXITSTATUS(status), 0) << "what ran left the work that is done, so the time left leapt";
+}
+
 TEST_F(Study, RefusesAFolderInWhichAnotherStudyWorks) {
     plan({"baseline", "hang"}, 1);
     const results::Store store = store_in("out");
