@@ -10,6 +10,7 @@
 
 #include "campaign/detail/abort_cure.hpp"
 #include "campaign/detail/emergency_trips.hpp"
+#include "campaign/detail/lock_findings.hpp"
 #include "campaign/detail/run_cost.hpp"
 #include "campaign/detail/way_findings.hpp"
 #include "campaign/printout.hpp"
@@ -239,10 +240,15 @@ RoadUse road_use(const metrics::RunMetrics& run, const scenario::Times& time, do
 /// Finest step that a scenario may have.
 constexpr double finest_step_s = 0.1;
 
-Finding collisions_finding(const metrics::RunMetrics& run, double step_length_s) {
+Finding collisions_finding(const metrics::RunMetrics& run, double step_length_s, const std::string& less) {
+    constexpr std::uint64_t many = 100;  // one to so many vehicles
     const std::string count =
-        fmt::format("{} in the baseline, {} of them at junctions", run.collisions, run.junction_collisions);
+        fmt::format("{} with {} in the baseline, {} of them at junctions", run.collisions,
+                    core::counted(run.vehicle_count, "vehicle"), run.junction_collisions);
     if (run.collisions == 0) return {"collisions", Grade::ok, count};
+    if (many * run.collisions > run.vehicle_count)
+        return {"collisions", Grade::note, count,
+                "many: this scenario says nothing about safety; less traffic makes fewer: " + less};
     const std::string compare = "compare conditions, not counts";
     return {"collisions", Grade::note, count,
             step_length_s > finest_step_s
@@ -261,10 +267,11 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
                                      emergency_finding(record, less),
                                      routes_finding(checked.demand, trips),
                                      jams_finding(run, use, checked),
+                                     detail::locks_finding(record, record.traffic.locks, checked, less),
                                      signals_finding(checked.network, trips)};
     std::ranges::move(detail::way_findings(checked.config, checked.network, trips),
                       std::back_inserter(findings));
-    findings.push_back(collisions_finding(run, checked.config.time.step_length_s));
+    findings.push_back(collisions_finding(run, checked.config.time.step_length_s, less));
     return findings;
 }
 
@@ -302,13 +309,13 @@ Finding lock_finding(const LockTrials& trials) {
         fmt::format("this network locks by itself in {}; with time.ignore_junction_blocker_s = {:g} in {}",
                     runs(trials.locked_without), trials.ignored_after_s, runs(trials.locked_with));
     if (trials.locked_with > 0)
-        return {"locks", Grade::falls_short, text,
-                "less traffic, or look at the junction that locks: run.json"};
+        return {"trials", Grade::falls_short, text,
+                "less traffic, or a look at the junctions that traffic.locks of a run's run.json names"};
     if (trials.locked_without > 0)
-        return {"locks", Grade::note, text,
+        return {"trials", Grade::note, text,
                 fmt::format("keep time.ignore_junction_blocker_s = {:g} in scenario.toml",
                             trials.ignored_after_s)};
-    return {"locks", Grade::ok, text};
+    return {"trials", Grade::ok, text};
 }
 
 namespace {
@@ -362,7 +369,8 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double a
 
     const experiment::RunKey key = plan.manifest.runs().front();
     std::vector<Finding> findings;
-    if (const auto record = store.read(key)) {
+    if (auto record = store.read(key)) {
+        record->traffic = store.read_traffic(key);
         const std::filesystem::path& roads = plan.units.front().unit.network_folder;
         const scenario::BuiltNetwork built = scenario::open_network(scenario, roads);
         findings = findings_of(*record, {scenario, built.network, asked_density,

@@ -53,6 +53,10 @@ struct Checked {
 /// What a baseline run says about the scenario.
 std::vector<Finding> findings_of(const results::RunRecord& record, const Checked& checked);
 
+/// The collisions of a run. `less`: how to get less traffic, where they are more than one to a hundred
+/// vehicles.
+Finding collisions_finding(const metrics::RunMetrics& run, double step_length_s, const std::string& less);
+
 /// What a run that failed says about it. Its inputs are kept in `folder`.
 Finding error_finding(const results::RunError& error, const std::filesystem::path& folder);
 

@@ -78,6 +78,14 @@ TEST(LockFinding, says_in_how_many_trial_runs_a_network_locks) {
     EXPECT_EQ(lock_finding(trials).grade, Grade::ok);
 }
 
+TEST(CollisionsFinding, tells_many_from_few) {
+    metrics::RunMetrics run = busy_run();
+    run.collisions = 4;
+    EXPECT_THAT(collisions_finding(run, 0.25, "--density 0.80").advice, HasSubstr("compare conditions"));
+    run.collisions = 5;
+    EXPECT_THAT(collisions_finding(run, 0.25, "--density 0.80").advice, HasSubstr("--density 0.80"));
+}
+
 TEST(AbortCure, goes_by_the_assertion) {
     results::RunError error;
     error.cause = results::ErrorCause::signal;

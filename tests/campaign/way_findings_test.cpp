@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "campaign/detail/lock_findings.hpp"
 #include "scenario/network.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -29,6 +30,22 @@ class WayFindings : public testing::Test {
     Finding passing(const std::string& incident, const std::vector<EmergencyTrip>& trips) const {
         const Roads way = roads("[[incident]]\n" + incident);
         return passing_finding(way.config, way.built.network, trips, 2);
+    }
+
+    /// 400 vehicles, some of them in locks.
+    Finding locks(std::uint64_t locked, std::uint64_t emergency, const std::string& time = "") const {
+        const Roads way = roads(time);
+        results::RunRecord record;
+        record.provenance.study_seed = 3;
+        record.metrics.vehicle_count = 400;
+        record.metrics.simulated_s = 900.0;
+        record.metrics.locked_vehicles = locked;
+        record.metrics.locked_emergency_vehicles = emergency;
+        record.metrics.longest_lock_s = 90.0;
+        const std::vector<metrics::LockRow> rows = {
+            {"gate", "a", 0.0, 90.0, 1, 0}, {"main", "b", 0.0, 70.0, 1, 0}, {"main", "b", 200.0, 70.0, 1, 0}};
+        record.metrics.locks = locked == 0 ? 0 : rows.size();
+        return locks_finding(record, rows, {way.config, way.built.network, 1.0, {}}, "--density 0.80");
     }
 
   private:
@@ -82,6 +99,22 @@ TEST_F(WayFindings, count_those_who_can_choose) {
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].text,
               "1 of 2 EVs can choose: two ways or more within 20 % of the fastest at free flow");
+}
+
+TEST_F(WayFindings, say_where_a_run_locked_and_what_to_try) {
+    EXPECT_EQ(locks(0, 0).grade, Grade::ok);
+    EXPECT_THAT(locks(0, 0).text, HasSubstr("none in this run of seed 3, 900 s; other seeds may lock"));
+    const Finding some = locks(4, 0);
+    EXPECT_EQ(some.grade, Grade::note);
+    EXPECT_EQ(some.text,
+              "3 locks in this run of seed 3, the longest 90 s; 4 vehicles stood in them: 2 at edge main, "
+              "junction b, 1 at edge gate, junction a");
+    EXPECT_THAT(some.advice, HasSubstr("--ignore-junction-blocker 10"));
+    const std::string on =
+        "ignore_junction_blocker_s = 10.0\n";  // in the table [time] that the file ends with
+    EXPECT_THAT(locks(4, 0, on).advice, HasSubstr("--density 0.80"));
+    EXPECT_EQ(locks(5, 0).grade, Grade::falls_short) << "more than one vehicle in a hundred";
+    EXPECT_EQ(locks(1, 1).grade, Grade::falls_short) << "an EV";
 }
 
 TEST(SiteFindings, name_the_road_of_coordinates) {

@@ -209,10 +209,11 @@ TEST_F(CityTest, check_says_whether_there_are_emergency_vehicles) {
 
 TEST_F(CityTest, check_tries_whether_a_scenario_locks) {
     write_line_scenario();
-    const Ended tried = clearway({"scenario", "check", "line", "--lock-trials", "2"});
+    const Ended tried = clearway({"scenario", "check", "line", "--seed", "7", "--lock-trials", "2"});
     EXPECT_EQ(tried.code, 0) << tried.out << tried.err;
     EXPECT_THAT(tried.out,
-                testing::ContainsRegex("ok +locks +this network locks by itself in none of 2 trial runs"));
+                testing::ContainsRegex("ok +trials +this network locks by itself in none of 2 trial runs"));
+    EXPECT_THAT(tried.out, testing::ContainsRegex("ok +locks +none in this run of seed 7, [0-9]+ s"));
     EXPECT_FALSE(std::filesystem::exists(folder() / "runs/check-line-locks"));
 }
 

@@ -57,12 +57,6 @@ Finding choice_finding(roads::RouteSearch& search, const std::vector<Trip>& trip
                         choosing, core::counted(trips.size(), "EV"))};
 }
 
-/// `Avenue de la Costa (edge 12#3)`, with more words behind the id.
-std::string road_words(const roads::Edge& edge, const std::string& more = "") {
-    const std::string place = fmt::format("edge {}{}", edge.id, more);
-    return edge.name.empty() ? place : fmt::format("{} ({})", edge.name, place);
-}
-
 std::string place_words(const roads::Network& network, const traffic::Incident& incident) {
     const roads::Edge& edge = network.edge(incident.edge);
     return road_words(edge, incident.lanes.size() < edge.lane_count
@@ -229,6 +223,11 @@ Finding teleport_finding(const scenario::ScenarioConfig& config,
 }
 
 }  // namespace
+
+std::string road_words(const roads::Edge& edge, const std::string& more) {
+    const std::string place = fmt::format("edge {}{}", edge.id, more);
+    return edge.name.empty() ? place : fmt::format("{} ({})", edge.name, place);
+}
 
 std::vector<Finding> way_findings(const scenario::ScenarioConfig& config, const roads::Network& network,
                                   const std::vector<EmergencyTrip>& planned) {

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "campaign/detail/emergency_trips.hpp"
 #include "campaign/fitness.hpp"
 
 namespace clearway::campaign::detail {
+
+/// `Avenue de la Costa (edge 12#3)`, with more words behind the id.
+std::string road_words(const roads::Edge& edge, const std::string& more = "");
 
 /// What the network leaves emergency vehicles to choose: how many have two ways or more within a fifth of the
 /// fastest by free flow; which station is nearest to calls; and, where there are incidents, whom they cut

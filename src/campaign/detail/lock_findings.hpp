@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "campaign/fitness.hpp"
+#include "metrics/traffic_tables.hpp"
+
+namespace clearway::campaign::detail {
+
+/// The locks of a baseline run: how many, where, and what to try. Falls short where an EV or more than one
+/// vehicle in a hundred stood in one. `less`: how to get less traffic.
+Finding locks_finding(const results::RunRecord& record, const std::vector<metrics::LockRow>& locks,
+                      const Checked& checked, const std::string& less);
+
+}  // namespace clearway::campaign::detail
