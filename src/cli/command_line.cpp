@@ -34,7 +34,7 @@ constexpr std::array study_parts = {
 };
 
 constexpr std::array export_parts = {
-    Verb{"figures", "Write every figure and table of a report as SVG, PNG, CSV and LaTeX",
+    Verb{"figures", "Write every figure and table of a report as SVG, PDF, PNG, CSV and LaTeX",
          "clearway export figures runs/parts --out figures", configure_figures},
     Verb{"results", "Print any table of a run folder as CSV or JSON",
          "clearway export results runs/parts vehicles --csv", configure_results},

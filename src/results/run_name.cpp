@@ -79,13 +79,13 @@ NamedRun run_named(const std::string& name, const std::string& where) {
     NamedRun run{Store::open(parts->folder), {parts->scenario, parts->condition, 0}};
     const Manifest& manifest = run.store.manifest();
     std::vector<core::Problem> problems;
-    require_known(where + ": scenario", parts->scenario, manifest.scenarios, problems);
-    require_known(where + ": condition", parts->condition, manifest.conditions, problems);
+    require_known(name + ": scenario", parts->scenario, manifest.scenarios, problems);
+    require_known(name + ": condition", parts->condition, manifest.conditions, problems);
     const std::optional<std::uint32_t> number = core::number_from<std::uint32_t>(parts->number);
     if (number && *number < manifest.replications) {
         run.key.replication = *number;
     } else {
-        problems.push_back({where + ": replication", fmt::format("`{}` is not in this study", parts->number),
+        problems.push_back({name + ": replication", fmt::format("`{}` is not in this study", parts->number),
                             fmt::format("0 to {}", manifest.replications - 1), ""});
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));

@@ -24,8 +24,9 @@ struct NamedRun {
     experiment::RunKey key;
 };
 
-/// The run that `name` means. Throws core::InputError, naming `where` (an option or argument), for text that
-/// is not a run's name, and for an unknown folder, scenario, condition or replication, with the nearest name.
+/// The run that `name` means. Throws core::InputError: naming `where` (an option or argument) for text that
+/// is not a run's name, and naming the run for an unknown scenario, condition or replication, with the
+/// nearest.
 NamedRun run_named(const std::string& name, const std::string& where);
 
 /// A recording, opened: its whole content is hashed then, so it is opened once.

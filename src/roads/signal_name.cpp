@@ -1,9 +1,10 @@
 #include "roads/signal_name.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
+
+#include "core/number.hpp"
 
 namespace clearway::roads {
 
@@ -13,12 +14,13 @@ std::optional<core::SignalIndex> named_signal(const Network& network, const std:
     if (const auto signal = network.find_signal(name)) return signal;
     const std::size_t count = network.signals().size();
     std::string cure = "`clearway scenario signals SCENARIO` lists them";
-    if (name.starts_with('#')) {
-        std::uint32_t number = 0;
-        const char* const end = name.data() + name.size();
-        const auto [rest, fault] = std::from_chars(name.data() + 1, end, number);
-        if (fault == std::errc{} && rest == end && number >= 1 && number <= count)
-            return core::SignalIndex{number - 1};
+    const bool is_numbered = name.starts_with('#');
+    const auto number = core::number_from<std::uint32_t>(name.substr(is_numbered ? 1 : 0));
+    const bool is_known = number && *number >= 1 && *number <= count;
+    if (is_numbered) {
+        if (is_known) return core::SignalIndex{*number - 1};
+    } else if (is_known) {
+        cure = fmt::format("Did you mean '#{}'?", *number);
     } else {
         cure = core::did_you_mean(name, core::texts_of(network.signals(), &Signal::id), cure);
     }

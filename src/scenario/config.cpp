@@ -119,6 +119,10 @@ void merge_into(toml::table& base, const toml::table& over) {
 toml::table read_scenario(const std::filesystem::path& file, std::filesystem::path& folder) {
     toml::table table = core::parse_toml(core::read_file(file), file.string());
     folder = file.parent_path().empty() ? "." : file.parent_path();
+    if (table.contains("conditions") || table.contains("condition"))
+        throw core::InputError({file.string(), "is a study file, not a scenario",
+                                "a folder with a scenario.toml, or a TOML file of a scenario",
+                                fmt::format("`clearway study {}` runs it", file.string())});
     if (!table.contains("base")) return table;
     const std::string base = table["base"].value<std::string>().value_or("");
     const std::filesystem::path base_file =

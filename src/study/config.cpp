@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/near_file.hpp"
 #include "core/shipped_files.hpp"
 #include "core/strict_table.hpp"
 #include "experiment/code_parts.hpp"
@@ -421,17 +422,47 @@ std::filesystem::path study_file(const std::filesystem::path& name) {
     return own && std::filesystem::is_regular_file(*own) ? *own : name;
 }
 
-StudyConfig read_study(const std::filesystem::path& name, Extent extent, std::uint64_t most_runs,
-                       const std::vector<std::string>& scenarios) {
-    const std::filesystem::path file = study_file(name);
-    if (std::filesystem::is_directory(file))
+namespace {
+
+/// How to run a scenario, in place of which a study file is wanted.
+[[noreturn]] void refuse_scenario(const std::filesystem::path& scenario) {
+    const std::string folder = scenario.filename() == "scenario.toml"
+                                   ? (scenario.has_parent_path() ? scenario.parent_path().string() : ".")
+                                   : scenario.string();
+    throw core::InputError({scenario.string(), "is a scenario", "a study file (.toml)",
+                            fmt::format("`clearway run {0}` runs it, `clearway study studies/parts.toml "
+                                        "--scenario {0}` compares the parts of a policy on it",
+                                        folder)});
+}
+
+/// Refuses what is no file, or that of a scenario's folder, and says what it is.
+void require_study_file(const std::filesystem::path& file) {
+    if (file.empty()) throw core::InputError({"the study", "is an empty text", "a study file (.toml)", ""});
+    if (std::filesystem::is_directory(file)) {
+        if (std::filesystem::exists(file / "scenario.toml")) refuse_scenario(file);
         throw core::InputError(
             {file.string(), "is a folder", "a study file (.toml)",
              std::filesystem::exists(file / "manifest.json")
                  ? fmt::format("clearway report {0} shows its runs; {0}/command.txt made them", file.string())
                  : "Name a file in it"});
+    }
+    std::error_code unknown;
+    if (std::filesystem::status(file, unknown).type() != std::filesystem::file_type::not_found) return;
+    const std::vector<std::string> scenarios = scenario::list();
+    if (std::ranges::find(scenarios, file.string()) != scenarios.end()) refuse_scenario(file);
+    throw core::InputError(
+        {file.string(), "there is no such file", "a study file (.toml)", core::did_you_mean_file(file)});
+}
+
+}  // namespace
+
+StudyConfig read_study(const std::filesystem::path& name, Extent extent, std::uint64_t most_runs,
+                       const std::vector<std::string>& scenarios) {
+    const std::filesystem::path file = study_file(name);
+    require_study_file(file);
     TomlReading reading{file.string(), {}, {}};
     const toml::table table = core::parse_toml(core::read_file(file), reading.file);
+    if (table.contains("network") || table.contains("base")) refuse_scenario(file);
     StrictTable root(table, "", reading);
     StudyConfig config;
     config.most_runs = most_runs;

@@ -12,6 +12,7 @@
 #include "core/atomic_file.hpp"
 #include "core/error.hpp"
 #include "core/leftovers.hpp"
+#include "core/near_file.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::core {
@@ -201,6 +202,15 @@ TEST_F(FilesTest, parts_of_killed_writers_go_and_those_of_others_stay) {
     EXPECT_FALSE(std::filesystem::exists(gone));
     for (const auto& kept : {own, no_writer, no_process})
         EXPECT_TRUE(std::filesystem::exists(kept)) << kept;
+}
+
+TEST(NearFile, has_the_ending_of_the_missing_one_and_is_written_as_it_is) {
+    const support::TemporaryFolder folder;
+    folder.write("parts.toml", "");
+    folder.write("party.md", "");
+    const std::string here = folder.path().string();
+    EXPECT_EQ(did_you_mean_file(here + "/party.toml"), "Did you mean '" + here + "/parts.toml'?");
+    EXPECT_EQ(did_you_mean_file(here + "/nowhere/party.toml", "None."), "None.");
 }
 
 }  // namespace

@@ -47,8 +47,9 @@ TEST_F(RunName, MayBeTheFolderOfTheRunsFiles) {
 
 TEST_F(RunName, OfNoRunIsRefusedWithTheNearest) {
     EXPECT_THAT(error_of(name("alpa/treatd/7")),
-                AllOf(HasSubstr("Did you mean 'alpha'?"), HasSubstr("Did you mean 'treated'?"),
-                      HasSubstr("`7` is not in this study"), HasSubstr("0 to 1")));
+                AllOf(HasSubstr("mine/alpa/treatd/7: replication"), HasSubstr("Did you mean 'alpha'?"),
+                      HasSubstr("Did you mean 'treated'?"), HasSubstr("`7` is not in this study"),
+                      HasSubstr("0 to 1")));
     for (const char* const word : {"", "7", "alpha/7", "nowhere/alpha/treated/0"})
         EXPECT_THAT(error_of(word), AllOf(HasSubstr("is not a run"), HasSubstr(run_name_form))) << word;
     for (const char* const number : {"x", "-1", "1x", "99999999999"})

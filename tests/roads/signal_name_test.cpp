@@ -28,6 +28,7 @@ TEST(SignalNames, AreIdsOrTheNumbersThatTablesShow) {
 TEST(SignalNames, OutsideTheRangeAreRefusedWithIt) {
     for (const char* const name : {"#0", "#3", "#-1", "#", "#1x", "#99999999999"})
         EXPECT_THAT(problem_of(name), AllOf(HasSubstr("here"), HasSubstr(name), HasSubstr("#1 to #2")));
+    EXPECT_THAT(problem_of("2"), HasSubstr("Did you mean '#2'?"));
     EXPECT_THAT(problem_of("BB"), HasSubstr("Did you mean 'B'?"));
 }
 

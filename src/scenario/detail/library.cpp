@@ -1,11 +1,13 @@
 #include "scenario/detail/library.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/near_file.hpp"
 #include "core/shipped_files.hpp"
 #include "scenario/config.hpp"
 
@@ -30,15 +32,31 @@ std::vector<std::string> scenarios_here(const std::string& like) {
     return names;
 }
 
-/// Maps and SUMO's files, which the import makes a scenario of.
+constexpr const char* what_is_one =
+    "a name of `clearway list scenarios`, a folder with a scenario.toml, or a TOML file";
+
+/// Whether a map or a file of SUMO's has such a name, of which the import makes a scenario.
+bool is_imported(const std::filesystem::path& file) {
+    constexpr std::array endings = {".osm", ".pbf", ".gz", ".bz2", ".xml", ".sumocfg"};
+    return std::ranges::any_of(endings, [&](const char* ending) { return file.extension() == ending; });
+}
+
 void refuse_what_is_imported(const std::filesystem::path& file) {
-    for (const char* const ending : {".osm", ".pbf", ".gz", ".bz2", ".xml", ".sumocfg"}) {
-        if (file.extension() == ending)
-            throw core::InputError(
-                {file.string(), "is not a scenario, but a file that one is made of",
-                 "a folder with a scenario.toml, or a TOML file",
-                 fmt::format("`clearway scenario import {} --name NAME` makes one", file.string())});
-    }
+    if (is_imported(file))
+        throw core::InputError(
+            {file.string(), "is not a scenario, but a file that one is made of", what_is_one,
+             fmt::format("`clearway scenario import {} --name NAME` makes one", file.string())});
+}
+
+/// A text that can mean a file alone, and that names none.
+void refuse_missing_file(const std::filesystem::path& path) {
+    if (path.empty()) throw core::InputError({"the scenario", "is an empty text", what_is_one, ""});
+    const bool is_map = is_imported(path);
+    if (!is_map && path.extension() != ".toml") return;
+    throw core::InputError(
+        {path.string(), "there is no such file", what_is_one,
+         core::did_you_mean_file(
+             path, is_map ? "Of a map, `clearway scenario import FILE --name NAME` makes one" : "")});
 }
 
 }  // namespace
@@ -71,6 +89,7 @@ std::filesystem::path scenario_file(const std::string& name_or_path) {
         return shipped / file_name;
     }
     if (is_file) return path;
+    refuse_missing_file(path);
     std::vector<std::string> near = scenarios_here(name_or_path);
     near.insert(near.end(), names.begin(), names.end());
     throw core::InputError(core::Problem{
