@@ -231,9 +231,10 @@ std::filesystem::path usual_folder(study::StudyConfig config, const experiment::
     return options.folder;
 }
 
-/// It may hold nothing, or the rounds of an earlier call.
+/// It can be written, and may hold nothing, or the rounds of an earlier call.
 void check_folder(const std::filesystem::path& folder) {
     core::require_own(folder, {"clearway equip", {EquipRounds::first_round}});
+    core::require_writable(folder);
 }
 
 /// What both verbs begin with.

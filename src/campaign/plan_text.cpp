@@ -209,23 +209,26 @@ Printout plan_printout(const study::Plan& plan, const RunOptions& options) {
 
 core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, RunOptions options) {
     config.replications = replications_so_far(config, options.folder);
+    require_divisible(config, shard);
     study::Plan plan = plan_for(config, options);
-    study::check_roads(plan);
-    study::keep_shard(plan, shard);
+    study::require_own_shard(options.folder, shard);
     std::optional<core::InputError> refusal;
     try {
-        results::Store::require_fits(options.folder, plan.manifest);
+        study::require_ready(plan, options.folder);
     } catch (const core::InputError& error) {
         refusal = error;  // the plan is wanted all the same
     }
+    study::keep_shard(plan, shard);
     print(plan_printout(plan, options), options.publish.printing);
     if (refusal) throw *refusal;
     return core::ExitCode::ok;
 }
 
-std::optional<double> estimated_time_left_s(const study::Plan& plan, const std::filesystem::path& folder,
+std::optional<TimeLeft> estimated_time_left(const study::Plan& plan, const std::filesystem::path& folder,
                                             unsigned workers) {
-    return rest_of(cells_of(plan, folder), workers).wall_s;
+    const Rest rest = rest_of(cells_of(plan, folder), workers);
+    if (!rest.wall_s) return std::nullopt;
+    return TimeLeft{*rest.wall_s, rest.basis};
 }
 
 }  // namespace clearway::campaign

@@ -103,8 +103,8 @@ void say_how_to_continue(const study::Plan& plan, const std::filesystem::path& f
                progress.done, core::counted(progress.total, "run"), folder.string(), options.command);
     if (progress.done == 0) return;  // nothing to estimate by
     try {
-        if (const auto left_s = estimated_time_left_s(plan, folder, options.workers))
-            fmt::print(stderr, "clearway: about {} is left\n", core::clock_text(*left_s));
+        if (const auto left = estimated_time_left(plan, folder, options.workers))
+            fmt::print(stderr, "clearway: about {} is left\n", core::clock_text(left->wall_s));
     } catch (const std::exception&) {  // a run folder beside it that cannot be read: no estimate
     }
 }
@@ -330,12 +330,16 @@ std::uint32_t replications_so_far(const study::StudyConfig& config, const std::f
                : config.replications;
 }
 
-core::ExitCode run_shard(const study::StudyConfig& config, const study::Shard& shard, RunOptions options) {
-    if (config.precision)
+void require_divisible(const study::StudyConfig& config, const study::Shard& shard) {
+    if (config.precision && !shard.whole())
         throw core::InputError({"--shard",
                                 "the study has a precision target, which needs all its runs at once",
                                 "a study with replications",
                                 "Run it as a whole, or give the number of replications that it reached"});
+}
+
+core::ExitCode run_shard(const study::StudyConfig& config, const study::Shard& shard, RunOptions options) {
+    require_divisible(config, shard);
     study::Plan plan = plan_for(config, options);
     study::keep_shard(plan, shard);
     study::claim(options.folder, shard);

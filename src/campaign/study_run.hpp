@@ -80,8 +80,10 @@ std::uint32_t replications_so_far(const study::StudyConfig& config, const std::f
 /// cap. A study that is continued in its folder takes the same rounds to the same results.
 core::ExitCode run_study(study::StudyConfig config, RunOptions options);
 
-/// Makes the runs of a shard in its folder and prints how far it is. Throws core::InputError for a study with
-/// a precision target, which needs all its runs at once.
+/// Throws core::InputError for a part of a study with a precision target, which needs all its runs at once.
+void require_divisible(const study::StudyConfig& config, const study::Shard& shard);
+
+/// Makes the runs of a shard in its folder and prints how far it is. Throws as require_divisible does.
 core::ExitCode run_shard(const study::StudyConfig& config, const study::Shard& shard, RunOptions options);
 
 /// Makes the missing runs of a plan and publishes its folder. Returns interrupted or terminated, else as

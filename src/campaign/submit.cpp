@@ -127,7 +127,8 @@ std::vector<std::string> model_options(const std::vector<experiment::ConditionSp
 }
 
 study::Submission submission_of(const SubmitRequest& request, const study::Plan& plan) {
-    const auto time_s = estimated_time_left_s(plan, request.out, 1);
+    const auto left = estimated_time_left(plan, request.out, 1);
+    const auto time_s = left ? std::optional(left->wall_s) : std::nullopt;
     study::Submission submission;
     submission.engine = request.engine;
     submission.shards = shard_count(request, plan, time_s);

@@ -60,16 +60,26 @@ std::string repeatable(const std::string& command, std::uint32_t replications) {
                               fmt::format("--seeds {}", replications));
 }
 
+/// Says on standard error when the least that can be run is expected to take longer than the time given.
+void warn_if_short(const TimeLeft& first, const study::StudyConfig& config, double within_s) {
+    if (first.wall_s <= within_s) return;
+    fmt::print(stderr,
+               "clearway: the least, {} of each condition, takes about {}, more than the {} given: {}\n",
+               core::counted(config.replications, "replication"), clock_words(first.wall_s),
+               clock_words(within_s), words(first.basis));
+}
+
 }  // namespace
 
 study::StudyConfig fitted(study::StudyConfig config, double within_s, RunOptions& options) {
     name_folder(config, options);
     config.replications = replications_in(options.folder) + first_round;
-    const auto first_s = estimated_time_left_s(plan_for(config, options), options.folder, options.workers);
-    if (!first_s)
+    const auto first = estimated_time_left(plan_for(config, options), options.folder, options.workers);
+    if (!first)
         throw core::InputError({"--within", "the time of a run is unknown: its route files cannot be read",
                                 "a scenario whose files can be read", "Give --seeds instead"});
-    config.replications += fitting(config, within_s - *first_s, *first_s / first_round);
+    warn_if_short(*first, config, within_s);
+    config.replications += fitting(config, within_s - first->wall_s, first->wall_s / first_round);
     return config;
 }
 
@@ -81,6 +91,8 @@ core::ExitCode run_within(study::StudyConfig config, double within_s, RunOptions
     name_folder(config, options);
     const std::uint32_t before = replications_in(options.folder);
     config.replications = std::max(first_round, before);
+    if (const auto first = estimated_time_left(plan_for(config, options), options.folder, options.workers))
+        warn_if_short(*first, config, within_s);
     double made = 0.0;  // replications; without failed runs, which may be of an earlier command
     while (true) {
         const study::Plan plan = plan_for(config, options);

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <fstream>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -56,6 +57,26 @@ void claim(const fs::path& folder, const OwnFolder& own) {
     require_own(folder, own);
     make_folder(folder);
     if (!has_mark(folder, own)) write_output(folder / own.marks.front(), fmt::format("{}\n", own.verb));
+}
+
+void require_writable(const fs::path& folder) {
+    std::vector<fs::path> missing;  // the innermost first
+    std::error_code unknown;
+    for (fs::path each = fs::absolute(folder).lexically_normal();
+         each.has_relative_path() && fs::status(each, unknown).type() == fs::file_type::not_found;
+         each = each.parent_path())
+        if (each.has_filename()) missing.push_back(each);
+    const auto remove_made = [&] {
+        for (const fs::path& each : missing)
+            fs::remove(each, unknown);  // Another process may have put something into it.
+    };
+    try {
+        make_folder(folder);
+    } catch (const EnvironmentError&) {
+        remove_made();
+        throw;
+    }
+    remove_made();
 }
 
 void write_own(const fs::path& file, std::string_view content, const OwnFile& own) {

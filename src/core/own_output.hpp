@@ -21,6 +21,10 @@ void require_own(const std::filesystem::path& folder, const OwnFolder& own);
 /// early can be given again. Throws EnvironmentError when it cannot be written.
 void claim(const std::filesystem::path& folder, const OwnFolder& own);
 
+/// Throws EnvironmentError, as make_folder does, for a folder that cannot be made or written. Leaves nothing
+/// there that was not there before, as a dry run must.
+void require_writable(const std::filesystem::path& folder);
+
 /// By what a verb knows its own files.
 struct OwnFile {
     const char* what;       ///< `a page of clearway replay --view`.

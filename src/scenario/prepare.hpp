@@ -37,6 +37,9 @@ struct Prepared {
 /// and would take such a path for two.
 void refuse_commas(const std::filesystem::path& folder);
 
+/// Throws core::InputError for pedestrians in a network that has no crossing for them.
+void require_crossings(const ScenarioConfig& config, const roads::Network& network);
+
 /// Writes vehicle types, routes, emergency departures and pedestrians of one replication into `folder` and
 /// returns where they are. A pure function of configuration, network, seed and replication: equal arguments
 /// give equal bytes, and a vehicle keeps its departure, route and driver when others are added. Throws

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/folder_name.hpp"
+#include "core/own_output.hpp"
 #include "core/part_folder.hpp"
 #include "core/plain_files.hpp"
 #include "core/read_failure.hpp"
@@ -208,10 +209,15 @@ void require_unchanged(const results::Store& store) {
     }
 }
 
-results::Store prepare_folder(const Plan& plan, const fs::path& folder) {
+void require_ready(const Plan& plan, const fs::path& folder) {
     check_roads(plan);
     if (fs::exists(folder / "manifest.json")) core::require_plain_files(folder);
-    results::Store::refuse_others(folder);
+    results::Store::require_fits(folder, plan.manifest);
+    core::require_writable(folder);
+}
+
+results::Store prepare_folder(const Plan& plan, const fs::path& folder) {
+    require_ready(plan, folder);
     const FolderLock lock(folder);
     results::Store store = results::Store::create(folder, plan.manifest);
     require_unchanged(store);

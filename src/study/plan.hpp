@@ -59,6 +59,10 @@ Plan make_plan(const StudyConfig& config, const Versions& versions, const std::f
 /// some seconds at most.
 void check_roads(const Plan& plan);
 
+/// What a run and its dry run both check before anything is made: check_roads, results::Store::require_fits
+/// and core::require_writable. Writes nothing that stays.
+void require_ready(const Plan& plan, const std::filesystem::path& folder);
+
 /// Throws core::InputError for a scenario that the folder holds and that is not the manifest's any more, or
 /// whose network was changed: a continued study never mixes two scenarios.
 void require_unchanged(const results::Store& store);
@@ -66,7 +70,7 @@ void require_unchanged(const results::Store& store);
 void require_unchanged(const results::ScenarioEntry& entry, const std::filesystem::path& folder);
 
 /// Creates the run folder with the manifest and each scenario's effective configuration and network. Keeps
-/// what already exists. Throws as check_roads, require_unchanged, scenario::build_network and
+/// what already exists. Throws as require_ready, require_unchanged, scenario::build_network and
 /// results::Store::create do.
 results::Store prepare_folder(const Plan& plan, const std::filesystem::path& folder);
 

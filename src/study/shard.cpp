@@ -41,18 +41,20 @@ Shard shard_of(const std::filesystem::path& folder) {
     return shard_from(text.substr(0, text.find('\n')), file.string());
 }
 
+void require_own_shard(const std::filesystem::path& folder, const Shard& shard) {
+    if (!std::filesystem::exists(folder / "manifest.json")) return;
+    const Shard held = shard_of(folder);
+    if (held == shard) return;
+    const auto describe = [](const Shard& each) {
+        return each.whole() ? std::string("the whole study") : "shard " + to_text(each);
+    };
+    throw core::InputError({folder.string(), fmt::format("holds {}, not {}", describe(held), describe(shard)),
+                            "one shard per folder", "Choose another folder with --out"});
+}
+
 void claim(const std::filesystem::path& folder, const Shard& shard) {
-    if (std::filesystem::exists(folder / "manifest.json")) {
-        const Shard held = shard_of(folder);
-        if (held == shard) return;
-        const auto describe = [](const Shard& each) {
-            return each.whole() ? std::string("the whole study") : "shard " + to_text(each);
-        };
-        throw core::InputError({folder.string(),
-                                fmt::format("holds {}, not {}", describe(held), describe(shard)),
-                                "one shard per folder", "Choose another folder with --out"});
-    }
-    if (shard.whole()) return;
+    require_own_shard(folder, shard);
+    if (shard.whole() || std::filesystem::exists(folder / "manifest.json")) return;
     core::make_folder(folder);
     core::write_atomically(folder / shard_file, to_text(shard) + "\n");
 }

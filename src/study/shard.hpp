@@ -24,7 +24,9 @@ Shard shard_from(const std::string& text, const std::string& where);
 
 /// Which shard a run folder holds; the whole study unless claimed for a shard.
 Shard shard_of(const std::filesystem::path& folder);
-/// Marks `folder` as that of a shard. Throws core::InputError when it holds another shard or the whole study.
+/// Throws core::InputError when `folder` holds another shard or the whole study.
+void require_own_shard(const std::filesystem::path& folder, const Shard& shard);
+/// Marks `folder` as that of a shard. Throws likewise.
 void claim(const std::filesystem::path& folder, const Shard& shard);
 
 /// Whether a shard has the unit of this number. A shard has exactly one of every `count` consecutive units,

@@ -1,5 +1,8 @@
 // What is wrong in the user's files, and what the machine refuses.
 
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "core/files.hpp"
@@ -347,6 +350,60 @@ TEST_F(BadInputTest, a_dry_run_refuses_the_incidents_that_a_run_refuses) {
     const Ended study = clearway({"study", "my.toml", "--dry-run"});
     EXPECT_EQ(study.code, 3);
     EXPECT_THAT(study.err, HasSubstr(wrong));
+}
+
+TEST_F(BadInputTest, a_dry_run_refuses_what_a_run_refuses) {
+    write_line_scenario();
+    write("my.toml", "name = \"mine\"\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n");
+    write("rounds.toml",
+          read("my.toml") + "[precision]\nmetric = \"emergency_travel_time_s\"\nhalf_width = 1.0\n");
+    write("theirs", "a file");
+    const std::vector<std::pair<std::vector<std::string>, int>> refused = {
+        {{"run", "./line", "--pedestrians", "100"}, 3},
+        {{"run", "./line", "--out", "/proc/x"}, 4},
+        {{"run", "./line", "--out", "theirs/out"}, 4},
+        {{"study", "my.toml", "--out", "/proc/x"}, 4},
+        {{"study", "rounds.toml", "--shard", "1/2", "--out", "out"}, 3},
+    };
+    for (const auto& [words, code] : refused) {
+        const Ended real = clearway(words);
+        EXPECT_EQ(real.code, code) << real.err;
+        std::vector<std::string> planned = words;
+        planned.emplace_back("--dry-run");
+        const Ended dry = clearway(planned);
+        EXPECT_EQ(dry.code, code) << dry.out;
+        EXPECT_EQ(dry.err, real.err);
+        EXPECT_EQ(dry.out, "");
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
+}
+
+TEST_F(BadInputTest, what_is_no_scenario_or_no_study_is_named_as_what_it_is) {
+    write_line_scenario();
+    write("x/parts.toml", "name = \"mine\"\nscenarios = [\"../line\"]\nconditions = [\"baseline\"]\n");
+    write("town.osm.gz", "");
+    const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
+        {{"study", "line/scenario.toml"},
+         "is a scenario (allowed: a study file (.toml)). `clearway run line`"},
+        {{"study", "./line"}, "`clearway run ./line` runs it"},
+        {{"study", "intersection"}, "intersection: is a scenario"},
+        {{"study", "./x/party.toml"},
+         "there is no such file (allowed: a study file (.toml)). Did you mean "
+         "'./x/parts.toml'?"},
+        {{"study", ""}, "the study: is an empty text"},
+        {{"run", ""}, "the scenario: is an empty text"},
+        {{"run", "x/parts.toml"}, "is a study file, not a scenario"},
+        {{"scenario", "check", "twn.osm.gz"}, "twn.osm.gz: there is no such file"},
+        {{"scenario", "check", "twn.osm.gz"}, "Did you mean 'town.osm.gz'?"},
+        {{"scenario", "check", "no/map.osm"}, "`clearway scenario import FILE --name NAME` makes one"},
+        {{"equip", "line/scenari.toml", "--budget", "1"}, "Did you mean 'line/scenario.toml'?"},
+    };
+    for (const auto& [words, said] : refused) {
+        const Ended ended = clearway(words);
+        EXPECT_EQ(ended.code, 3) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(said));
+        EXPECT_LT(ended.err.size(), 400U) << ended.err;
+    }
 }
 
 constexpr const char* planned_study =

@@ -127,6 +127,14 @@ TEST_F(EquipTest, says_before_it_runs_how_many_runs_it_makes) {
         EXPECT_LE(line.size(), 80U) << line;
 }
 
+TEST_F(EquipTest, refuses_a_folder_that_cannot_be_written_before_it_plans) {
+    for (const char* const word : {"--json", "--dry-run"}) {
+        const Ended ended = clearway({"equip", "./crossings", "--budget", "1", "--out", "/proc/x", word});
+        EXPECT_EQ(ended.code, 4) << ended.out;
+        EXPECT_THAT(ended.err, HasSubstr("/proc/x: cannot write"));
+    }
+}
+
 TEST_F(EquipTest, says_before_it_runs_what_a_quarter_of_an_hour_would_do) {
     clearway({"scenario", "check", "./crossings"});
     const auto plan = [&](double run_s, const std::string& candidates = "2", const std::string& seeds = "8") {

@@ -38,6 +38,8 @@ TEST_F(TimeBudgetTest, a_time_that_is_too_short_gives_the_fewest_seeds_with_an_i
         {"run", "intersection", "--dense", "--no-solo", "--within", "1s", "--out", "out", "--jobs", "1"});
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_EQ(replications(), 5U);
+    EXPECT_THAT(ended.err, testing::ContainsRegex("the least, 5 replications of each condition, takes about "
+                                                  ".*, more than the 0:01 \\(m:s\\) given"));
 }
 
 TEST_F(TimeBudgetTest, runs_that_fail_do_not_count_as_a_pace) {

@@ -72,6 +72,21 @@ TEST_F(OwnOutputTest, a_folder_or_file_of_somebody_else_is_refused) {
     EXPECT_EQ(read_file(place()), "a file");
 }
 
+TEST_F(OwnOutputTest, a_place_is_tried_and_nothing_of_it_stays) {
+    require_writable(place() / "in" / "here");
+    require_writable(place() / "in/");
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+    std::filesystem::create_directory(place());
+    require_writable(place());
+    EXPECT_TRUE(std::filesystem::is_directory(place())) << "it was there before";
+    std::filesystem::remove(place());
+    folder_.write("place", "a file");
+    EXPECT_THROW(require_writable(place()), EnvironmentError);
+    EXPECT_THROW(require_writable(place() / "in"), EnvironmentError);
+    EXPECT_THROW(require_writable("/proc/x/y"), EnvironmentError);
+    EXPECT_EQ(read_file(place()), "a file");
+}
+
 TEST_F(OwnOutputTest, a_file_is_written_over_if_it_is_empty_or_has_the_mark) {
     EXPECT_EQ(written(place()), "accepted");
     EXPECT_EQ(written(place()), "accepted");

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "roads/crossings.hpp"
+#include "scenario/prepare.hpp"
 
 namespace clearway::scenario::detail {
 
@@ -32,14 +33,14 @@ struct Walker {
     std::string xml;
 };
 
-std::vector<roads::Crossing> used_crossings(const DemandContext& context) {
-    const bool only_signals = context.config.pedestrians.crossings == Crossings::signals;
-    std::vector<roads::Crossing> all = roads::crossings(context.network);
+std::vector<roads::Crossing> used_crossings(const ScenarioConfig& config, const roads::Network& network) {
+    const bool only_signals = config.pedestrians.crossings == Crossings::signals;
+    std::vector<roads::Crossing> all = roads::crossings(network);
     const bool has_any = !all.empty();
     if (only_signals) std::erase_if(all, [](const roads::Crossing& row) { return !row.has_signal; });
     if (!all.empty()) return all;
     throw core::InputError(core::Problem{
-        context.config.where("pedestrians.per_hour"),
+        config.where("pedestrians.per_hour"),
         has_any ? "the network has no crossing with a signal" : "the network has no crossing for pedestrians",
         "0, or a network with crossings",
         has_any ? "set crossings = \"all\" in [pedestrians]"
@@ -103,7 +104,7 @@ class Walk {
 
 std::string pedestrians_xml(const DemandContext& context) {
     constexpr double seconds_per_hour = 3600.0;
-    const std::vector<roads::Crossing> crossings = used_crossings(context);
+    const std::vector<roads::Crossing> crossings = used_crossings(context.config, context.network);
     const double hours = context.config.time.window_s / seconds_per_hour;
     const auto count = static_cast<int>(
         std::lround(context.config.pedestrians.per_hour * hours * static_cast<double>(crossings.size())));
@@ -120,3 +121,11 @@ std::string pedestrians_xml(const DemandContext& context) {
 }
 
 }  // namespace clearway::scenario::detail
+
+namespace clearway::scenario {
+
+void require_crossings(const ScenarioConfig& config, const roads::Network& network) {
+    if (config.pedestrians.walk()) detail::used_crossings(config, network);
+}
+
+}  // namespace clearway::scenario

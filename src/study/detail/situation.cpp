@@ -14,6 +14,7 @@
 #include "scenario/incident.hpp"
 #include "scenario/mean_times.hpp"
 #include "scenario/network.hpp"
+#include "scenario/prepare.hpp"
 #include "scenario/vehicle_types.hpp"
 
 namespace clearway::study::detail {
@@ -160,9 +161,10 @@ void check_mean_times(const std::vector<ConditionSpec>& conditions, const scenar
 
 namespace {
 
-/// Incidents and calls that do not fit the network.
+/// Incidents and calls that do not fit the network, and pedestrians without a crossing.
 void check_events(const scenario::ScenarioConfig& scenario, const roads::Network& network,
                   std::vector<core::Problem>& problems) try {
+    scenario::require_crossings(scenario, network);
     scenario::place_calls(scenario, network, scenario::place_incidents(scenario, network));
 } catch (const core::InputError& error) {
     problems.insert(problems.end(), error.problems().begin(), error.problems().end());
@@ -180,7 +182,8 @@ void check_roads(const std::vector<ConditionSpec>& conditions, const scenario::S
         }
         return *network;
     };
-    if (!scenario.incidents.empty() || !scenario.calls.empty()) check_events(scenario, built(), problems);
+    if (!scenario.incidents.empty() || !scenario.calls.empty() || scenario.pedestrians.walk())
+        check_events(scenario, built(), problems);
     for (const ConditionSpec& condition : conditions) {
         const std::vector<std::string> pulling_over =
             experiment::policies_with(condition, traffic::Trait::shoulder);

@@ -26,8 +26,8 @@ void check_calls(const std::vector<experiment::ConditionSpec>& conditions,
                  std::vector<core::Problem>& problems);
 
 /// What the conditions need of the scenario's roads and do not find there: a shoulder, a gap between two
-/// lanes in which an emergency vehicle fits, or the signals that are equipped. Also incidents and calls that
-/// do not fit the roads. Builds the network if one of them needs something.
+/// lanes in which an emergency vehicle fits, or the signals that are equipped. Also incidents, calls and
+/// pedestrians that do not fit the roads. Builds the network if one of them needs something.
 void check_roads(const std::vector<experiment::ConditionSpec>& conditions,
                  const scenario::ScenarioConfig& scenario, std::vector<core::Problem>& problems);
 
