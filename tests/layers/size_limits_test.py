@@ -72,7 +72,7 @@ class House(unittest.TestCase):
         self.write("src/policy/registry.cpp", '#include "core/c.hpp"\n#include "truth/t.hpp"\n')
         self.write("tests/layers/allowed.txt", "core:\ntruth: core\npolicy: core\n")
         self.write(LIMIT, "9\n")
-        self.refused("policy uses truth and does not declare it: policy must not see truth (tests/layers/allowed.txt)")
+        self.refused("src/policy/registry.cpp includes truth/t.hpp: policy uses truth and does not declare it: policy must not see truth (tests/layers/allowed.txt)")
         self.write("tests/layers/allowed.txt", "core:\ntruth: core\npolicy: core truth\n")
         self.refused("policy uses truth and does not declare it: declare it in src/policy/CMakeLists.txt")
 
@@ -94,7 +94,17 @@ class House(unittest.TestCase):
         self.write(LIMIT, "9\n")
         self.refused("the policy `slow` has no test: write tests/policy/slow_test.cpp")
         self.write("tests/policy/slow_test.cpp", '#include "policy/slow.hpp"\n')
+        self.write("docs/reference/policies.md", "| `slow` | drives slowly | anywhere |\n")
+        self.write("studies/harm/roads.toml", 'condition = [{name = "slow", policy = ["slow"]}]\n')
+        self.write("studies/harm/motorways.toml", "# Nothing to do there: slow\n")
         self.assertEqual(self.check(), (0, ""))
+        for file, what in (("docs/reference/policies.md", "the policy `slow` has no row in docs/reference/policies.md"),
+                           ("studies/harm/roads.toml", "the policy `slow` has no condition in studies/harm"),
+                           ("studies/harm/motorways.toml", "studies/harm/motorways.toml does not name the policy `slow`")):
+            text = (self.root / file).read_text()
+            self.write(file, "")
+            self.assertEqual(self.refused(what).count("\n"), 1)
+            self.write(file, text)
 
     def test_a_test_that_no_list_names_is_found(self):
         self.write("tests/core/core_test.cpp", "")  # is the name of the program
