@@ -8,7 +8,7 @@ readonly work
 trap 'rm -rf -- "$work"' EXIT
 mkdir "$work/scripts"
 cp -- "$source_dir/scripts/check" "$source_dir/scripts/script_help.sh" "$work/scripts"
-readonly checks=(check-format check-docs render-docs count-docs count-house check-alone check-tidy)
+readonly checks=(check-format check-docs render-docs count-docs count-house check-lists check-alone check-tidy)
 
 # does NAME CODE: from now on the check says what it was called with, on many lines, and ends so.
 does() {
@@ -39,6 +39,12 @@ for name in "${checks[@]}"; do says "^pass  $name +[0-9]+ s$"; done
 says '^check: all passed$'
 says_not '^ |FAIL'
 
+# One that cannot be made fails nothing, and says why.
+does check-lists 77
+expect 0
+says '^skip  check-lists +[0-9]+ s  20$'
+does check-lists 0
+
 does check-format 1
 does check-tidy 3
 expect 1
@@ -66,3 +72,24 @@ says '^FAIL  count-docs '
 expect 2 src/policy
 says 'takes no path'
 expect 2 --quick src
+
+# Pages that a built program makes: cat stands in for its list, a source that is newer for one that is not compiled.
+mkdir -p "$work/docs/reference" "$work/src" "$work/programs/clearway" "$work/build/ci/bin"
+cp -- "$source_dir/scripts/check-lists" "$work/scripts"
+for page in settings columns scenario-keys; do echo "$page" >"$work/docs/reference/$page.md"; done
+printf '#!/bin/sh\necho "$2"\n' >"$work/build/ci/bin/clearway"
+chmod +x "$work/build/ci/bin/clearway"
+touch -d '2 hours ago' "$work/src/a.cpp"
+lists() {
+    local code=0
+    "$work/scripts/check-lists" >"$work/said" 2>&1 || code=$?
+    [[ $code == "$1" ]] || fail "scripts/check-lists ends with $code instead of $1"
+}
+lists 0
+echo old >"$work/docs/reference/columns.md"
+lists 1
+says '^docs/reference/columns.md is not what the sources say: build/ci/bin/clearway list columns --markdown > docs'
+says_not 'settings'
+touch -d '2 hours' "$work/src/a.cpp"
+lists 77
+says 'no built program is newer'
