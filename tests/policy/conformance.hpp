@@ -29,7 +29,7 @@ struct PolicyScenes {
 };
 
 /// Enters what suits a policy, as a constant of the file that tests it:
-/// `const OwnScenes mine{{.policy = "mine", .reason = "acts at speed", .speed_mps = 25.0}};`
+/// `const OwnScenes my_scenes{{.policy = "mine", .reason = "acts at speed", .speed_mps = 25.0}};`
 class OwnScenes {
   public:
     explicit OwnScenes(PolicyScenes scenes);
@@ -40,8 +40,9 @@ const std::vector<PolicyScenes>& all_own_scenes();
 PolicyScenes scenes_of(const std::string& policy);
 
 /// The scene that every policy has something to do in, except those that need a shoulder: an emergency
-/// vehicle before a red signal, automated vehicles ahead of it on its lane and beside it, queues of human
-/// drivers ahead of it and on the crossing street, and an automated vehicle there.
+/// vehicle before a red signal, automated vehicles 30 m ahead of it on its lane and 4 m behind its front on
+/// the next one, queues of human drivers ahead of it and on the crossing street, and an automated vehicle
+/// there.
 void add_helpful_scene(ActuationBench& bench, const PolicyScenes& scenes = {});
 /// The scene in which no policy has: traffic of all kinds, but the emergency vehicle is past the last signal
 /// and alone.
