@@ -10,15 +10,14 @@ namespace clearway::core {
 
 std::string did_you_mean_file(const std::filesystem::path& file, const std::string& otherwise) {
     namespace fs = std::filesystem;
+    if (file.empty()) return otherwise;
     const fs::path folder = file.parent_path();
     std::vector<std::string> names;
     std::error_code none;
     for (auto entry = fs::directory_iterator(folder.empty() ? "." : folder, none);
          !none && entry != fs::directory_iterator(); entry.increment(none)) {
         const fs::path name = entry->path().filename();
-        std::error_code unknown;  // such as a link that leads to itself
-        if (name.extension() == file.extension() && fs::is_regular_file(entry->path(), unknown))
-            names.push_back((folder / name).string());
+        if (name.extension() == file.extension()) names.push_back((folder / name).string());
     }
     std::ranges::sort(names);
     return did_you_mean(file.string(), names, otherwise);

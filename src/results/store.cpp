@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/leftovers.hpp"
+#include "core/near_file.hpp"
 #include "core/number.hpp"
 #include "core/own_output.hpp"
 #include "core/part_folder.hpp"
@@ -143,6 +144,7 @@ std::string cure_of_another(const fs::path& folder) {
     if (folder.extension() == ".toml")
         return fmt::format("clearway study {} runs a study file", folder.string());
     std::error_code unknown;
+    if (!fs::exists(folder, unknown)) return core::did_you_mean_file(folder);
     const std::string runs = run_folders_in(folder);
     if (!fs::exists(folder / "equip.json", unknown)) return runs;
     return fmt::format("{} shows its answer{}{}", (folder / "report.html").string(), runs.empty() ? "" : ". ",

@@ -396,6 +396,10 @@ TEST_F(BadInputTest, what_is_no_scenario_or_no_study_is_named_as_what_it_is) {
         {{"scenario", "check", "twn.osm.gz"}, "twn.osm.gz: there is no such file"},
         {{"scenario", "check", "twn.osm.gz"}, "Did you mean 'town.osm.gz'?"},
         {{"scenario", "check", "no/map.osm"}, "`clearway scenario import FILE --name NAME` makes one"},
+        {{"run", "./lin"}, "./lin: there is no such folder"},
+        {{"run", "./lin"}, "Did you mean './line'?"},
+        {{"scenario", "import", "twn.osm.gz", "--name", "twn"}, "Did you mean 'town.osm.gz'?"},
+        {{"report", "xx"}, "Did you mean 'x'?"},
         {{"equip", "line/scenari.toml", "--budget", "1"}, "Did you mean 'line/scenario.toml'?"},
     };
     for (const auto& [words, said] : refused) {

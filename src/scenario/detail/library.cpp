@@ -48,13 +48,16 @@ void refuse_what_is_imported(const std::filesystem::path& file) {
              fmt::format("`clearway scenario import {} --name NAME` makes one", file.string())});
 }
 
-/// A text that can mean a file alone, and that names none.
+/// A text that can mean a file or folder alone, and that names none.
 void refuse_missing_file(const std::filesystem::path& path) {
     if (path.empty()) throw core::InputError({"the scenario", "is an empty text", what_is_one, ""});
     const bool is_map = is_imported(path);
-    if (!is_map && path.extension() != ".toml") return;
+    std::error_code unknown;
+    const bool is_path = is_map || path.extension() == ".toml" || path.has_parent_path();
+    if (!is_path || std::filesystem::exists(path, unknown)) return;
     throw core::InputError(
-        {path.string(), "there is no such file", what_is_one,
+        {path.string(), path.has_extension() ? "there is no such file" : "there is no such folder",
+         what_is_one,
          core::did_you_mean_file(
              path, is_map ? "Of a map, `clearway scenario import FILE --name NAME` makes one" : "")});
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/near_file.hpp"
 #include "core/open_file.hpp"
 #include "scenario_import/detail/element.hpp"
 #include "scenario_import/detail/packed_file.hpp"
@@ -107,7 +108,8 @@ bool has_name_of_configuration(const std::filesystem::path& file) {
 }  // namespace
 
 SourceKind kind_of(const std::filesystem::path& file) {
-    if (!std::filesystem::exists(file)) refuse(file, "does not exist", "check the path");
+    if (!std::filesystem::exists(file))
+        refuse(file, "does not exist", core::did_you_mean_file(file, "check the path"));
     if (std::filesystem::is_directory(file))
         throw core::InputError(
             {file.string(), "is a folder", "a map, a network or a SUMO configuration", sources_in(file)});
