@@ -212,9 +212,10 @@ core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, 
     require_divisible(config, shard);
     study::Plan plan = plan_for(config, options);
     study::require_own_shard(options.folder, shard);
+    study::require_ready(plan, options.folder);
     std::optional<core::InputError> refusal;
     try {
-        study::require_ready(plan, options.folder);
+        results::Store::require_fits(options.folder, plan.manifest);
     } catch (const core::InputError& error) {
         refusal = error;  // the plan is wanted all the same
     }

@@ -212,12 +212,12 @@ void require_unchanged(const results::Store& store) {
 void require_ready(const Plan& plan, const fs::path& folder) {
     check_roads(plan);
     if (fs::exists(folder / "manifest.json")) core::require_plain_files(folder);
-    results::Store::require_fits(folder, plan.manifest);
     core::require_writable(folder);
 }
 
 results::Store prepare_folder(const Plan& plan, const fs::path& folder) {
     require_ready(plan, folder);
+    results::Store::require_fits(folder, plan.manifest);
     const FolderLock lock(folder);
     results::Store store = results::Store::create(folder, plan.manifest);
     require_unchanged(store);

@@ -59,8 +59,8 @@ Plan make_plan(const StudyConfig& config, const Versions& versions, const std::f
 /// some seconds at most.
 void check_roads(const Plan& plan);
 
-/// What a run and its dry run both check before anything is made: check_roads, results::Store::require_fits
-/// and core::require_writable. Writes nothing that stays.
+/// What a run and its dry run both check before anything is made: check_roads, whether what a run folder
+/// holds can be read, and core::require_writable. Writes nothing that stays.
 void require_ready(const Plan& plan, const std::filesystem::path& folder);
 
 /// Throws core::InputError for a scenario that the folder holds and that is not the manifest's any more, or
