@@ -139,7 +139,7 @@ std::string setting_sentence(const EquipmentFacts& facts) {
     std::vector<std::string> signals = facts.equipped_today;
     for (const EquippedSignal& rank : facts.ranked)
         signals.push_back(fmt::format("#{}", rank.number));
-    return fmt::format("For a study of them: --set actuation.equipped={} (numbers of signals, not ranks).",
+    return fmt::format("For a study of them (numbers of signals, not ranks): --set actuation.equipped={}",
                        printable(fmt::format("{}", fmt::join(signals, ","))));
 }
 
@@ -207,6 +207,13 @@ const char* end_word(EquipEnd end) {
 
 std::string paragraph(const std::vector<std::string>& sentences) {
     return core::wrapped(fmt::format("{}", fmt::join(sentences, " ")), 0) + "\n";
+}
+
+std::string lines(const std::vector<std::string>& sentences) {
+    std::string text;
+    for (const std::string& sentence : sentences)
+        text += core::wrapped(sentence, 4) + "\n";
+    return text;
 }
 
 }  // namespace
@@ -278,13 +285,13 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts) {
             estimate_or_dash(last.so_far), facts.equipped_today.empty() ? "none" : "those of today",
             shown_word(last.so_far), others_words(last.others)));
         sentences.push_back(no_effect_sentence(facts));
-        sentences.push_back(setting_sentence(facts));
         sentences.push_back(together_sentence(facts));
         sentences.push_back(not_shown_sentence(facts));
         sentences.push_back(seeds_sentence(facts));
     }
     sentences.push_back(end_sentence(facts));
     sentences.push_back(share_sentence(facts));
+    if (!facts.ranked.empty()) sentences.push_back(setting_sentence(facts));  // last: to copy
     std::erase(sentences, "");
     return sentences;
 }
@@ -392,7 +399,7 @@ std::string equipment_text(const EquipmentFacts& facts) {
     text += "\n" + detail::text_of(detail::ranked_sheet(facts, detail::LastRow::all)) +
             paragraph({detail::ranked_legend(facts)});
     return text + "\n" + paragraph(detail::circumstances_of(facts)) + "\n" +
-           paragraph(detail::findings_of(facts));
+           lines(detail::findings_of(facts));
 }
 
 std::string equipment_json(const EquipmentFacts& facts) {

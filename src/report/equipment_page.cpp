@@ -151,7 +151,7 @@ Figure curve_figure(const EquipmentFacts& facts) {
 
 Figure candidates_figure(const EquipmentFacts& facts) {
     constexpr double row_height = 18.0;
-    constexpr double names_end = 116.0;
+    constexpr double names_end = 170.0;
     std::vector<EquipCandidateFacts> drawn;
     for (const EquipCandidateFacts& one : facts.candidates)
         if (one.gain) drawn.push_back(one);
@@ -170,7 +170,7 @@ Figure candidates_figure(const EquipmentFacts& facts) {
     plot.vertical(0.0);
     double y = top_edge + 0.5 * row_height;
     for (const EquipCandidateFacts& one : drawn) {
-        plot.text(names_end, y + 4.0, fmt::format("{} {}", one.number, shortened(one.signal, 11)),
+        plot.text(names_end, y + 4.0, fmt::format("{} {}", one.number, short_signal_name(one.signal)),
                   Canvas::Anchor::end, "tick");
         plot.estimate(one.gain, shown_interval(one.gain), y,
                       {is_shown(one.gain) ? std::size_t{1} : std::size_t{2}});

@@ -130,7 +130,7 @@ TEST(Equipment, EndsWithTheAnswer) {
         text.substr(text.find("Equip first: 1) Gate <Road> / High Street, 2) south of"));
     EXPECT_THAT(answer, HasSubstr("42.0 [38.0, 46.0]"));
     EXPECT_THAT(text, HasSubstr("Not shown: the gain of rank 2"));
-    EXPECT_THAT(text, HasSubstr("--set actuation.equipped=#"));
+    EXPECT_THAT(equipment_text(two_of_twelve()), testing::EndsWith(": --set actuation.equipped=#4,#9\n"));
     EXPECT_THAT(text, HasSubstr("Stopped at 2 of 5"));
     EXPECT_THAT(text, testing::ContainsRegex("- +- +all signals")) << "no rank 12";
     EXPECT_LE(answer.size(), 7U * 80U) << "seven lines at the end of a terminal";
