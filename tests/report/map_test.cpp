@@ -1,5 +1,7 @@
 #include "report/map.hpp"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 
 #include "report/detail/grid.hpp"
@@ -74,6 +76,29 @@ TEST(MapCanvas, writes_the_names_of_stations_in_full_and_the_kind_of_those_witho
                                       ::testing::HasSubstr(">M\u00e9decine du Sport<"),
                                       ::testing::HasSubstr(">fire station<"),
                                       ::testing::Not(::testing::HasSubstr("\u2026"))));
+}
+
+TEST(MapCanvas, moves_a_station_s_name_that_would_lie_on_another_and_leaves_out_kinds_without_room) {
+    RoadMap map = diamond();
+    map.stations = {{map.edges[0].id, "hospital", ""},
+                    {map.edges[0].id, "hospital", "Gate"},
+                    {map.edges[0].id, "fire_station", "Hill"}};
+    detail::MapCanvas canvas("t", map);
+    canvas.stations(map);
+    std::string svg = canvas.finish();
+    const double apart = std::hypot(number_of(svg, "Gate", " x") - number_of(svg, "Hill", " x"),
+                                    number_of(svg, "Gate", " y") - number_of(svg, "Hill", " y"));
+    EXPECT_GE(number_of(svg, "Hill", " x"), 0.0) << "written, too";
+    EXPECT_GE(apart, 12.0) << "a line's height";
+    map.stations.assign(9, {map.edges[0].id, "hospital", ""});
+    detail::MapCanvas full("t", map);
+    full.stations(map);
+    svg = full.finish();
+    std::size_t kinds = 0;
+    for (std::size_t at = svg.find(">hospital"); at != std::string::npos; at = svg.find(">hospital", at + 1))
+        ++kinds;
+    EXPECT_GE(kinds, 1U);
+    EXPECT_LE(kinds, 4U) << "sides of one sign";
 }
 
 TEST(Grid, writes_intervals_into_cells_that_are_wide_enough_for_them) {

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
+
+#include "core/terminal.hpp"
 
 namespace clearway::report::detail {
 namespace {
@@ -15,6 +18,38 @@ constexpr std::size_t credit_letters = 62;  // that fit in a line
 constexpr double most_height = 330.0;
 constexpr double flattest = 0.22;  // height over width
 constexpr double largest_stretch = 10.0;
+
+struct Box {
+    double left, top, right, bottom;
+    bool meets(const Box& other) const {
+        return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
+    }
+};
+
+/// The name of a station in full, or the kind of one without.
+struct StationLabel {
+    static constexpr double line_height = 12.0;
+    static constexpr double letter_width = 5.8;
+    std::vector<std::string> lines;
+
+    explicit StationLabel(const MapStation& station) {
+        std::string label = station.name.empty() ? station.kind : station.name;
+        if (station.name.empty()) std::ranges::replace(label, '_', ' ');
+        lines = lines_of(label, 22);
+    }
+    /// Where it may stand about a sign: right, left, below, above.
+    std::vector<Box> sides_of(double x, double y) const {
+        constexpr double gap = 8.0;
+        std::size_t letters = 0;
+        for (const std::string& line : lines)
+            letters = std::max(letters, core::characters_in(line));
+        const double across = letter_width * static_cast<double>(letters);
+        const double high = line_height * static_cast<double>(lines.size());
+        const auto box = [&](double left, double top) { return Box{left, top, left + across, top + high}; };
+        return {box(x + gap, y - high / 2.0), box(x - gap - across, y - high / 2.0),
+                box(x - across / 2.0, y + gap), box(x - across / 2.0, y - gap - high)};
+    }
+};
 
 }  // namespace
 
@@ -100,20 +135,39 @@ void MapCanvas::scale_bar() {
 }
 
 void MapCanvas::stations(const RoadMap& map) {
-    for (const MapStation& station : map.stations) {
+    std::vector<const MapStation*> labelled;
+    std::vector<Box> taken;
+    const auto place_of = [&](const MapStation& station) -> std::optional<std::pair<double, double>> {
         const auto edge = map.find_edge(station.edge);
-        if (!edge || map.edges[*edge].shape.empty()) continue;
-        const auto [x, y] = place(map.edges[*edge].shape.front());
+        if (!edge || map.edges[*edge].shape.empty()) return std::nullopt;
+        return place(map.edges[*edge].shape.front());
+    };
+    for (const MapStation& station : map.stations) {
+        const auto at = place_of(station);
+        if (!at) continue;
+        const auto [x, y] = *at;
         add(fmt::format("<path class=\"station\" d=\"M{:.1f} {:.1f}l6 6l-6 6l-6 -6z\"/>\n", x, y - 6.0));
-        const bool is_left = x < 0.6 * width;
-        std::string label = station.name.empty() ? station.kind : station.name;
-        if (station.name.empty()) std::ranges::replace(label, '_', ' ');
-        const std::vector<std::string> lines = lines_of(label, 22);
-        double baseline = y + 4.0 - 6.0 * static_cast<double>(lines.size() - 1);
-        for (const std::string& line : lines) {
-            text(is_left ? x + 9.0 : x - 9.0, baseline, line, is_left ? Anchor::start : Anchor::end, "halo");
-            baseline += 12.0;
-        }
+        taken.push_back({x - 6.0, y - 6.0, x + 6.0, y + 6.0});
+        labelled.push_back(&station);
+    }
+    std::ranges::stable_partition(labelled, [](const MapStation* one) { return !one->name.empty(); });
+    for (const MapStation* const station : labelled) {
+        const auto [x, y] = *place_of(*station);
+        const StationLabel label(*station);
+        std::vector<Box> sides = label.sides_of(x, y);
+        if (x >= 0.6 * width) std::swap(sides[0], sides[1]);
+        const auto is_free = [&](const Box& side) {
+            return side.left >= 0.0 && side.right <= width && side.top >= 0.0 &&
+                   std::ranges::none_of(taken, [&](const Box& one) { return one.meets(side); });
+        };
+        const auto side = std::ranges::find_if(sides, is_free);
+        // A name is worth more than a clear map; a kind is in the legend's word for the sign.
+        if (side == sides.end() && station->name.empty()) continue;
+        const Box& box = side == sides.end() ? sides.front() : *side;
+        taken.push_back(box);
+        for (std::size_t line = 0; line < label.lines.size(); ++line)
+            text(box.left, box.top + StationLabel::line_height * (static_cast<double>(line) + 0.83),
+                 label.lines[line], Anchor::start, "halo");
     }
 }
 

@@ -22,7 +22,7 @@ class MapCanvas : public Canvas {
     /// In figure units.
     std::pair<double, double> place(const MapPlace& place) const;
     void scale_bar();
-    /// A diamond at the start of the edge of each station, with its name.
+    /// A diamond at the start of the edge of each station, with its name or, where there is room, its kind.
     void stations(const RoadMap& map);
     /// No entry in the middle of each blocked edge.
     void incidents(const RoadMap& map);
