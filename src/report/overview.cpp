@@ -319,6 +319,7 @@ Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& conditi
         tile.meaning = analysis::emergency_objections(condition.objections) + "; no gain can be claimed";
     }
     if (condition.objections.loses_emergency()) {
+        tile.subject = "Emergency vehicles";
         // The mean says little more than the horizon that a lost EV counts with.
         const std::string mean = std::exchange(
             tile.figure, fmt::format("{} of {} lost", grouped(condition.objections.emergency.lost()),
