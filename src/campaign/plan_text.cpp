@@ -221,7 +221,7 @@ core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, 
     }
     study::keep_shard(plan, shard);
     print(plan_printout(plan, options), options.publish.printing);
-    if (refusal) throw *refusal;
+    if (refusal) throw core::InputError(*refusal);
     return core::ExitCode::ok;
 }
 

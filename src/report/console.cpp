@@ -206,19 +206,26 @@ void append_tails(const ScenarioFacts& scenario, std::string& text) {
 
 using Trips = MaybeEstimate analysis::ResponseTime::*;
 
-void append_trips(const ScenarioFacts& scenario, const std::string& title, Trips value, Trips difference,
-                  double factor, std::string& text) {
+struct TripRows {
+    std::string title;
+    Trips value;
+    Trips difference;
+    double factor = 1.0;
+};
+
+void append_trips(const ScenarioFacts& scenario, const TripRows& rows, std::string& text) {
     if (std::ranges::none_of(scenario.conditions, [&](const ConditionFacts& condition) {
-            return condition.response.*value || condition.response.*difference;
+            return condition.response.*rows.value || condition.response.*rows.difference;
         }))
         return;
-    text += fmt::format("\n{}\n", title);
+    text += fmt::format("\n{}\n", rows.title);
     for (const ConditionFacts& condition : scenario.conditions) {
         const analysis::ResponseTime& response = condition.response;
-        std::string line = row_start(condition) + split_cell(response.*value, {}, factor);
+        std::string line = row_start(condition) + split_cell(response.*rows.value, {}, rows.factor);
         if (condition.is_compared())
-            line += split_cell(response.*difference, {.sign = Sign::always}, factor) +
-                    response_word(response.*difference, factor > 1.0 ? Better::higher : Better::lower);
+            line +=
+                split_cell(response.*rows.difference, {.sign = Sign::always}, rows.factor) +
+                response_word(response.*rows.difference, rows.factor > 1.0 ? Better::higher : Better::lower);
         append_row(std::move(line), text);
     }
 }
@@ -229,10 +236,14 @@ void append_response(const ScenarioFacts& scenario, Tables tables, std::string& 
     if (scenario.response_threshold_s <= 0.0) return;
     constexpr double percent = 100.0;
     if (tables == Tables::all)
-        append_trips(scenario, "EV response time, 90th percentile, s", &Response::percentile_90_s,
-                     &Response::percentile_90_difference_s, 1.0, text);
-    append_trips(scenario, fmt::format("EV trips within {:g} s, %", scenario.response_threshold_s),
-                 &Response::in_time, &Response::in_time_difference, percent, text);
+        append_trips(scenario,
+                     {"EV response time, 90th percentile, s", &Response::percentile_90_s,
+                      &Response::percentile_90_difference_s},
+                     text);
+    append_trips(scenario,
+                 {fmt::format("EV trips within {:g} s, %", scenario.response_threshold_s), &Response::in_time,
+                  &Response::in_time_difference, percent},
+                 text);
 }
 
 /// How signals served EVs, a line for each condition that asked them.

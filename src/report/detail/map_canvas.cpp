@@ -150,7 +150,7 @@ void MapCanvas::stations(const RoadMap& map) {
         taken.push_back({x - 6.0, y - 6.0, x + 6.0, y + 6.0});
         labelled.push_back(&station);
     }
-    std::ranges::stable_partition(labelled, [](const MapStation* one) { return !one->name.empty(); });
+    std::ranges::stable_sort(labelled, {}, [](const MapStation* one) { return one->name.empty(); });
     for (const MapStation* const station : labelled) {
         const auto [x, y] = *place_of(*station);
         const StationLabel label(*station);
