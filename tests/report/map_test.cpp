@@ -69,6 +69,7 @@ TEST(MapCanvas, writes_the_names_of_stations_in_full_and_the_kind_of_those_witho
     RoadMap map = diamond();
     map.stations = {{map.edges[0].id, "hospital", "Institut Mon\u00e9gasque de M\u00e9decine du Sport"},
                     {map.edges[1].id, "fire_station", ""}};
+    map.edges[1].shape = {{0.0, 300.0}, {0.0, 310.0}};
     detail::MapCanvas canvas("t", map);
     canvas.stations(map);
     const std::string svg = canvas.finish();
