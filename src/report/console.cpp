@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "report/lease_words.hpp"
 #include "report/overview.hpp"
 #include "report/planned_text.hpp"
 #include "report/published.hpp"

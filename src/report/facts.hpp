@@ -196,6 +196,10 @@ struct ConditionFacts : analysis::ConditionSummary {
     std::uint64_t count(std::string_view metric) const { return static_cast<std::uint64_t>(total(metric)); }
 };
 
+/// Whether a vehicle that has stood in a junction for long still blocks it
+/// (`time.ignore_junction_blocker_s`).
+enum class Blockers : std::uint8_t { ignored, respected };
+
 /// An edge with at least three lanes for cars; the dissertation's networks are said to have fewer.
 struct WideEdge {
     std::string edge;
@@ -217,8 +221,7 @@ struct ScenarioFacts {
     std::map<std::string, std::string> streets;       ///< Their names, by edge.
     double step_length_s = 0.0;                       ///< Of the simulation; 0 if the manifest does not say.
     double horizon_s = 0.0;  ///< What an EV that did not arrive counts with, likewise.
-    /// A vehicle that stands in a junction for this long no longer blocks it, s; nothing if it always does.
-    std::optional<double> ignore_junction_blocker_s;
+    Blockers blockers = Blockers::respected;
     std::uint64_t replications = 0;
     double least_relevant_s = usual_least_relevant_s;
     double response_threshold_s = 0.0;       ///< Of an EV trip that is in time; 0 if no EV arrived.

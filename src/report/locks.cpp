@@ -14,11 +14,13 @@ std::string needed(const MaybeEstimate& difference, double half_width) {
 
 }  // namespace
 
-std::string lock_remedy(const ScenarioFacts& scenario) {
-    if (!scenario.ignore_junction_blocker_s)
-        return "Fewer locks: --ignore-junction-blocker 10, or less traffic (--density 0.7).";
-    return "Fewer locks: less traffic (--density 0.7), or mend the junction that locks: traffic.locks of "
-           "run.json names it.";
+std::string lock_remedy(Blockers blockers, const std::string& less) {
+    if (blockers == Blockers::ignored)
+        return fmt::format("less traffic: {}, or a look at the junction in netedit", less);
+    return fmt::format(
+        "--ignore-junction-blocker 10 (to keep it, ignore_junction_blocker_s in [time] of scenario.toml), or "
+        "less traffic: {}",
+        less);
 }
 
 std::string lock_words(const analysis::ConditionSummary& condition) {

@@ -3,7 +3,6 @@
 #include <string>
 
 #include "analysis/summary.hpp"
-#include "report/facts.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report {
@@ -12,8 +11,8 @@ namespace clearway::report {
 /// run locked.
 std::string lock_words(const analysis::ConditionSummary& condition);
 
-/// What to do about locks: `Fewer locks: ...`. Plain text.
-std::string lock_remedy(const ScenarioFacts& scenario);
+/// What makes locks fewer. `less`: how to get less traffic, `--density 0.7`. Plain text.
+std::string lock_remedy(Blockers blockers, const std::string& less);
 
 /// What the pairs in which a run locked do to a mean difference: `mean -23.6, median of pairs -19.0, mean of
 /// the 23 pairs without a lock -18.8 [-20.9, -16.7]; replications for +-1: 112, without locks 97`; no

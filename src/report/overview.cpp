@@ -252,7 +252,9 @@ std::string locks_sentence(const ScenarioFacts& scenario, const ConditionFacts& 
         const std::string locks = one == nullptr ? "" : lock_words(*one);
         if (!locks.empty()) words = joined(std::move(words), one->title + ": " + locks);
     }
-    return words.empty() ? words : "Vehicles locked each other. " + words + ". " + lock_remedy(scenario);
+    return words.empty() ? words
+                         : "Vehicles locked each other. " + words +
+                               ". Fewer locks: " + lock_remedy(scenario.blockers, "--density 0.7") + ".";
 }
 
 std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scenario) {

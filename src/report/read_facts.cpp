@@ -259,8 +259,7 @@ void add_times(const std::string& configuration, ScenarioFacts& scenario) {
     const auto time = table["time"];
     scenario.step_length_s = time["step_length_s"].value_or(0.0);
     scenario.horizon_s = time["horizon_s"].value_or(0.0);
-    const double ignored_after_s = time["ignore_junction_blocker_s"].value_or(-1.0);
-    if (ignored_after_s >= 0.0) scenario.ignore_junction_blocker_s = ignored_after_s;
+    if (time["ignore_junction_blocker_s"].value_or(-1.0) >= 0.0) scenario.blockers = Blockers::ignored;
 }
 
 /// What lies beside a scenario's runs, each file read once.

@@ -1,19 +1,18 @@
 #include "report/verdict.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
-#include <functional>
 #include <iterator>
-#include <map>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/error.hpp"
 #include "experiment/settings.hpp"
 #include "report/controls.hpp"
+#include "report/lease_words.hpp"
 #include "report/locks.hpp"
 #include "traffic/step_length.hpp"
 
@@ -73,44 +72,6 @@ Verdict lead(const ScenarioFacts& scenario, const ConditionFacts& condition, Scr
     if (condition.emergency.total() == 0 && condition.complete_runs > 0)
         return {"no verdict", "the demand has no emergency vehicle"};
     return {"no verdict", difference ? fmt::format("no interval ({})", amount) : "no complete pair of runs"};
-}
-
-const char* words_of(traffic::LeaseKind action) {
-    using traffic::LeaseKind;
-    switch (action) {
-        case LeaseKind::drive_at:
-            return "asked a vehicle for a speed";
-        case LeaseKind::change_lane:
-            return "asked a vehicle to change lanes";
-        case LeaseKind::own_change_lane:
-            return "asked the EV itself to change lanes";
-        case LeaseKind::hold_lane:
-            return "asked a vehicle to keep its lane";
-        case LeaseKind::pull_aside:
-            return "asked a vehicle to pull aside";
-        case LeaseKind::stop_at_line:
-            return "asked a vehicle to stop at the line";
-        case LeaseKind::hold_green:
-            return "asked a signal for green";
-        case LeaseKind::adjust_green:
-            return "gave time back at a signal";
-        case LeaseKind::pass_red:
-            return "let the EV pass red";
-        case LeaseKind::stand_back:
-            return "stood back: not the situation it is for";
-        case LeaseKind::take_route:
-            return "chose another way for the EV";
-    }
-    return "";
-}
-
-/// `no_room_beside 12, outranked 3`, the most frequent first.
-std::string reasons_of(const metrics::LeaseRow& row) {
-    std::vector<std::pair<traffic::Refusal, std::uint64_t>> reasons(row.refused.begin(), row.refused.end());
-    std::ranges::stable_sort(reasons, std::greater{}, &std::pair<traffic::Refusal, std::uint64_t>::second);
-    return core::listed(core::texts_of(reasons, [](const auto& entry) {
-        return fmt::format("{} {}", name(entry.first), grouped(entry.second));
-    }));
 }
 
 std::string sentence(std::string words) {
@@ -190,108 +151,7 @@ bool is_void_for_lost(const ConditionFacts& condition, Measure measure) {
            !condition.value(measure);
 }
 
-std::string lease_sentence(const ConditionFacts& condition) {
-    if (condition.condition.policies.empty()) return "has no policy that could ask for anything";
-    std::vector<std::string> found;
-    bool lane_changes = false;
-    for (const metrics::LeaseRow& row : condition.leases) {
-        lane_changes = lane_changes || row.action == traffic::LeaseKind::change_lane;
-        const std::string often = row.issued == 1 ? "once" : grouped(row.issued) + " times";
-        std::string text = fmt::format("{}: {} {}, {} carried out", row.policy, words_of(row.action), often,
-                                       grouped(row.acted));
-        if (row.refusals() > 0) text += fmt::format(", refused at some time: {}", reasons_of(row));
-        found.push_back(std::move(text));
-    }
-    if (!lane_changes) found.insert(found.begin(), "asked 0 vehicles to change lanes");
-    return fmt::format("{}", fmt::join(found, "; "));
-}
-
 namespace {
-
-/// One sentence for all parts of which `runs_of` counts a run, those of equally many runs together.
-/// ` (7,407 leases, most refused as vehicle_gone)`: what a part wanted that never acted; nothing if that was
-/// nothing.
-std::string vain_leases(const analysis::IdlePart& part) {
-    if (part.vain == 0) return {};
-    const std::string leases = counted(part.vain, "lease");
-    const auto most = std::ranges::max_element(part.refused, {}, [](const auto& one) { return one.second; });
-    if (most == part.refused.end()) return fmt::format(" ({}, none carried out)", leases);
-    return fmt::format(" ({}, {} refused as {})", leases, most->second >= part.vain ? "all" : "most",
-                       name(most->first));
-}
-
-std::string sentence_of_parts(const char* what, const std::vector<analysis::IdlePart>& parts,
-                              std::size_t analysis::IdlePart::*runs_of) {
-    std::vector<std::pair<std::string, std::string>> groups;  // `3 of 20 runs`, names.
-    for (const analysis::IdlePart& part : parts) {
-        if (part.*runs_of == 0) continue;
-        std::string runs = fmt::format("{} of {}", part.*runs_of, counted(part.runs, "run"));
-        const std::string name =
-            part.policy + (runs_of == &analysis::IdlePart::idle_runs ? vain_leases(part) : "");
-        if (!groups.empty() && groups.back().first == runs)
-            groups.back().second += ", " + name;
-        else
-            groups.emplace_back(std::move(runs), name);
-    }
-    std::string text;
-    for (const auto& [runs, names] : groups)
-        text += fmt::format("{}{} in {}", text.empty() ? "" : "; ", names, runs);
-    return text.empty() ? text : fmt::format("{}: {}.", what, text);
-}
-
-/// What a policy asked for in all runs of a condition; standing back is no request.
-struct Requests {
-    std::uint64_t issued = 0;
-    std::uint64_t acted = 0;
-    std::map<traffic::Refusal, std::uint64_t> refused = {};
-
-    /// From 20 on a share is more than chance, and with a quarter carried out, a policy is tried at all.
-    bool are_mostly_vain() const { return issued >= 20 && acted > 0 && 4 * acted <= issued; }
-};
-
-/// What a writer of a policy can do about a refusal; empty where its name says it.
-const char* cure_of(traffic::Refusal reason) {
-    using traffic::Refusal;
-    switch (reason) {
-        case Refusal::not_controllable:
-            return ": human drivers; ask only where belief.vehicles.is_automated";
-        case Refusal::vehicle_gone:
-            return ": not on the road; name vehicles by belief.vehicles.key, not by row";
-        case Refusal::no_such_lane:
-            return ": lane numbers count from the outermost, 0";
-        case Refusal::outranked:
-            return ": other leases for the same target go first; see priority";
-        default:
-            return "";
-    }
-}
-
-/// `Of P's 3,687 requests 99 % were never carried out, mostly refused as not_controllable: ...`, for each
-/// policy of whose requests so few were carried out that the runs say little about it; those of which none
-/// was are told elsewhere.
-std::string refusals_of(const ConditionFacts& condition) {
-    std::map<std::string, Requests> policies;
-    for (const metrics::LeaseRow& row : condition.leases) {
-        if (row.action == traffic::LeaseKind::stand_back) continue;
-        Requests& requests = policies[row.policy];
-        requests.issued += row.issued;
-        requests.acted += row.acted;
-        for (const auto& [reason, count] : row.refused)
-            requests.refused[reason] += count;
-    }
-    std::vector<std::string> facts;
-    for (const auto& [policy, requests] : policies) {
-        const auto most =
-            std::ranges::max_element(requests.refused, {}, [](const auto& one) { return one.second; });
-        if (!requests.are_mostly_vain() || most == requests.refused.end()) continue;
-        const double vain = 100.0 * static_cast<double>(requests.issued - requests.acted) /
-                            static_cast<double>(requests.issued);
-        facts.push_back(fmt::format(
-            "Of {}'s {} requests {:.0f} % were never carried out, mostly refused as {}{}.", policy,
-            grouped(requests.issued), std::floor(vain), name(most->first), cure_of(most->first)));
-    }
-    return fmt::format("{}", fmt::join(facts, " "));
-}
 
 /// `Locks: none (baseline: 2 locks in 1 of 20 runs). Fewer locks: ...`, or empty where there are none.
 std::string locks_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
@@ -299,8 +159,8 @@ std::string locks_of(const ScenarioFacts& scenario, const ConditionFacts& condit
     const std::string with = lock_words(condition);
     const std::string without = baseline == nullptr ? "" : lock_words(*baseline);
     if (with.empty() && without.empty()) return {};
-    return fmt::format("Locks: {} (baseline: {}). {}", with.empty() ? "none" : with,
-                       without.empty() ? "none" : without, lock_remedy(scenario));
+    return fmt::format("Locks: {} (baseline: {}). Fewer locks: {}.", with.empty() ? "none" : with,
+                       without.empty() ? "none" : without, lock_remedy(scenario.blockers, "--density 0.7"));
 }
 
 /// `EV travel time where runs locked, s: ...`, what locked pairs make of the effect, or empty without any.
@@ -396,13 +256,10 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     if (!others.empty()) words.facts.push_back(sentence(others));
     if (shown_interval(condition.difference(primary)) != nullptr)
         std::ranges::move(costs(scenario, condition, script), std::back_inserter(words.facts));
-    using analysis::IdlePart;
-    for (std::string fact :
-         {refusals_of(condition), controls_sentence(scenario, condition, script),
-          incidents_of(scenario, condition, script), regrets_of(condition, script),
-          locked_pairs_of(condition, script), locks_of(scenario, condition),
-          sentence_of_parts("Never acted", condition.idle_parts, &IdlePart::idle_runs),
-          sentence_of_parts("Only changed the EV's own lane", condition.idle_parts, &IdlePart::own_runs)})
+    for (std::string fact : {refusals_sentence(condition), controls_sentence(scenario, condition, script),
+                             incidents_of(scenario, condition, script), regrets_of(condition, script),
+                             locked_pairs_of(condition, script), locks_of(scenario, condition),
+                             idle_sentence(condition), own_lane_sentence(condition)})
         if (!fact.empty()) words.facts.push_back(std::move(fact));
     if (const std::size_t same = scenario.place_of(condition.same_as); same < scenario.conditions.size())
         words.facts.push_back(

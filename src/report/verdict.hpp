@@ -39,10 +39,6 @@ Effect effect_of(const ConditionFacts& condition, Measure measure);
 /// Whether a measure has no value because the condition lost more EVs than its baseline.
 bool is_void_for_lost(const ConditionFacts& condition, Measure measure);
 
-/// What the condition's policy asked for and what became of it, in one sentence; lane changes are named even
-/// if none was asked for. Plain text.
-std::string lease_sentence(const ConditionFacts& condition);
-
 /// `EVs that arrived in both: -10.3 s [-30.1, 9.5], all but 1; median of the pairs -4.7 s`: the travel time
 /// without the horizon that stands for an EV that did not arrive. Empty where all arrived in both.
 std::string survivors_words(const ConditionFacts& condition, Script script);

@@ -66,12 +66,14 @@ TEST_F(Overview, NamesTheLongestTripsAndTheLocks) {
     EXPECT_EQ(
         locks_sentence(scenario_, corridor()),
         "Vehicles locked each other. baseline: 2 locks in 1 of 20 runs, the longest 300 s; 30 vehicles stood "
-        "in them, 1 of them EV. Fewer locks: --ignore-junction-blocker 10, or less traffic (--density "
-        "0.7).");
+        "in them, 1 of them EV. Fewer locks: " +
+            lock_remedy(Blockers::respected, "--density 0.7") + ".");
     EXPECT_THAT(verdict(scenario_, corridor(), Script::plain).text(),
                 HasSubstr(" Locks: none (baseline: 2 locks in 1 of 20 runs"));
-    scenario_.ignore_junction_blocker_s = 10.0;
-    EXPECT_THAT(lock_remedy(scenario_), Not(HasSubstr("--ignore-junction-blocker")));
+    scenario_.blockers = Blockers::ignored;
+    EXPECT_THAT(locks_sentence(scenario_, corridor()),
+                AllOf(HasSubstr("Fewer locks: less traffic: --density 0.7"),
+                      Not(HasSubstr("--ignore-junction-blocker"))));
 }
 
 TEST_F(Overview, ClaimsNothingThatTheIntervalDoesNotShow) {

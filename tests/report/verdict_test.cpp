@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "report/console.hpp"
+#include "report/lease_words.hpp"
 #include "report/sample.hpp"
 
 namespace clearway::report {

@@ -8,6 +8,7 @@
 
 #include "campaign/detail/way_findings.hpp"
 #include "core/counted.hpp"
+#include "report/locks.hpp"
 
 namespace clearway::campaign::detail {
 namespace {
@@ -50,18 +51,15 @@ Finding locks_finding(const results::RunRecord& record, const std::vector<metric
     const std::string emergency = run.locked_emergency_vehicles == 0
                                       ? ""
                                       : fmt::format(", {} of them EV", run.locked_emergency_vehicles);
-    const bool is_off = checked.config.time.ignore_junction_blocker_s.value_or(-1.0) < 0.0;
+    const bool ignored = checked.config.time.ignore_junction_blocker_s.value_or(-1.0) >= 0.0;
     const bool is_short = run.locked_emergency_vehicles > 0 || many * run.locked_vehicles > run.vehicle_count;
     return {"locks", is_short ? Grade::falls_short : Grade::note,
             fmt::format("{} in this run of seed {}, the longest {:.0f} s; {} stood in them{}: {}",
                         core::counted(run.locks, "lock"), record.provenance.study_seed, run.longest_lock_s,
                         core::counted(run.locked_vehicles, "vehicle"), emergency,
                         places_of(locks, checked.network)),
-            is_off ? fmt::format("--ignore-junction-blocker {:g} (to keep it, ignore_junction_blocker_s in "
-                                 "[time] of scenario.toml)",
-                                 scenario::usual_ignore_junction_blocker_s)
-                   : "a look at that junction in netedit, or less traffic: " + less +
-                         "; --lock-trials 6 counts the runs that lock"};
+            report::lock_remedy(ignored ? report::Blockers::ignored : report::Blockers::respected, less) +
+                "; --lock-trials 6 counts the runs that lock"};
 }
 
 }  // namespace clearway::campaign::detail

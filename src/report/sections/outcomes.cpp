@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
+#include "report/lease_words.hpp"
 #include "report/sections/sections.hpp"
-#include "report/verdict.hpp"
 
 namespace clearway::report::detail {
 namespace {
