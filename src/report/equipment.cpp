@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
@@ -134,13 +135,13 @@ std::string seeds_sentence(const EquipmentFacts& facts) {
     return fmt::format("About {} seeds would show the gain of all, if it is as it looks.", seeds);
 }
 
-/// What a further study sets to equip all ranks.
-std::string setting_sentence(const EquipmentFacts& facts) {
+/// What a further study sets to equip all ranks; a line of its own can be copied.
+std::vector<std::string> setting_lines(const EquipmentFacts& facts) {
     std::vector<std::string> signals = facts.equipped_today;
     for (const EquippedSignal& rank : facts.ranked)
         signals.push_back(fmt::format("#{}", rank.number));
-    return fmt::format("For a study of them (numbers of signals, not ranks): --set actuation.equipped={}",
-                       printable(fmt::format("{}", fmt::join(signals, ","))));
+    return {"For a study of them, by the numbers of the signals:",
+            "--set actuation.equipped=" + printable(fmt::format("{}", fmt::join(signals, ",")))};
 }
 
 /// Where no EV was a step faster or slower, seeds of the same kind would not show more.
@@ -291,7 +292,7 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts) {
     }
     sentences.push_back(end_sentence(facts));
     sentences.push_back(share_sentence(facts));
-    if (!facts.ranked.empty()) sentences.push_back(setting_sentence(facts));  // last: to copy
+    if (!facts.ranked.empty()) std::ranges::move(setting_lines(facts), std::back_inserter(sentences));
     std::erase(sentences, "");
     return sentences;
 }

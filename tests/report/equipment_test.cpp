@@ -1,6 +1,6 @@
 #include "report/equipment.hpp"
 
-#include <algorithm>
+#include <regex>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -71,9 +71,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 /// Without line ends, where wrapping may have put them.
 std::string flat_text(const EquipmentFacts& facts) {
-    std::string text = equipment_text(facts);
-    std::ranges::replace(text, '\n', ' ');
-    return text;
+    return std::regex_replace(equipment_text(facts), std::regex("\n *"), " ");
 }
 
 std::size_t count_of(const std::string& text, const std::string& part) {
@@ -130,7 +128,7 @@ TEST(Equipment, EndsWithTheAnswer) {
         text.substr(text.find("Equip first: 1) Gate <Road> / High Street, 2) south of"));
     EXPECT_THAT(answer, HasSubstr("42.0 [38.0, 46.0]"));
     EXPECT_THAT(text, HasSubstr("Not shown: the gain of rank 2"));
-    EXPECT_THAT(equipment_text(two_of_twelve()), testing::EndsWith(": --set actuation.equipped=#4,#9\n"));
+    EXPECT_THAT(equipment_text(two_of_twelve()), testing::EndsWith(":\n--set actuation.equipped=#4,#9\n"));
     EXPECT_THAT(text, HasSubstr("Stopped at 2 of 5"));
     EXPECT_THAT(text, testing::ContainsRegex("- +- +all signals")) << "no rank 12";
     EXPECT_LE(answer.size(), 7U * 80U) << "seven lines at the end of a terminal";
