@@ -71,16 +71,18 @@ std::optional<results::Manifest> manifest_in(const fs::path& folder, std::vector
 }
 
 /// What a stored study has other than the wanted one; empty when the wanted one goes on with it. Versions do
-/// not count: nobody chooses them by results. Conditions may have been added because of results.
+/// not count: nobody chooses them by results. Conditions and replications may have been added because of
+/// results.
 std::string other_settings(const results::Manifest& stored, results::Manifest wanted) {
     wanted.clearway_version = stored.clearway_version;
     wanted.sumo_version = stored.sumo_version;
     wanted.clearway_build = stored.clearway_build;
-    const bool same = wanted.conditions == stored.conditions && results::continues(wanted, stored);
+    const bool same = wanted.conditions == stored.conditions && wanted.replications == stored.replications &&
+                      results::continues(wanted, stored);
     return same ? "" : results::differences(stored, wanted);
 }
 
-/// `runs/first: different conditions`, or nothing.
+/// `runs/first: different conditions`, `runs/first: 8 replications instead of 10`, or nothing.
 std::string user_among_runs(const StudyConfig& config, const fs::path& folder,
                             std::vector<core::Problem>& unread) {
     std::error_code none;
@@ -91,8 +93,13 @@ std::string user_among_runs(const StudyConfig& config, const fs::path& folder,
         const auto manifest = manifest_in(other, unread);
         if (!manifest || manifest->study_seed != config.seed) continue;
         const std::string different = other_settings(*manifest, wanted);
-        // The study's own folder with more replications: nothing would run, and the folder says so itself.
-        if (different == "replications" && fs::equivalent(other, absolute, none)) continue;
+        if (different == "replications") {
+            // The study's own folder with more: nothing would run, and the folder says so itself.
+            if (manifest->replications > wanted.replications && fs::equivalent(other, absolute, none))
+                continue;
+            return fmt::format("{}: {} replications instead of {}", other.string(), manifest->replications,
+                               wanted.replications);
+        }
         if (!different.empty()) return fmt::format("{}: different {}", other.string(), different);
     }
     return "";
@@ -115,9 +122,10 @@ std::vector<core::Problem> check_fresh_seed(const StudyConfig& config, const fs:
         throw used_before(config, file, user,
                           "Give the study another seed, or remove [plan] and call its results exploratory");
     if (const std::string user = user_among_runs(config, folder, unread); !user.empty())
-        throw used_before(config, file, user,
-                          "Other settings were run on this seed: take a seed that was never run, or remove "
-                          "[plan] and call the results exploratory");
+        throw used_before(
+            config, file, user,
+            "Other settings were run on this seed: go on with those, take a seed that was never "
+            "run, or remove [plan], take another --out and call the results exploratory");
     return unread;
 }
 

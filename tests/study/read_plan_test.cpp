@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
@@ -115,6 +116,24 @@ TEST_F(PlannedStudy, RefusesAPlanThatDoesNotFit) {
     EXPECT_THAT(
         with(std::string(plan_text) + "[precision]\nmetric='emergency_travel_time_s'\nhalf_width=1\n"),
         HasSubstr("is given together with [plan]"));
+}
+
+TEST_F(PlannedStudy, NamesConditionsByFactorsInAnyOrder) {
+    const std::string factors =
+        "[factors]\ncondition.failure = ['B10', 'perfect']\ncondition.policy = ['corridor', 'vacate_lane']\n";
+    const auto compared = [&](const std::string& condition) {
+        return std::string(study_text) + factors + "[plan]\n[[plan.comparison]]\nname='x'\ncondition='" +
+               condition + "'\nagainst='corridor+failure=perfect+policy=corridor'\n";
+    };
+    const std::string in_order = "corridor+failure=B10+policy=vacate_lane";
+    for (const std::string& name : {in_order, std::string("corridor+policy=vacate_lane+failure=B10")})
+        EXPECT_EQ(read(compared(name)).plan->comparisons[0].condition, in_order);
+    const std::string refused = problems(compared("corridor+policy=vacate_lan+failure=B10"));
+    EXPECT_THAT(refused, HasSubstr("'corridor+policy=vacate_lan+failure=B10' is not in the study"));
+    const std::string both =
+        std::string(study_text) + plan_text + "[[plan.comparison]]\nname='y'\ncondition='a'\nagainst='b'\n";
+    EXPECT_THAT(problems(both), AllOf(HasSubstr("'a' is not in the study (allowed: baseline"),
+                                      HasSubstr("'b' is not in the study (allowed: as above)")));
 }
 
 TEST_F(PlannedStudy, NeedsTheTimeAloneOnTheRoadForItsMargin) {
@@ -250,8 +269,14 @@ TEST_F(PlannedRuns, GoOnInTheirFolderAndInShards) {
     ran("shard-2", itself());
     ran("another", changed([](StudyConfig& config) { config.seed = 78; }));
     EXPECT_EQ(check(), "none");
+}
+
+TEST_F(PlannedRuns, AreNotExtendedAfterALook) {
+    ran("planned", itself());
     config_.replications += 1;
-    EXPECT_EQ(check(), "none") << "extended";
+    EXPECT_THAT(check(), AllOf(HasSubstr(fmt::format("planned: {} replications instead of {}",
+                                                     config_.replications - 1, config_.replications)),
+                               HasSubstr("go on with those")));
 }
 
 TEST_F(PlannedRuns, OfAnotherStudyUseUpTheSeed) {
@@ -272,7 +297,9 @@ TEST_F(PlannedRuns, WithOtherSettingsUseUpTheSeed) {
         {"replications", changed([](StudyConfig& config) { config.replications += 1; })}};
     for (const auto& [part, manifest] : others) {
         ran("first", manifest);
-        EXPECT_THAT(check(), AllOf(HasSubstr("first: different " + part + " ("),
+        EXPECT_THAT(check(), AllOf(testing::ContainsRegex(part == "replications"
+                                                              ? "first: [0-9]+ replications instead of"
+                                                              : "first: different " + part + " \\("),
                                    HasSubstr("Other settings were run on this seed")));
         fs::rename(runs_ / "first", runs_ / "planned");
         if (part != "replications") {

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
+#include "core/folder_name.hpp"
 #include "metrics/run_metrics.hpp"
 
 namespace clearway::study::detail {
@@ -33,11 +36,42 @@ std::string meant(const std::string& name, const std::vector<std::string>& known
     return core::did_you_mean(name, known);
 }
 
-void check_name(StrictTable& row, const char* key, const std::string& name,
-                const std::vector<std::string>& known) {
-    if (std::ranges::find(known, name) != known.end()) return;
-    row.problem(key, name.empty() ? "is missing" : fmt::format("'{}' is not in the study", name),
-                core::listed(known), meant(name, known));
+/// Checks names; of several problems the first alone lists what is allowed.
+class Names {
+  public:
+    explicit Names(std::vector<std::string> known) : known_(std::move(known)) {}
+
+    void check(StrictTable& row, const char* key, const std::string& name) {
+        if (std::ranges::find(known_, name) != known_.end()) return;
+        row.problem(key, name.empty() ? "is missing" : fmt::format("'{}' is not in the study", name),
+                    is_listed_ ? "as above" : core::listed(known_), meant(name, known_));
+        is_listed_ = true;
+    }
+    const std::vector<std::string>& known() const { return known_; }
+
+  private:
+    std::vector<std::string> known_;
+    bool is_listed_ = false;
+};
+
+/// `linked`, `failure=B10`, `policy=mine.py_Green`: the parts of a name that factors lengthened, sorted.
+std::vector<std::string> parts_of(const std::string& name) {
+    std::vector<std::string> parts;
+    std::istringstream text(name);
+    for (std::string part; std::getline(text, part, '+');) {
+        const std::size_t value = part.find('=') + 1;
+        parts.push_back(part.substr(0, value) +
+                        (value == 0 ? part : core::as_folder_name(part.substr(value))));
+    }
+    std::ranges::sort(parts);
+    return parts;
+}
+
+/// The name in the study of `linked+policy=mine.py:Green+failure=B10`, whose factors may have any order and
+/// values as they stand in the file; the same text where there is none.
+std::string full_name(const std::string& text, const std::vector<std::string>& known) {
+    const auto found = std::ranges::find(known, parts_of(text), parts_of);
+    return found == known.end() ? text : *found;
 }
 
 /// Metrics in seconds, for which the margin has a meaning.
@@ -60,17 +94,22 @@ results::PlannedComparison read_comparison(StrictTable& row) {
     return comparison;
 }
 
-void check_comparison(StrictTable& row, const results::PlannedComparison& comparison,
-                      const StudyConfig& config, std::set<std::string>& names) {
+/// The names that rows may hold.
+struct Known {
+    Names conditions;
+    Names scenarios;
+    std::set<std::string> comparisons = {};  ///< Of rows before.
+};
+
+void check_comparison(StrictTable& row, const results::PlannedComparison& comparison, Known& known) {
     if (comparison.name.empty()) row.problem("name", "is missing", "a name", "Name the comparison");
-    if (!comparison.name.empty() && !names.insert(comparison.name).second)
+    if (!comparison.name.empty() && !known.comparisons.insert(comparison.name).second)
         row.problem("name", fmt::format("'{}' occurs twice", comparison.name), "a name of its own", "");
-    check_name(row, "condition", comparison.condition, names_of(config.conditions));
-    check_name(row, "against", comparison.against, names_of(config.conditions));
+    known.conditions.check(row, "condition", comparison.condition);
+    known.conditions.check(row, "against", comparison.against);
     if (!comparison.condition.empty() && comparison.condition == comparison.against)
         row.problem("against", "is the condition itself", "another condition", "");
-    if (!comparison.scenario.empty())
-        check_name(row, "scenario", comparison.scenario, names_of(config.scenarios));
+    if (!comparison.scenario.empty()) known.scenarios.check(row, "scenario", comparison.scenario);
 }
 
 /// Whether two comparisons ask the same of the same runs, in whichever direction.
@@ -143,9 +182,13 @@ void read_plan(StrictTable& root, Extent extent, StudyConfig& config) {
     if (config.replications < 2)
         root.problem("replications", fmt::format("{} cannot show what [plan] claims", config.replications),
                      "2 or more", "Give as many as the claims need, or remove [plan]");
-    std::set<std::string> names;
+    Known known{Names(names_of(config.conditions)), Names(names_of(config.scenarios))};
+    for (results::PlannedComparison& comparison : plan.comparisons) {
+        comparison.condition = full_name(comparison.condition, known.conditions.known());
+        comparison.against = full_name(comparison.against, known.conditions.known());
+    }
     for (std::size_t at = 0; at < rows.size(); ++at)
-        check_comparison(rows[at], plan.comparisons[at], config, names);
+        check_comparison(rows[at], plan.comparisons[at], known);
     check_repeated(rows, plan.comparisons);
     check_margin(*reader, plan, config);
     config.plan = std::move(plan);
