@@ -29,6 +29,8 @@ from .parts import Belief, Network, Observation, Policy, Predictor, checked_leas
 from .torchscript import TorchScript, Unusable
 
 METHODS = {"policy": "act", "predictor": "predict"}
+#: In which a part answers, s of wall time. A loop without end is told, with its place, and not waited for until the run's own limit.
+ANSWER_LIMIT_S = 60.0
 PR_SET_CHILD_SUBREAPER = 36
 
 
@@ -139,6 +141,19 @@ def answer_of(part: Any, method: str) -> Iterator[None]:
         raise WrongAnswer(f"{type(error).__name__}: {error} ({place_of(type(part), method)})") from None
 
 
+@contextlib.contextmanager
+def in_time(limit_s: float) -> Iterator[None]:
+    """Raises TimeoutError where user code is when the limit is over. Library code in C is not interrupted."""
+    def end(*_: Any) -> None:
+        raise TimeoutError(f"no answer after {limit_s:g} s")
+    signal.signal(signal.SIGALRM, end)
+    signal.setitimer(signal.ITIMER_REAL, limit_s)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+
+
 def answer_policy(part: Any, network: Network, channel: Channel, greeting: dict[str, Any]) -> Callable[[], None]:
     sheet = Sheet(channel.incoming, greeting["question"])
     part.network, part.period_s = network, greeting["period_s"]
@@ -177,7 +192,8 @@ def serve(channel: Channel) -> None:
         answer = make(part, Network(greeting["network"]), channel, greeting)
     channel.ring(ANSWER)
     while channel.wait() == DECIDE:
-        answer()
+        with in_time(greeting.get("answer_limit_s", ANSWER_LIMIT_S)):
+            answer()
         channel.ring(ANSWER)
 
 

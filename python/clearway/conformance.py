@@ -31,6 +31,8 @@ from .running import part_name
 
 #: Problems of a rule that are told without --all.
 MOST_TOLD = 3
+#: In which a part answers here, s: scenes are small.
+ANSWER_LIMIT_S = 10.0
 #: What policies may ask for lasts no longer, s: who needs more renews it.
 LONGEST_LEASE_S = 60.0
 ANSWERS = [["probability", "f4", "", ""]]
@@ -183,7 +185,8 @@ def _aligned(offset: int) -> int:
 
 def shown_to(nursery: Nursery, part: dict[str, Any], scene: Scene) -> Told:
     told = Told()
-    with Process(nursery, {**scene.greeting, **part, "answer": ANSWERS if part["kind"] == "predictor" else []}) as process:
+    greeting = {**scene.greeting, **part, "answer": ANSWERS if part["kind"] == "predictor" else [], "answer_limit_s": ANSWER_LIMIT_S}
+    with Process(nursery, greeting) as process:
         for arrays in scene.shown:
             before = time.perf_counter()
             if process.failure or not process.ask(arrays):
@@ -424,8 +427,13 @@ def judge(part: dict[str, Any]) -> Judgement:
     scenes = scenes_of(part["kind"])
 
     def told(_: int) -> list[Told]:
+        all_told: list[Told] = []
         with Nursery() as nursery:  # each time another, so that its objects lie elsewhere
-            return [shown_to(nursery, part, scene) for scene in scenes]
+            for scene in scenes:
+                all_told.append(shown_to(nursery, part, scene))
+                if all_told[-1].failure.startswith(TimeoutError.__name__):
+                    break  # it would be waited for in each
+        return all_told
     with ThreadPoolExecutor(2) as pool:
         return Judgement(scenes, *pool.map(told, range(2)))
 

@@ -54,6 +54,12 @@ class Lost(clearway.Policy):
             Lease.change_lane(ev, 7, serves=ev), Lease.take_route(ev, [*ev.route, ev.route[0]], serves=ev),
             Lease.take_route(ev, ev.route[:1], serves=ev), Lease.hold_lane(ev, serves=5))]
 
+class Endless(clearway.Policy):
+    def act(self, belief):
+        while belief.emergency_vehicles:
+            pass
+        return []
+
 class Never:
     def predict(self, observation):
         return np.zeros(observation.pairs.shape[1])
@@ -106,6 +112,11 @@ class ConformanceTest(FolderCase):
                         "links is empty", "lasting_s 61 (allowed: up to 60)", "lane_number 7 (allowed: 0 to 1", "does not follow", "edges end with ",
                         "serves 5 (allowed: an EV of the belief)"):
             self.assertIn(problem, self.said)
+
+    def test_a_loop_without_end_is_told_with_its_line_and_waited_for_once(self) -> None:
+        self.assertIn("answers", self.broken("parts.py:Endless"))
+        self.assertRegex(self.said, r"TimeoutError: no answer after 10 s \(parts.py, line \d+\)")
+        self.assertEqual(self.said.count("TimeoutError: no answer"), 1)
 
     def test_predictors_are_judged_too(self) -> None:
         self.assertEqual(self.broken("parts.py:Never", "--predictor"), {"links"})
