@@ -12,6 +12,7 @@
 #include "campaign/detail/emergency_trips.hpp"
 #include "campaign/detail/lock_findings.hpp"
 #include "campaign/detail/run_cost.hpp"
+#include "campaign/detail/site_findings.hpp"
 #include "campaign/detail/way_findings.hpp"
 #include "campaign/printout.hpp"
 #include "core/counted.hpp"
@@ -265,6 +266,7 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
     std::vector<Finding> findings = {{"loads", Grade::ok, "SUMO loads the network and the demand"},
                                      insertion_finding(run, less),
                                      emergency_finding(record, less),
+                                     detail::sites_finding(checked.config),
                                      routes_finding(checked.demand, trips),
                                      jams_finding(run, use, checked),
                                      detail::locks_finding(record, record.traffic.locks, checked, less),

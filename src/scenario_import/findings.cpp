@@ -19,6 +19,18 @@ std::string counts_text(const std::map<std::string, int>& counts) {
     return text;
 }
 
+/// The sites, and what stands in for kinds that the map does not have.
+std::string sites_text(const std::map<std::string, int>& sites) {
+    const bool has_stations = sites.contains("ambulance_station") || sites.contains("fire_station");
+    std::string text = counts_text(sites);
+    if (!sites.contains("fire_station"))
+        text += fmt::format("; no fire_station: fire engines would start at {}",
+                            has_stations ? "stations" : "hospitals");
+    else if (!sites.contains("ambulance_station"))
+        text += "; no ambulance_station: ambulances start at fire stations";
+    return text;
+}
+
 std::string list_text(const char* title, const std::vector<std::string>& lines) {
     if (lines.empty()) return {};
     std::string text = fmt::format("{}\n", title);
@@ -54,7 +66,7 @@ std::string to_text(const Findings& findings) {
         findings.name, findings.edges, findings.car_edges, findings.lanes, findings.road_km, findings.lane_km,
         findings.signals, map_signals_text(findings), 100.0 * findings.connected_share,
         findings.left_hand ? "left" : "right", findings.side_reason);
-    if (!findings.sites.empty()) text += fmt::format("  EV sites         {}\n", counts_text(findings.sites));
+    if (!findings.sites.empty()) text += fmt::format("  EV sites         {}\n", sites_text(findings.sites));
     text += fmt::format("  demand           {:.0f} vehicles/h: {}\n                   {}\n",
                         findings.vehicles_per_hour, counts_text(findings.vehicles), findings.demand);
     if (findings.persons > 0) text += fmt::format("  persons          {} walk or ride\n", findings.persons);

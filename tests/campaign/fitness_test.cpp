@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "campaign/detail/abort_cure.hpp"
+#include "campaign/detail/site_findings.hpp"
 #include "campaign/replay_page.hpp"
 
 namespace clearway::campaign {
@@ -84,6 +85,24 @@ TEST(CollisionsFinding, tells_many_from_few) {
     EXPECT_THAT(collisions_finding(run, 0.25, "--density 0.80").advice, HasSubstr("compare conditions"));
     run.collisions = 5;
     EXPECT_THAT(collisions_finding(run, 0.25, "--density 0.80").advice, HasSubstr("--density 0.80"));
+}
+
+TEST(SitesFinding, says_what_stands_in_for_a_kind_that_is_missing) {
+    scenario::ScenarioConfig config;
+    EXPECT_THAT(detail::sites_finding(config).text, HasSubstr("random places"));
+    config.emergency_sites.resize(2);
+    EXPECT_EQ(detail::sites_finding(config).text,
+              "2 hospital; no ambulance_station, so that ambulances start at hospitals");
+    config.emergency_kinds = {.ambulance = 0.0, .fire_engine = 1.0};
+    EXPECT_EQ(detail::sites_finding(config).text,
+              "2 hospital; no fire_station, so that fire engines start at hospitals");
+    EXPECT_EQ(detail::sites_finding(config).grade, Grade::note);
+    config.emergency_sites.emplace_back().kind = scenario::SiteKind::ambulance_station;
+    EXPECT_THAT(detail::sites_finding(config).text, HasSubstr("fire engines start at other stations"));
+    config.emergency_sites.emplace_back().kind = scenario::SiteKind::fire_station;
+    EXPECT_EQ(detail::sites_finding(config).grade, Grade::ok);
+    config.emergency_trips.resize(1);
+    EXPECT_THAT(detail::sites_finding(config).text, HasSubstr("stand in the scenario"));
 }
 
 TEST(AbortCure, goes_by_the_assertion) {
