@@ -51,7 +51,8 @@ TEST(Settings, HaveDefaultsThatTheirOwnTablesAllow) {
         for (const core::SettingInfo& row : component.table.rows) {
             const std::string name = component.name + "." + row.name;
             EXPECT_TRUE(names.insert(name).second) << name << " stands there twice";
-            EXPECT_THAT(check_setting(name, row.preset, ""), IsEmpty()) << name;
+            for (const core::Problem& problem : check_setting(name, row.preset, ""))
+                ADD_FAILURE() << "the default is refused: " << core::format_problem(problem);
             EXPECT_FALSE(row.doc.empty()) << name;
             EXPECT_FALSE(row.source.empty()) << name << " has no reason";
             const bool is_text = name == "actuation.equipped";

@@ -44,15 +44,21 @@ class Harm(unittest.TestCase):
         self.assertIn("study 1 of 3: rescue_lane, 2 conditions on grid_right, grid_left, intersection", said)
         self.assertIn("runs 1 of 9", said)
         self.assertIn("roads: no harm", said)
-        self.assertIn("no policy harms anybody", printed)
+        self.assertIn("no harm shown on ", printed)
         self.assertEqual(list((self.root / "tmp").iterdir()), [])
+
+    def test_a_program_that_is_none_is_told(self):
+        (self.root / "clearway").unlink()
+        _, said = self.start().communicate(timeout=60)
+        self.assertIn("is no program. CLEARWAY names the one to use", said)
 
     def test_one_policy_runs_where_it_has_a_condition_and_no_other_does(self):
         out = self.root / "out"
         harm = self.start("--policy", "corridor", "--out", out)
-        _, said = harm.communicate(timeout=60)
+        printed, said = harm.communicate(timeout=60)
         self.assertEqual(harm.returncode, 0, said)
         self.assertIn("study 1 of 1: roads, 1 conditions on", said)
+        self.assertRegex(printed, r"corridor: no harm shown on .*\nnot run: .*city.* \(--full\)")
         self.assertEqual((out / "corridor/studies/roads.toml").read_text().count("policy = ["), 1)
         _, said = self.start("--out", out).communicate(timeout=60)
         self.assertIn("study 1 of 3: rescue_lane", said)  # all policies in the same folder: none is left out
