@@ -220,6 +220,9 @@ function(clearway_allocator target)
     endif()
 endfunction()
 
+# Where OpenBLAS multiplies with fewer digits than single precision has.
+file(STRINGS /proc/cpuinfo CLEARWAY_SHORT_PRODUCTS REGEX avx512_bf16 LIMIT_COUNT 1)
+
 # clearway_test(NAME SOURCES file... USES module... [LINKS ...] [LABELS fast|sumo|torch|slow|browser|threads|optional]
 #               [TIMEOUT seconds] [COST seconds])
 # A fast program is one entry of CTest, because starting it for each of its tests takes longer than the tests; so is one that
@@ -249,6 +252,9 @@ function(clearway_test name)
     elseif("fast" IN_LIST arg_LABELS OR "torch" IN_LIST arg_LABELS)
         add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
         set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} COST ${arg_COST})
+        if("torch" IN_LIST arg_LABELS AND CLEARWAY_SHORT_PRODUCTS)  # as src/cli/train.cpp
+            set_tests_properties(${name} PROPERTIES ENVIRONMENT OPENBLAS_CORETYPE=SkylakeX)
+        endif()
     else()
         gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 DISCOVERY_MODE PRE_TEST
                              PROPERTIES TIMEOUT ${arg_TIMEOUT} COST ${arg_COST})
