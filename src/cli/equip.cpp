@@ -14,11 +14,8 @@
 namespace clearway::cli {
 namespace {
 
-constexpr std::uint32_t usual_seeds = 10;   // FHWA's minimum number of replications
 constexpr std::uint32_t most_seeds = 1000;  // the demand of each is made before anything runs
 constexpr std::size_t most_signals = 10000;
-
-enum class Mode : std::uint8_t { run, dry_run };
 
 struct EquipArguments {
     Mode mode = Mode::run;

@@ -22,8 +22,6 @@ namespace {
 
 enum class Floor : std::uint8_t { solo, none };
 
-constexpr std::uint32_t usual_seeds = 10;  // FHWA's minimum number of replications
-
 struct RunArguments {
     std::string scenario;
     ConditionWords conditions;

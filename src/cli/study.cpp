@@ -13,8 +13,6 @@
 namespace clearway::cli {
 namespace {
 
-enum class Mode : std::uint8_t { run, dry_run };
-
 struct StudyArguments {
     std::string file;
     std::vector<std::string> scenarios;

@@ -14,7 +14,7 @@ using detail::VehicleAhead;
 using detail::View;
 
 /// Nobody is slowed down below this, m/s: a share of its own speed again and again would end at 0.
-constexpr double least_mps = 0.7;
+constexpr double crawl_mps = 0.7;
 
 /// Lanes of an edge that traffic uses: shoulders and sidewalks are left out.
 std::vector<std::uint32_t> driven_lanes(const roads::Network& network, core::EdgeIndex edge) {
@@ -187,7 +187,7 @@ class Rescue {
 
     bool slow_down(const VehicleAhead& other) {
         if (!audience_.has(*other.vehicle)) return false;
-        const double speed_mps = std::max(config_.stagger_share * other.vehicle->state.speed_mps, least_mps);
+        const double speed_mps = std::max(config_.stagger_share * other.vehicle->state.speed_mps, crawl_mps);
         write_.add(other.vehicle->key, traffic::DriveAt{core::MetresPerSecond(speed_mps)},
                    "moves apart from one abreast that blocks the rescue lane", emergency_.key);
         return true;

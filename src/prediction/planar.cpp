@@ -19,7 +19,7 @@ using detail::RowBelief;
 /// Below this speed a velocity has no direction worth reporting, m/s.
 constexpr float least_directed_mps = 0.1F;
 /// Reports are at least 0.1 s apart; times closer than this are equal, s.
-constexpr double same_time_s = 0.01;
+constexpr double same_moment_s = 0.01;
 
 class HeadingReckoning final : public PairwisePredictor {
   public:
@@ -113,7 +113,7 @@ class Kalman final : public PairwisePredictor {
     void take_report(const Tracks& tracks, std::size_t row, Filter& filter) const {
         const double measured_s = tracks.time_s - tracks.age_s[row];
         const double elapsed_s = measured_s - filter.measured_s;
-        if (filter.measured_s >= 0.0 && std::abs(elapsed_s) < same_time_s) return;
+        if (filter.measured_s >= 0.0 && std::abs(elapsed_s) < same_moment_s) return;
         const traffic::MotionState& last = tracks.last[row];
         const float sigma_m = tracks.sensor_sigma_m[row];
         if (filter.measured_s < 0.0 || elapsed_s < 0.0) {

@@ -26,7 +26,7 @@ constexpr float line_gap_m = 1.0F;
 /// What tyres hold on a dry road (SUMO's emergencyDecel of cars).
 constexpr float hardest_braking_mps2 = 9.0F;
 /// A limit below walking speed is a lane that is closed or badly mapped.
-constexpr float slowest_limit_mps = 1.0F;
+constexpr float least_limit_mps = 1.0F;
 /// Speeds shown on slower lanes say little of what a driver wants.
 constexpr float least_shown_mps = 5.0F;
 
@@ -173,8 +173,7 @@ void TwinTraffic::learn_speed(const traffic::MotionState& seen, bool is_new, Twi
     if (is_new) twin.speed_factor = static_cast<float>(config_.speed_factor);
     if (config_.estimate == 0 || !seen.lane.exists() || seen.speed_mps < least_shown_mps) return;
     constexpr float up = 0.5F;
-    const float shown =
-        seen.speed_mps / std::max(slowest_limit_mps, network_.lane(seen.lane).speed_limit_mps);
+    const float shown = seen.speed_mps / std::max(least_limit_mps, network_.lane(seen.lane).speed_limit_mps);
     const float steady = std::abs(seen.speed_mps - twin.seen.speed_mps) < 0.3F ? 0.1F : 0.0F;
     twin.speed_factor += (shown > twin.speed_factor ? up : steady * (shown > 0.8F ? 1.0F : 0.0F)) *
                          (std::min(shown, 1.5F) - twin.speed_factor);
@@ -194,7 +193,7 @@ void TwinTraffic::lay_path(const traffic::Observation& observation, Twin& twin) 
     for (std::size_t at = 0; at < walked_.size(); ++at) {
         Step& step = twin.path.emplace_back();
         step.road = walked_[at];
-        step.limit_mps = std::max(slowest_limit_mps, network_.lane(step.road.lane).speed_limit_mps);
+        step.limit_mps = std::max(least_limit_mps, network_.lane(step.road.lane).speed_limit_mps);
         step.exit_lane = at + 1 < walked_.size() ? exit_lane(step.road, walked_[at + 1]) : step.road.lane;
     }
     twin.at = 0;
@@ -262,7 +261,7 @@ void TwinTraffic::drive(const traffic::Observation& observation, double from_s, 
 }
 
 float TwinTraffic::desired_speed_mps(const Twin& twin, float limit_mps) const {
-    return std::min(twin.maximum_speed_mps, std::max(slowest_limit_mps, limit_mps * twin.speed_factor));
+    return std::min(twin.maximum_speed_mps, std::max(least_limit_mps, limit_mps * twin.speed_factor));
 }
 
 float TwinTraffic::acceleration(const traffic::Observation& observation, const Twin& twin) const {

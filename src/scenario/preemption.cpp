@@ -32,7 +32,7 @@ std::vector<std::string> column_names() {
     return names;
 }
 
-std::string header_line() {
+std::string column_line() {
     return fmt::format("{}", fmt::join(column_names(), ","));
 }
 
@@ -57,14 +57,14 @@ class Reading {
         for (const std::string_view cell : cells) {
             const std::string name(cell);
             if (std::ranges::find(known, name) == known.end())
-                refuse(1, name, "is no column of this file", header_line(), core::did_you_mean(name, known));
+                refuse(1, name, "is no column of this file", column_line(), core::did_you_mean(name, known));
             else if (std::ranges::find(columns_, name) != columns_.end())
                 refuse(1, name, "is there twice", "each column once", "remove one");
             columns_.push_back(name);
         }
         for (const std::string& name : known) {
             if (std::ranges::find(columns_, name) == columns_.end())
-                refuse(1, name, "is missing", header_line(), "add the column; its cells may be empty");
+                refuse(1, name, "is missing", column_line(), "add the column; its cells may be empty");
         }
         if (problems_.size() > before) columns_.clear();
     }
@@ -101,7 +101,7 @@ class Reading {
         if (!is_semicolon && header.find('\t') == std::string_view::npos) return false;
         problems_.push_back({fmt::format("{}:1", file_),
                              fmt::format("is separated by {}, not by commas", is_semicolon ? ";" : "tabs"),
-                             header_line(),
+                             column_line(),
                              "Save it with commas between cells and points in numbers: many spreadsheets use "
                              "those of the system language"});
         return true;
@@ -218,7 +218,7 @@ PreemptionRows read_preemption_rows(const std::filesystem::path& file, std::vect
     std::size_t line = 1;
     try {
         if (!reader.next()) {
-            problems.push_back({file.string(), "is empty", header_line(),
+            problems.push_back({file.string(), "is empty", column_line(),
                                 "clearway scenario signals SCENARIO --out FILE writes it"});
             return rows;
         }
@@ -276,7 +276,7 @@ std::string preemption_csv(const roads::Network& network, const std::vector<Pree
     for (std::size_t row = 0; row < order.size(); ++row)
         order[row] = row;
     std::ranges::sort(order, {}, [&](std::size_t row) { return network.signals()[row].id; });
-    std::string text = header_line() + "\n";
+    std::string text = column_line() + "\n";
     for (const std::size_t row : order) {
         text += core::csv_text(network.signals()[row].id);
         core::append_cells(text, signals[row]);

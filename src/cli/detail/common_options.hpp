@@ -28,6 +28,11 @@ namespace clearway::cli {
 using campaign::Printing;
 using results::most_replications;
 
+inline constexpr std::uint32_t usual_seeds = 10;  // FHWA's minimum number of replications
+
+/// Of verbs that can say what they would run.
+enum class Mode : std::uint8_t { run, dry_run };
+
 /// Declares `--json`; `what` completes "Print ... as JSON".
 void add_json_option(App& app, Printing& printing, const std::string& what);
 /// Declares `--tables`: every measure is printed.

@@ -19,23 +19,23 @@ struct Colour {
     const char* light;
     const char* dark;
 };
-constexpr std::array<Colour, 17> colours = {{{"paper", "#fff", "#14181c"},
-                                             {"ink", "#1c2126", "#e4e8eb"},
-                                             {"muted", "#5a646e", "#9ba6b0"},
-                                             {"rule", "#d9dee3", "#323a42"},
-                                             {"panel", "#f5f7f8", "#1c2227"},
-                                             {"better", "#005f94", "#6cbcf0"},
-                                             {"worse", "#b04300", "#ff9a57"},
-                                             {"s1", "#26873f", "#608c58"},
-                                             {"s2", "#9833cc", "#a467df"},
-                                             {"s3", "#b38e08", "#f8e04b"},
-                                             {"s4", "#0fa4af", "#5cfdad"},
-                                             {"s5", "#90035c", "#b55b9f"},
-                                             {"s6", "#c45081", "#cc97ad"},
-                                             {"go", "#7fae8d", "#5f8f6d"},
-                                             {"wait", "#c9a400", "#d9bd3a"},
-                                             {"stop", "#7d0a1e", "#c4475c"},
-                                             {"road", "#b9c1c8", "#4a545e"}}};
+constexpr std::array<Colour, 17> page_colours = {{{"paper", "#fff", "#14181c"},
+                                                  {"ink", "#1c2126", "#e4e8eb"},
+                                                  {"muted", "#5a646e", "#9ba6b0"},
+                                                  {"rule", "#d9dee3", "#323a42"},
+                                                  {"panel", "#f5f7f8", "#1c2227"},
+                                                  {"better", "#005f94", "#6cbcf0"},
+                                                  {"worse", "#b04300", "#ff9a57"},
+                                                  {"s1", "#26873f", "#608c58"},
+                                                  {"s2", "#9833cc", "#a467df"},
+                                                  {"s3", "#b38e08", "#f8e04b"},
+                                                  {"s4", "#0fa4af", "#5cfdad"},
+                                                  {"s5", "#90035c", "#b55b9f"},
+                                                  {"s6", "#c45081", "#cc97ad"},
+                                                  {"go", "#7fae8d", "#5f8f6d"},
+                                                  {"wait", "#c9a400", "#d9bd3a"},
+                                                  {"stop", "#7d0a1e", "#c4475c"},
+                                                  {"road", "#b9c1c8", "#4a545e"}}};
 
 constexpr const char* page_rules = R"css(
 *{box-sizing:border-box}
@@ -166,7 +166,7 @@ stroke-width:4px;stroke-linejoin:round}
 .plot .way.taken,.plot .way.left{stroke:var(--ink);stroke-width:7;stroke-opacity:.22}
 .plot .way.left{stroke-dasharray:1.5 2.5;stroke-opacity:.45}
 .plot .held{fill:none;stroke:var(--ink);stroke-width:1.5}.plot .losing{fill:var(--worse);stroke:var(--paper);stroke-width:.8}
-.plot .lock{fill:none;stroke:var(--worse);stroke-width:1.6}.plot .lock.before{opacity:.45}
+.plot .lock{fill:none;stroke:var(--ink);stroke-width:2}.plot .lock.before{opacity:.45}
 .plot .call{fill:none;stroke:var(--better);stroke-width:2}.plot .block{fill:var(--worse);stroke:var(--paper);stroke-width:1}.plot .blockBar{fill:var(--paper)}.plot .blocked{fill:none;stroke:var(--worse);stroke-width:4;stroke-dasharray:4 3}
 .plot .station{fill:var(--paper);stroke:var(--ink);stroke-width:1.8}
 .plot .d1{stroke-dasharray:8 3}.plot .d2{stroke-dasharray:3 2}.plot .d3{stroke-dasharray:10 3 2 3}
@@ -193,7 +193,7 @@ std::string lists() {
 
 std::string custom_properties(bool dark) {
     std::string text = ":root{";
-    for (const Colour& colour : colours)
+    for (const Colour& colour : page_colours)
         text += fmt::format("--{}:{};", colour.name, dark ? colour.dark : colour.light);
     return text + "}";
 }
@@ -208,7 +208,7 @@ std::string page_style() {
 
 std::string drawing_style() {
     std::string style = drawing_rules;
-    for (const Colour& colour : colours) {
+    for (const Colour& colour : page_colours) {
         const std::string used = fmt::format("var(--{})", colour.name);
         for (std::size_t at = style.find(used); at != std::string::npos; at = style.find(used, at))
             style.replace(at, used.size(), colour.light);

@@ -16,13 +16,14 @@ constexpr double label_left = 12.0;
 constexpr double chart_left = 96.0;    // the values, shipped and turned to, are to the left of the drawing
 constexpr double chart_right = 262.0;  // the numbers are to the right of the drawing
 constexpr double level_height = 17.0;
-constexpr double heading_height = 20.0;
+constexpr double head_height = 20.0;
 constexpr NumberStyle signed_tenths = typeset(1, Sign::ends_too);
 
 using Rows = std::vector<const SensitivityRow*>;
-using Member = MaybeEstimate SensitivityLevel::*;
+using LevelDifference = MaybeEstimate SensitivityLevel::*;
 
-void draw(Plot& plot, const SensitivityRow& row, const SensitivityLevel& level, Member member, double y) {
+void draw(Plot& plot, const SensitivityRow& row, const SensitivityLevel& level, LevelDifference member,
+          double y) {
     const char* const mark = level.objection.empty() ? "" : " (!)";
     plot.text(label_left, y + 4.0, row.turned(level, "\u2192") + mark, Plot::Anchor::start, "label");
     plot.text(right_edge, y + 4.0, estimate(level.*member, signed_tenths), Plot::Anchor::end, "value");
@@ -33,7 +34,7 @@ void draw(Plot& plot, const SensitivityRow& row, const SensitivityLevel& level, 
 }
 
 /// Of all rows, so that the charts above and below the fold have one scale.
-Range range_of(const Sensitivity& sensitivity, Member member) {
+Range range_of(const Sensitivity& sensitivity, LevelDifference member) {
     Range range;
     range.include(0.0);
     for (const SensitivityRow& row : sensitivity.rows) {
@@ -43,11 +44,11 @@ Range range_of(const Sensitivity& sensitivity, Member member) {
     return padded(range, 0.06);
 }
 
-std::string tornado(const Sensitivity& sensitivity, const Rows& rows, Member member,
+std::string tornado(const Sensitivity& sensitivity, const Rows& rows, LevelDifference member,
                     const std::string& label) {
     double height = 8.0 + label_space;
     for (const SensitivityRow* const row : rows)
-        height += heading_height + level_height * static_cast<double>(row->levels.size());
+        height += head_height + level_height * static_cast<double>(row->levels.size());
     Plot plot(fmt::format("{}, {}: {}", sensitivity.scenario, sensitivity.condition, label), height,
               {range_of(sensitivity, member), label, chart_left, chart_right},
               {{}, "", 4.0, height - label_space});
@@ -55,9 +56,9 @@ std::string tornado(const Sensitivity& sensitivity, const Rows& rows, Member mem
     plot.vertical(0.0);
     double top = 4.0;
     for (const SensitivityRow* const row : rows) {
-        plot.blank(top, top + heading_height);
+        plot.blank(top, top + head_height);
         plot.text(2.0, top + 14.0, row->setting, Plot::Anchor::start, "heading");
-        top += heading_height;
+        top += head_height;
         for (const SensitivityLevel& level : row->levels) {
             draw(plot, *row, level, member, top + level_height / 2.0);
             top += level_height;
