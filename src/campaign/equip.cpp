@@ -318,6 +318,7 @@ core::ExitCode equip(EquipRequest request) {
     report::EquipmentFacts facts = facts_of(search.config, request, search.signals);
     facts.fresh_seed = rounds.fresh_seed();
     facts.runs = rounds.runs();
+    facts.unsound = fresh.unsound;
     facts.end = plan.end;
     add_candidates(plan, search.signals, facts);
     add_outcomes(plan, search.signals, fresh, facts);

@@ -74,6 +74,20 @@ EquipOutcome outcome_of(const results::Results& results, const std::string& cond
     return outcome;
 }
 
+report::UnsoundRuns unsound_runs(const results::Results& results) {
+    report::UnsoundRuns unsound;
+    for (const results::RunRecord& run : results.runs) {
+        ++unsound.runs;
+        unsound.locked += run.metrics.locks > 0 ? 1 : 0;
+        for (const metrics::VehicleRow& vehicle : run.vehicles)
+            unsound.lost_vehicles += vehicle.vehicle_class == traffic::VehicleClass::emergency &&
+                                             vehicle.outcome != metrics::VehicleOutcome::arrived
+                                         ? 1
+                                         : 0;
+    }
+    return unsound;
+}
+
 /// Leaves no empty folder around one that was refused.
 results::Store prepared_folder(const study::Plan& plan, const RunOptions& options) {
     try {
@@ -346,7 +360,7 @@ FreshOutcomes EquipRounds::estimate(const analysis::SignalSet& chosen) {
     const auto of = [&](std::size_t condition) {
         return outcome_of(results, config.conditions[condition].name);
     };
-    FreshOutcomes outcomes{of(0), of(2), of(1), of(3), {}};
+    FreshOutcomes outcomes{of(0), of(2), of(1), of(3), {}, unsound_runs(results)};
     for (std::size_t condition = 4; condition < config.conditions.size(); ++condition)
         outcomes.chosen.push_back(of(condition));
     return outcomes;

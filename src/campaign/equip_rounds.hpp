@@ -53,6 +53,7 @@ struct EquipOutcome {
 struct FreshOutcomes {
     EquipOutcome baseline, none, all, alone;
     std::vector<EquipOutcome> chosen;  ///< With the first signal, the first two, ...
+    report::UnsoundRuns unsound;
 };
 
 /// What is searched, and for what.

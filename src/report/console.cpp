@@ -308,6 +308,7 @@ void append_head(const ScenarioFacts& scenario, std::string& text) {
     fmt::format_to(std::back_inserter(text), "{:=<{}}\n{}: {}, {} (EV) per condition\n", "", page_width,
                    printable(scenario.name), counted(scenario.replications, "replication"),
                    counted(emergency, "emergency vehicle"));
+    append_wrapped(scenario.assumptions, text);
     const bool has_runs = std::ranges::any_of(
         scenario.conditions, [](const auto& condition) { return condition.complete_runs > 0; });
     if (emergency == 0 && has_runs)

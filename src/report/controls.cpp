@@ -64,10 +64,15 @@ std::string controls_sentence(const ScenarioFacts& scenario, const ConditionFact
 
 std::string controls_note(const ScenarioFacts& scenario, const ConditionFacts& featured, Script script) {
     if (std::string own = controls_sentence(scenario, featured, script); !own.empty()) return own;
+    constexpr std::size_t most_told = 2;  // the verdicts tell all
     std::vector<std::string> notes;
     for (const ConditionFacts& condition : scenario.conditions)
         if (const std::string of = controls_sentence(scenario, condition, script); !of.empty())
             notes.push_back(condition.title + ": " + of);
+    const std::size_t untold = notes.size() - std::min(notes.size(), most_told);
+    notes.resize(notes.size() - untold);
+    if (untold > 0)
+        notes.push_back(fmt::format("Those of {}: under Verdict.", counted(untold, "other condition")));
     return fmt::format("{}", fmt::join(notes, " "));
 }
 

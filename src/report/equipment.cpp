@@ -12,6 +12,7 @@
 #include "report/detail/equipment_sheets.hpp"
 #include "report/detail/json.hpp"
 #include "report/detail/side_files.hpp"
+#include "report/locks.hpp"
 #include "report/text.hpp"
 #include "report/verdict.hpp"
 
@@ -133,6 +134,34 @@ std::string seeds_sentence(const EquipmentFacts& facts) {
     if (seeds > most)
         return fmt::format("It would take more than {} seeds to show so small a gain of all.", most);
     return fmt::format("About {} seeds would show the gain of all, if it is as it looks.", seeds);
+}
+
+/// `Vehicles locked each other in 4 of 30 fresh runs, and 1 EV did not arrive: ...`, or empty.
+std::string unsound_sentence(const UnsoundRuns& unsound) {
+    std::vector<std::string> words;
+    if (unsound.locked > 0)
+        words.push_back(fmt::format("vehicles locked each other in {} of {}", unsound.locked,
+                                    counted(unsound.runs, "run")));
+    if (unsound.lost_vehicles > 0)
+        words.push_back(fmt::format("{} did not arrive", counted(unsound.lost_vehicles, "EV")));
+    if (words.empty()) return "";
+    return fmt::format("On the fresh seeds {}: such runs say little of signals. Less traffic: {}.",
+                       fmt::join(words, ", and "), less_traffic);
+}
+
+/// A rank that few trips pass rests on them alone.
+std::string few_trips_sentence(const EquipmentFacts& facts) {
+    constexpr double few = 10.0;
+    std::vector<std::string> words;
+    for (const EquipCandidateFacts& candidate : facts.candidates) {
+        const double trips = candidate.trips * static_cast<double>(facts.met.trips);
+        if (candidate.rank && trips < few)
+            words.push_back(fmt::format("rank {}: {:.0f}", *candidate.rank, trips));
+    }
+    if (words.empty()) return "";
+    std::ranges::sort(words);
+    return fmt::format("Few of the {} that decided pass them ({}); more --seeds tell.",
+                       counted(facts.met.trips, "trip"), fmt::join(words, ", "));
 }
 
 /// What a further study sets to equip all ranks; a line of its own can be copied.
@@ -288,8 +317,10 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts) {
         sentences.push_back(no_effect_sentence(facts));
         sentences.push_back(together_sentence(facts));
         sentences.push_back(not_shown_sentence(facts));
+        sentences.push_back(few_trips_sentence(facts));
         sentences.push_back(seeds_sentence(facts));
     }
+    sentences.push_back(unsound_sentence(facts.unsound));
     sentences.push_back(end_sentence(facts));
     sentences.push_back(share_sentence(facts));
     if (!facts.ranked.empty()) std::ranges::move(setting_lines(facts), std::back_inserter(sentences));
@@ -422,6 +453,9 @@ std::string equipment_json(const EquipmentFacts& facts) {
                        {"seldom_passed", facts.seldom_passed},
                        {"equipped_today", facts.equipped_today},
                        {"runs", facts.runs},
+                       {"fresh_runs", facts.unsound.runs},
+                       {"fresh_runs_with_locks", facts.unsound.locked},
+                       {"fresh_vehicles_lost", facts.unsound.lost_vehicles},
                        {"baseline_s", estimate_json(facts.baseline_s)},
                        {"none_equipped_s", estimate_json(facts.none_s)},
                        {"all_equipped_s", estimate_json(facts.all_s)},

@@ -62,6 +62,13 @@ struct SignalsMet {
     std::string words() const;
 };
 
+/// Runs whose times say more of the simulation than of signals.
+struct UnsoundRuns {
+    std::size_t runs = 0;           ///< All.
+    std::size_t locked = 0;         ///< Of them, vehicles locked each other in them.
+    std::size_t lost_vehicles = 0;  ///< Emergency vehicles that did not arrive, in all.
+};
+
 /// Which signals to equip first, and what that is worth. Gains are restricted mean travel times of emergency
 /// vehicles, paired by replication.
 struct EquipmentFacts {
@@ -86,6 +93,7 @@ struct EquipmentFacts {
     std::vector<EquipCandidateFacts> candidates;  ///< By number.
     std::vector<EquipPairFacts> pairs;            ///< Empty where only one signal was wanted.
     // Of the fresh seeds.
+    UnsoundRuns unsound = {};
     analysis::MaybeEstimate baseline_s;  ///< Time without the policy.
     analysis::MaybeEstimate none_s;      ///< With the policy, no signal equipped.
     analysis::MaybeEstimate all_s;       ///< With every signal equipped.

@@ -121,13 +121,24 @@ struct JourneyFacts {
 inline constexpr std::array event_metrics = {"leases_issued", "leases_refused",       "leases_expired",
                                              "collisions",    "emergency_collisions", "teleports"};
 
-/// The emergency vehicle of a condition that took longest.
+/// The emergency vehicle of a condition that took longest; one that did not arrive took longer than all that
+/// did.
 struct WorstTrip {
     std::string vehicle;  ///< SUMO's id; text from a file, so printers escape it.
     std::uint32_t replication = 0;
     double seconds = 0.0;  ///< Of the trip, or until its end if it did not arrive.
-    bool arrived = true;
+    /// `teleported at 1,301 s`; empty if it arrived.
+    std::string end = {};
 };
+
+/// How the trips of a condition differ from the same EVs' in its baseline, of those that arrived in both.
+struct TripChanges {
+    std::uint64_t trips = 0;
+    std::uint64_t faster = 0;    ///< By more than `felt_s`.
+    std::uint64_t slower = 0;    ///< Likewise.
+    double mean_faster_s = 0.0;  ///< Of those that are faster; positive.
+};
+inline constexpr double felt_s = 5.0;
 
 /// A run without a result.
 struct FailedRun {
@@ -156,8 +167,9 @@ using analysis::shown_interval;
 
 /// What is known of a condition, and how a report presents it. Its metrics hold those of every `Measure`.
 struct ConditionFacts : analysis::ConditionSummary {
-    std::string title;   ///< In words: detail::ConditionTitles.
-    std::string recipe;  ///< Failure, predictor and policies, in words.
+    std::string title;            ///< In words: detail::ConditionTitles.
+    std::string base_title = {};  ///< Of what factors made it from.
+    std::string recipe;           ///< Failure, predictor and policies, in words.
     /// The condition of which a part is off in this one (StudyConfig::controls); empty for no control.
     std::string control_of = {};
     core::Settings factors;  ///< Of the study, with those of the scenario: `failure.dark_share` -> `0.3`.
@@ -169,6 +181,7 @@ struct ConditionFacts : analysis::ConditionSummary {
     std::vector<FailedRun> failed;
     Distribution distribution;  ///< Of EV travel times.
     std::optional<WorstTrip> worst_trip;
+    TripChanges trip_changes;
     std::optional<Precision> precision;  ///< Nothing below two pairs.
 
     const std::string& name() const { return condition.name; }
@@ -215,6 +228,8 @@ struct ScenarioFacts {
     /// What its emergency vehicles are called: `ambulances` where all are, else `emergency vehicles`.
     std::string emergency_noun = "emergency vehicles";
     std::string attribution;  ///< Credit that the map data requires; may be empty.
+    /// What its figures rest on, a sentence: demand, EVs at red lights. Empty if the manifest does not say.
+    std::string assumptions;
     std::string network_svg;  ///< Trusted markup, or empty if the folder has no usable picture.
     std::optional<std::vector<WideEdge>> wide_edges;  ///< By id; nothing if the folder does not list them.
     std::optional<RoadMap> roads;                     ///< Nothing if the folder does not list them.

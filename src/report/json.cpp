@@ -144,6 +144,9 @@ Json to_json(const ScenarioFacts& scenario, const ConditionFacts& condition) {
                    {"events", events_of(condition)},
                    {"safety", safety_of(condition)},
                    {"locks", detail::locks_json(condition)},
+                   {"trips_paired", condition.trip_changes.trips},
+                   {"trips_faster", condition.trip_changes.faster},
+                   {"trips_slower", condition.trip_changes.slower},
                    {"emergency_outcomes", to_json(condition.emergency)},
                    {"other_outcomes", to_json(condition.others)}};
     if (condition.is_compared()) {
@@ -253,6 +256,7 @@ std::string json_tables(const StudyFacts& study) {
             conditions.push_back(to_json(scenario, condition));
         }
         scenarios.push_back({{"name", scenario.name},
+                             {"assumptions", scenario.assumptions},
                              {"replications", scenario.replications},
                              {"least_relevant_s", scenario.least_relevant_s},
                              {"response_threshold_s", scenario.response_threshold_s},

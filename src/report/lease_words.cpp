@@ -123,17 +123,14 @@ const char* cure_of(traffic::Refusal reason) {
 std::string lease_sentence(const ConditionFacts& condition) {
     if (condition.condition.policies.empty()) return "has no policy that could ask for anything";
     std::vector<std::string> found;
-    bool lane_changes = false;
     for (const metrics::LeaseRow& row : condition.leases) {
-        lane_changes = lane_changes || row.action == traffic::LeaseKind::change_lane;
         const std::string often = row.issued == 1 ? "once" : grouped(row.issued) + " times";
         std::string text = fmt::format("{}: {} {}, {} carried out", row.policy, words_of(row.action), often,
                                        grouped(row.acted));
         if (row.refusals() > 0) text += fmt::format(", refused at some time: {}", reasons_of(row));
         found.push_back(std::move(text));
     }
-    if (!lane_changes) found.insert(found.begin(), "asked 0 vehicles to change lanes");
-    return fmt::format("{}", fmt::join(found, "; "));
+    return found.empty() ? "asked for nothing" : fmt::format("{}", fmt::join(found, "; "));
 }
 
 std::string refusals_sentence(const ConditionFacts& condition) {

@@ -11,8 +11,11 @@ namespace clearway::report {
 /// run locked.
 std::string lock_words(const analysis::ConditionSummary& condition);
 
+/// Whatever the density is, which multiplies that of the scenario's file.
+inline constexpr const char* less_traffic = "0.8 times the present --density, or less";
+
 /// What makes locks fewer. `less`: how to get less traffic, `--density 0.7`. Plain text.
-std::string lock_remedy(Blockers blockers, const std::string& less);
+std::string lock_remedy(Blockers blockers, const std::string& less = less_traffic);
 
 /// What the pairs in which a run locked do to a mean difference: `mean -23.6, median of pairs -19.0, mean of
 /// the 23 pairs without a lock -18.8 [-20.9, -16.7]; replications for +-1: 112, without locks 97`; no

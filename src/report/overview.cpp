@@ -240,7 +240,7 @@ std::string worst_trips(const ScenarioFacts& scenario, const ConditionFacts& con
         words = joined(std::move(words),
                        fmt::format("{}: {} in replication {}, {}{}", one->title, printable(trip.vehicle),
                                    trip.replication, seconds(trip.seconds, script),
-                                   trip.arrived ? "" : ", did not arrive"));
+                                   trip.end.empty() ? "" : ", did not arrive: " + trip.end));
     }
     return words.empty() ? words : "Longest trip, " + words + ".";
 }
@@ -254,7 +254,7 @@ std::string locks_sentence(const ScenarioFacts& scenario, const ConditionFacts& 
     }
     return words.empty() ? words
                          : "Vehicles locked each other. " + words +
-                               ". Fewer locks: " + lock_remedy(scenario.blockers, "--density 0.7") + ".";
+                               ". Fewer locks: " + lock_remedy(scenario.blockers) + ".";
 }
 
 std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scenario) {
@@ -332,6 +332,7 @@ Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& conditi
     } else {
         tile.meaning = joined(std::move(tile.meaning), survivors);
     }
+    tile.meaning = joined(std::move(tile.meaning), trip_changes_words(condition, script));
     return tile;
 }
 

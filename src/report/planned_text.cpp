@@ -1,8 +1,11 @@
 #include "report/planned_text.hpp"
 
+#include <algorithm>
 #include <iterator>
 
 #include <fmt/format.h>
+
+#include "core/terminal.hpp"
 
 namespace clearway::report {
 namespace {
@@ -10,12 +13,42 @@ namespace {
 using analysis::PlannedFinding;
 using analysis::Shown;
 
-std::string four_digits(const std::optional<double>& p) {
-    if (!p) return "-";
-    return *p < 0.0001 ? "<.0001" : fmt::format("{:.4f}", *p);
+std::string title_of(const StudyFacts& study, const std::string& scenario, const std::string& condition) {
+    for (const ScenarioFacts& one : study.scenarios) {
+        if (one.name != scenario) continue;
+        const auto found = std::ranges::find(one.conditions, condition, &ConditionFacts::name);
+        if (found != one.conditions.end()) return found->label();
+    }
+    return condition;
+}
+
+constexpr int table_columns = 100;
+
+/// A comparison and what it has shown. What is too long for its column has lines of its own.
+std::string row_of(const StudyFacts& study, const PlannedFinding& finding) {
+    constexpr std::size_t width = 34;
+    std::string pair = "    " + printable(pair_words(study, finding, Script::plain));
+    if (pair.size() > 3 + width) pair = core::wrapped(pair, 6) + "\n";
+    const std::size_t line = pair.ends_with('\n') ? 0 : pair.size();
+    return fmt::format("{}\n{}{:{}} {:<23}{:>5}  {:>7}  {}\n",
+                       printable(fmt::format("{} ({})", finding.comparison.name, finding.scenario)), pair, "",
+                       3 + width - line,
+                       estimate(finding.difference, {.decimals = 2, .sign = Sign::ends_too}), finding.pairs,
+                       p_words(finding.holm_p, Script::plain), finding_words(finding, Script::plain));
 }
 
 }  // namespace
+
+std::string p_words(const std::optional<double>& p, Script script) {
+    if (p && *p < 0.0001) return "<0.0001";
+    return number_or_dash(p, {.decimals = 4, .script = script});
+}
+
+std::string pair_words(const StudyFacts& study, const PlannedFinding& finding, Script script) {
+    return fmt::format("{} {} {}", title_of(study, finding.scenario, finding.comparison.condition),
+                       script == Script::typeset ? "\u2212" : "-",
+                       title_of(study, finding.scenario, finding.comparison.against));
+}
 
 std::string finding_words(const PlannedFinding& finding, Script script) {
     const std::string margin = number(finding.margin_s, {.decimals = 1, .script = script});
@@ -50,16 +83,10 @@ std::string planned_table(const StudyFacts& study) {
     std::string text = printable(plan_sentence(study)) + "\n\n";
     text.replace(text.find(". ") + 1, 1, "\n");  // A line for each sentence.
     const auto out = std::back_inserter(text);
-    fmt::format_to(out, "{:<38}{:<23}{:>5}  {:>7}  {}\n{:-<100}\n", "Comparison", "difference, s", "pairs",
-                   "p, Holm", "finding", "");
-    for (const PlannedFinding& finding : study.planned) {
-        const results::PlannedComparison& comparison = finding.comparison;
-        fmt::format_to(out, "{}\n    {:<33} {:<23}{:>5}  {:>7}  {}\n",
-                       printable(fmt::format("{} ({})", comparison.name, finding.scenario)),
-                       printable(fmt::format("{} - {}", comparison.condition, comparison.against)),
-                       estimate(finding.difference, {.decimals = 2, .sign = Sign::ends_too}), finding.pairs,
-                       four_digits(finding.holm_p), finding_words(finding, Script::plain));
-    }
+    fmt::format_to(out, "{:<38}{:<23}{:>5}  {:>7}  {}\n{:-<{}}\n", "Comparison", "difference, s", "pairs",
+                   "p, Holm", "finding", "", table_columns);
+    for (const PlannedFinding& finding : study.planned)
+        text += row_of(study, finding);
     return text + "\nExploratory: everything below. Its intervals and p-values confirm nothing.\n\n";
 }
 

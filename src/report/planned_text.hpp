@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "report/facts.hpp"
@@ -9,6 +10,12 @@ namespace clearway::report {
 
 /// What a planned comparison has shown, as tables say it: `shown: less time`, `equivalent within 1.3 s`.
 std::string finding_words(const analysis::PlannedFinding& finding, Script script);
+
+/// What was compared, by the titles of the conditions: `Ours, outages - corridor, outages`.
+std::string pair_words(const StudyFacts& study, const analysis::PlannedFinding& finding, Script script);
+
+/// A p-value with four digits after the point; `<0.0001` below them.
+std::string p_words(const std::optional<double>& p, Script script);
 
 /// What is confirmatory in a study with a plan, and that the rest is not. Plain text.
 std::string plan_sentence(const StudyFacts& study);

@@ -15,10 +15,12 @@
 #include "core/strict_table.hpp"
 #include "experiment/settings.hpp"
 #include "prediction/predictor.hpp"
+#include "report/detail/assumptions.hpp"
 #include "report/detail/condition_titles.hpp"
 #include "report/detail/map_facts.hpp"
 #include "report/detail/side_files.hpp"
 #include "report/detail/traffic_facts.hpp"
+#include "report/detail/trip_facts.hpp"
 #include "report/text.hpp"
 #include "results/factor_columns.hpp"
 
@@ -135,54 +137,12 @@ ScenarioFacts scenario_facts(const analysis::ScenarioSummary& summary, const ana
     return facts;
 }
 
-Distribution distribution_of(std::vector<double> seconds, std::uint64_t all) {
-    Distribution distribution;
-    distribution.arrived = seconds.size();
-    distribution.all = all;
-    std::sort(seconds.begin(), seconds.end());
-    const std::size_t points = std::min(seconds.size(), distribution_points);
-    for (std::size_t point = 1; point <= points; ++point) {
-        const std::size_t rank = point * seconds.size() / points;  // the last point is the last value
-        distribution.points.push_back(
-            {seconds[rank - 1],
-             static_cast<double>(rank) / static_cast<double>(std::max<std::uint64_t>(all, 1))});
-    }
-    return distribution;
-}
-
 using Conditions = std::map<std::pair<std::string, std::string>, ConditionFacts*>;  // by scenario, name
 
 /// The condition of a run; nullptr if the study does not name it.
 ConditionFacts* find(const Conditions& conditions, const experiment::RunKey& key) {
     const auto found = conditions.find({key.scenario, key.condition});
     return found == conditions.end() ? nullptr : found->second;
-}
-
-void note_trip(const metrics::VehicleRow& vehicle, std::uint32_t replication, ConditionFacts& condition) {
-    if (!vehicle.travel_time_s) return;
-    std::optional<WorstTrip>& worst = condition.worst_trip;
-    if (worst && worst->seconds >= *vehicle.travel_time_s) return;
-    worst = WorstTrip{vehicle.id, replication, *vehicle.travel_time_s,
-                      vehicle.outcome == metrics::VehicleOutcome::arrived};
-}
-
-void add_distributions(const results::Results& results, const Conditions& conditions) {
-    std::map<ConditionFacts*, std::pair<std::vector<double>, std::uint64_t>> times;
-    for (const results::RunRecord& run : results.runs) {
-        ConditionFacts* const condition = find(conditions, run.key);
-        auto& [seconds, all] = times[condition];
-        for (const metrics::VehicleRow& vehicle : run.vehicles) {
-            if (vehicle.vehicle_class != traffic::VehicleClass::emergency) continue;
-            ++all;
-            if (condition != nullptr) note_trip(vehicle, run.key.replication, *condition);
-            if (vehicle.outcome == metrics::VehicleOutcome::arrived && vehicle.travel_time_s)
-                seconds.push_back(*vehicle.travel_time_s);
-        }
-    }
-    for (auto& [condition, entry] : times) {
-        if (condition != nullptr)
-            condition->distribution = distribution_of(std::move(entry.first), entry.second);
-    }
 }
 
 /// What the emergency vehicles of a scenario are called: by their kind where all are of one.
@@ -277,6 +237,7 @@ void add_files(const results::Store& store, const results::Results& results, Sce
     for (const results::ScenarioEntry& entry : results.manifest.scenarios) {
         if (entry.name != scenario.name) continue;
         scenario.attribution = entry.attribution;
+        scenario.assumptions = detail::assumptions_sentence(entry.configuration, scenario);
         add_times(entry.configuration, scenario);
     }
 }
@@ -348,7 +309,8 @@ StudyFacts facts_of(const results::Store& store, const results::Results& results
     for (const auto& [key, condition] : conditions)
         if (const auto of = controls.find(key.second); of != controls.end())
             condition->control_of = of->second;
-    add_distributions(results, conditions);
+    for (ScenarioFacts& scenario : study.scenarios)
+        detail::add_trips(results, scenario);
     add_nouns(results, study);
     add_errors(results, conditions);
     study.plan = summary.manifest.plan;

@@ -79,6 +79,22 @@ std::string sentence(std::string words) {
     return words + ".";
 }
 
+/// `Collisions: 5 in 8 runs, 1 with an EV; baseline 0 in 8.`, where there are more and the difference is not
+/// certain; empty otherwise.
+std::string collisions_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    const ConditionFacts* const baseline = scenario.baseline_of(condition);
+    const Effect effect = effect_of(condition, Measure::collisions);
+    const std::uint64_t count = condition.count("collisions");
+    if (baseline == nullptr || effect == Effect::better || effect == Effect::worse ||
+        count * baseline->complete_runs <= baseline->count("collisions") * condition.complete_runs)
+        return {};
+    const std::uint64_t hit = condition.count("emergency_collisions");
+    return fmt::format("Collisions: {} in {}{}; baseline {} in {}.", grouped(count),
+                       counted(condition.complete_runs, "run"),
+                       hit == 0 ? "" : fmt::format(", {} with an EV", grouped(hit)),
+                       grouped(baseline->count("collisions")), baseline->complete_runs);
+}
+
 /// Certain changes of other measures; for the others' time loss also that no effect is shown.
 std::vector<std::string> costs(const ScenarioFacts& scenario, const ConditionFacts& condition,
                                Script script) {
@@ -94,6 +110,8 @@ std::vector<std::string> costs(const ScenarioFacts& scenario, const ConditionFac
     add(Measure::other_time_loss, "the others lose less time", "the others lose more time",
         "no effect shown on the others' time loss");
     add(Measure::collisions, "fewer collisions", "more collisions", "");
+    if (std::string more = collisions_of(scenario, condition); !more.empty())
+        facts.push_back(std::move(more));
     add(Measure::teleports, "fewer teleports", condition.objections.teleported ? "" : "more teleports", "");
     add(Measure::unfinished, "fewer unfinished vehicles", "more unfinished vehicles", "");
     return facts;
@@ -146,6 +164,17 @@ std::string survivors_words(const ConditionFacts& condition, Script script) {
     return words;
 }
 
+std::string trip_changes_words(const ConditionFacts& condition, Script script) {
+    const TripChanges& changes = condition.trip_changes;
+    if (changes.trips == 0) return {};
+    const NumberStyle whole{0, script};
+    return fmt::format(
+        "{} of {} over {:g} s faster{}, {} over {:g} s slower", grouped(changes.faster),
+        counted(changes.trips, "trip"), felt_s,
+        changes.faster == 0 ? "" : fmt::format(" ({} s in the mean)", number(changes.mean_faster_s, whole)),
+        grouped(changes.slower), felt_s);
+}
+
 bool is_void_for_lost(const ConditionFacts& condition, Measure measure) {
     return measure == Measure::gap_closed && condition.objections.loses_emergency() &&
            !condition.value(measure);
@@ -160,7 +189,7 @@ std::string locks_of(const ScenarioFacts& scenario, const ConditionFacts& condit
     const std::string without = baseline == nullptr ? "" : lock_words(*baseline);
     if (with.empty() && without.empty()) return {};
     return fmt::format("Locks: {} (baseline: {}). Fewer locks: {}.", with.empty() ? "none" : with,
-                       without.empty() ? "none" : without, lock_remedy(scenario.blockers, "--density 0.7"));
+                       without.empty() ? "none" : without, lock_remedy(scenario.blockers));
 }
 
 /// `EV travel time where runs locked, s: ...`, what locked pairs make of the effect, or empty without any.
@@ -252,6 +281,8 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     if (const std::string survivors = survivors_words(condition, script); !survivors.empty())
         words.facts.push_back(fmt::format("{}; one that did not arrive counts with {} s.", survivors,
                                           number(scenario.horizon_s, {0, script})));
+    if (std::string trips = trip_changes_words(condition, script); !trips.empty())
+        words.facts.push_back(trips + ".");
     const std::string others = analysis::other_objections(condition.objections);
     if (!others.empty()) words.facts.push_back(sentence(others));
     if (shown_interval(condition.difference(primary)) != nullptr)

@@ -43,6 +43,10 @@ bool is_void_for_lost(const ConditionFacts& condition, Measure measure);
 /// without the horizon that stands for an EV that did not arrive. Empty where all arrived in both.
 std::string survivors_words(const ConditionFacts& condition, Script script);
 
+/// `8 of 60 trips over 5 s faster (71 s in the mean), 2 over 5 s slower`: where a mean comes from. Empty
+/// without trips that arrived in both.
+std::string trip_changes_words(const ConditionFacts& condition, Script script);
+
 /// What is said of a condition against the baseline. Plain text, not escaped.
 struct Verdict {
     std::string finding;  ///< `helped`: objections on the side of EVs, or whether EVs were faster.

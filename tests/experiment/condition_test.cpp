@@ -2,6 +2,7 @@
 
 #include "experiment/condition_json.hpp"
 #include "experiment/conditions.hpp"
+#include "experiment/policy_words.hpp"
 #include "support/message_of.hpp"
 
 namespace clearway::experiment {
@@ -21,6 +22,17 @@ TEST(ConditionSpec, is_stored_with_its_settings_where_it_has_any) {
     std::vector<core::Problem> problems;
     EXPECT_EQ(condition_from(to_json(condition), "here", problems), condition);
     EXPECT_TRUE(problems.empty());
+}
+
+TEST(PolicyWords, say_what_policies_do_and_a_combination_by_its_parts) {
+    ConditionSpec condition;
+    EXPECT_EQ(policy_words(condition), "");
+    condition.policies = {"preempt_signals"};
+    EXPECT_EQ(policy_words(condition), "green for the emergency vehicle's approach on its arrival");
+    condition.policies = {"corridor"};
+    EXPECT_THAT(policy_words(condition), testing::HasSubstr("on its arrival; gives green time back"));
+    condition.policies = {"preempt_signals", "/home/mine.py:Green@0123456789abcdef0123456789abcdef"};
+    EXPECT_EQ(policy_words(condition), "");
 }
 
 TEST(BuiltInConditions, AreNotTheirPartsWhoseOptionIsNamed) {

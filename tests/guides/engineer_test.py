@@ -38,7 +38,7 @@ class EngineerTest(FolderCase):
         self.assertIn("signals          3", found)
         self.assertIn("monaco is ", type_in(the("scenario check", readme)))
         verdict = type_in(the("run ./monaco", readme), ("--seeds 10", "--seeds 2")).splitlines()
-        self.assertTrue(any(line.startswith("corridor: ") for line in verdict[-8:]), "the verdict stands last")
+        self.assertTrue(any(line.startswith("preempt_signals: ") for line in verdict[-12:]), "the verdict stands last")
         equip = the("equip", commands("docs/guides/your-city.md", "Which signals first?"))
         type_in(equip, ("./mine", "./monaco"), ("--budget 5", "--budget 3 --seeds 2 --density 0.3 --out equip"))
         with open("equip/equip.csv", newline="", encoding="utf-8") as file:

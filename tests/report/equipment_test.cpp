@@ -131,7 +131,21 @@ TEST(Equipment, EndsWithTheAnswer) {
     EXPECT_THAT(equipment_text(two_of_twelve()), testing::EndsWith(":\n--set actuation.equipped=#4,#9\n"));
     EXPECT_THAT(text, HasSubstr("Stopped at 2 of 5"));
     EXPECT_THAT(text, testing::ContainsRegex("- +- +all signals")) << "no rank 12";
-    EXPECT_LE(answer.size(), 7U * 80U) << "seven lines at the end of a terminal";
+    EXPECT_LE(answer.size(), 8U * 80U) << "eight lines at the end of a terminal";
+}
+
+TEST(Equipment, SaysWhatItsFreshRunsAreWorthAndHowFewTripsDecided) {
+    EquipmentFacts facts = two_of_twelve();
+    EXPECT_THAT(flat_text(facts),
+                AllOf(Not(HasSubstr("locked each other")),
+                      HasSubstr("Few of the 8 trips that decided pass them (rank 1: 4, rank 2: 2)")));
+    facts.unsound = {30, 4, 1};
+    EXPECT_THAT(flat_text(facts),
+                HasSubstr("On the fresh seeds vehicles locked each other in 4 of 30 runs, and 1 EV did "
+                          "not arrive: such runs say little of signals. Less traffic: 0.8 times"));
+    EXPECT_EQ(nlohmann::json::parse(equipment_json(facts)).at("fresh_runs_with_locks"), 4);
+    facts.met.trips = 80;
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("Few of the")));
 }
 
 TEST(Equipment, NamesNoOrderWhereNothingIsShown) {

@@ -242,6 +242,14 @@ TEST(Page, says_where_a_distribution_was_thinned) {
     EXPECT_THAT(page_of(study), HasSubstr("Drawn at 200 ranks, evenly spaced"));
 }
 
+TEST(Page, draws_what_is_reached_only_where_a_difference_is_shown) {
+    StudyFacts study = tests::study({"city"});
+    EXPECT_THAT(tests::page_of(study), HasSubstr("id=\"reach-city\""));
+    ScenarioFacts& scenario = study.scenarios[0];
+    tests::difference(scenario.conditions[scenario.map->condition], primary) = tests::around(-2.0, 3.0);
+    EXPECT_THAT(tests::page_of(study), Not(HasSubstr("id=\"reach-city\"")));
+}
+
 TEST(Page, lists_at_most_fifty_failures_of_a_condition_and_counts_the_rest) {
     StudyFacts study = tests::study({"merge"});
     for (std::uint32_t replication = 0; replication < 120; ++replication) {

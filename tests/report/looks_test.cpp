@@ -269,7 +269,21 @@ TEST(TradeOff, moves_a_mark_that_would_hide_another) {
     EXPECT_EQ(count_of(drawing, "r=\"2.6\""), 4u) << "a dot at each true place";
 }
 
-TEST(TradeOff, keeps_numbers_for_few_conditions_and_where_they_differ_in_more_than_two_things) {
+TEST(TradeOff, has_a_mark_for_each_failure_with_each_repair) {
+    StudyFacts study = crossed(3, 4);
+    std::vector<ConditionFacts>& conditions = study.scenarios[0].conditions;
+    for (std::size_t number = 1; number < conditions.size(); ++number) {
+        conditions[number].aspects["failure"] = (number - 1) % 4 < 2 ? "B10" : "B20";
+        conditions[number].aspects["predictor"] = number % 2 == 1 ? "no repair" : "repaired";
+    }
+    const std::string figure = figure_of(tests::page_of(study), "tradeoff-merge");
+    EXPECT_EQ(count_of(drawing_of(figure), "onDot"), 0u) << "no numbers";
+    for (const char* const words :
+         {">failure, predictor:<", ">B10, no repair<", ">B10, repaired<", ">B20, repaired<"})
+        EXPECT_THAT(figure, HasSubstr(words));
+}
+
+TEST(TradeOff, keeps_numbers_for_few_conditions_and_where_there_are_more_levels_than_looks) {
     const auto has_numbers = [](const StudyFacts& study) {
         return count_of(figure_of(tests::page_of(study), "tradeoff-merge"), "onDot") > 0;
     };
@@ -277,9 +291,10 @@ TEST(TradeOff, keeps_numbers_for_few_conditions_and_where_they_differ_in_more_th
     EXPECT_FALSE(has_numbers(crossed(3, 2)));
     EXPECT_FALSE(has_numbers(crossed(6, 6)));
     EXPECT_TRUE(has_numbers(crossed(7, 2))) << "more policies than colours";
-    StudyFacts study = crossed(3, 2);
+    StudyFacts study = crossed(3, 6);
+    EXPECT_FALSE(has_numbers(study));
     study.scenarios[0].conditions[1].aspects["pull_aside.lease_s"] = "lease 10 s";
-    EXPECT_TRUE(has_numbers(study));
+    EXPECT_TRUE(has_numbers(study)) << "a seventh mark";
 }
 
 TEST(Looks, of_policies_under_failures_are_the_same_in_all_figures) {

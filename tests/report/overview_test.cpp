@@ -53,8 +53,9 @@ TEST_F(Overview, SaysInOneSentenceWhatIsGainedWhatItCostsAndThatNobodyCollided) 
 TEST_F(Overview, NamesTheLongestTripsAndTheLocks) {
     EXPECT_EQ(worst_trips(scenario_, corridor(), Script::plain), "");
     EXPECT_EQ(locks_sentence(scenario_, corridor()), "");
-    corridor().worst_trip = WorstTrip{"emergency3", 12, 640.2, true};
-    scenario_.conditions[0].worst_trip = WorstTrip{"emergency0", 4, 1537.0, false};
+    corridor().worst_trip = WorstTrip{"emergency3", 12, 640.2};
+    scenario_.conditions[0].worst_trip =
+        WorstTrip{"emergency0", 4, 1537.0, "teleported out of a jam at 1600 s"};
     tests::metric(scenario_.conditions[0], "locks").values = {0.0, 2.0};
     tests::metric(scenario_.conditions[0], "longest_lock_s").values = {0.0, 300.0};
     tests::set_total(scenario_.conditions[0], "locked_vehicles", 30);
@@ -62,17 +63,17 @@ TEST_F(Overview, NamesTheLongestTripsAndTheLocks) {
     EXPECT_EQ(
         worst_trips(scenario_, corridor(), Script::plain),
         "Longest trip, corridor: emergency3 in replication 12, 640 s; baseline: emergency0 in replication 4, "
-        "1537 s, did not arrive.");
+        "1537 s, did not arrive: teleported out of a jam at 1600 s.");
     EXPECT_EQ(
         locks_sentence(scenario_, corridor()),
         "Vehicles locked each other. baseline: 2 locks in 1 of 20 runs, the longest 300 s; 30 vehicles stood "
         "in them, 1 of them EV. Fewer locks: " +
-            lock_remedy(Blockers::respected, "--density 0.7") + ".");
+            lock_remedy(Blockers::respected) + ".");
     EXPECT_THAT(verdict(scenario_, corridor(), Script::plain).text(),
                 HasSubstr(" Locks: none (baseline: 2 locks in 1 of 20 runs"));
     scenario_.blockers = Blockers::ignored;
     EXPECT_THAT(locks_sentence(scenario_, corridor()),
-                AllOf(HasSubstr("Fewer locks: less traffic: --density 0.7"),
+                AllOf(HasSubstr("Fewer locks: less traffic: 0.8 times the present --density"),
                       Not(HasSubstr("--ignore-junction-blocker"))));
 }
 

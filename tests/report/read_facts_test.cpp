@@ -151,16 +151,27 @@ TEST(Titles, of_conditions_made_by_factors_are_words_or_those_of_the_study_file)
     };
     const std::string net = "no repair";
     EXPECT_THAT(titles_with({}),
-                ::testing::ElementsAre("Baseline", "Green, perfect sensors", "corridor + clear_lane, B10",
-                                       "corridor, lead 4 s", net + ", dark share 0.1", "one+policy=corridor",
-                                       "two+policy=corridor"));
-    EXPECT_THAT(titles_with({{"baseline", "Today"},
-                             {"B10", "outages"},
-                             {"soft.py:Green", "Ours"},
-                             {"corridor", "Corridor"},
-                             {"two+policy=corridor", "Second"}}),
-                ::testing::ElementsAre("Today", "Ours, perfect sensors", "corridor + clear_lane, outages",
-                                       "Corridor, lead 4 s", net + ", dark share 0.1", "Corridor", "Second"));
+                ::testing::ElementsAre("Baseline", "Green, own, perfect sensors",
+                                       "corridor + clear_lane, own, B10", "corridor, lead 4 s",
+                                       net + ", dark share 0.1", "corridor, one", "corridor, two"))
+        << "the policies of several conditions are varied";
+    EXPECT_THAT(
+        titles_with({{"baseline", "Today"},
+                     {"B10", "outages"},
+                     {"soft.py:Green", "Ours"},
+                     {"corridor", "Corridor"},
+                     {"two+policy=corridor", "Second"}}),
+        ::testing::ElementsAre("Today", "Ours, own, perfect sensors", "corridor + clear_lane, own, outages",
+                               "Corridor, lead 4 s", net + ", dark share 0.1", "Corridor, one", "Second"));
+    std::vector<ConditionFacts> alike = {
+        made("one+policy=corridor", {"corridor"}, {{"condition.policy", "corridor"}}),
+        made("two+policy=corridor", {"corridor"}, {{"condition.policy", "corridor"}})};
+    detail::ConditionTitles({{"one", "Both"}, {"two", "Both"}}).give(alike);
+    EXPECT_THAT(core::texts_of(alike, &ConditionFacts::title),
+                ::testing::ElementsAre("one+policy=corridor", "two+policy=corridor"));
+    EXPECT_EQ(alike[0].base_title, "Both");
+    detail::ConditionTitles({}).give(alike = {alike[0]});
+    EXPECT_EQ(alike[0].title, "corridor") << "alone, the policy says enough";
 }
 
 TEST_F(RunFolder, takes_titles_from_the_study) {

@@ -71,7 +71,7 @@ TEST(TableFiles, SetNumbersAndIntervalsInColumnsOfSiunitx) {
     EXPECT_THAT(
         to_latex(table),
         HasSubstr("{l S[table-format=+2.1,retain-explicit-plus]@{\\,}l S[table-format=1.2] "
-                  "S[table-format=5.0] r}\n\\toprule\n"
+                  "S[table-format=5.0] l}\n\\toprule\n"
                   "Condition & \\multicolumn{2}{c}{difference} & {p} & {count} & why \\\\\n\\midrule\n"
                   "one & -12.4 & [\\num{-15.5}, \\num{-9.3}] & {$<$ 0.001} & 12345 & a \\\\\n"
                   "two & +0.4 & [\\num{0.1}, \\num{0.7}] & 0.25 & 7 &  \\\\\n"
@@ -214,18 +214,44 @@ TEST(FigureFiles, HaveTheGridOfFactorsWithItsIntervals) {
     write_figures(study, folder.path());
     EXPECT_EQ(
         text_of(folder.path() / "factors-emergency-grid.csv"),
-        "policy,perfect,perfect low 95 %,perfect high 95 %,B10,B10 low 95 %,B10 high 95 %,B20,B20 low 95 "
-        "%,B20 high 95 %\n"
-        "corridor,-12.0,-13.5,-10.5,-8.0,-9.5,-6.5,-4.0,-5.5,-2.5\n"
-        "geocast,-14.0,-15.5,-12.5,,,,-6.0,-7.5,-4.5\n")
+        "failure,corridor,corridor low 95 %,corridor high 95 %,geocast,geocast low 95 %,geocast high 95 %\n"
+        "perfect,-12.0,-13.5,-10.5,-14.0,-15.5,-12.5\n"
+        "B10,-8.0,-9.5,-6.5,,,\n"
+        "B20,-4.0,-5.5,-2.5,-6.0,-7.5,-4.5\n")
         << "what all rows have in common is left out";
     EXPECT_THAT(text_of(folder.path() / "factors-others-grid.tex"),
                 AllOf(HasSubstr("\\label{tab:factors-others-grid}"),
-                      HasSubstr("by failure; n = 20 pairs, 95 \\% intervals in brackets}"),
+                      HasSubstr("by policy; n = 20 pairs, 95 \\% intervals in brackets}"),
                       HasSubstr("0.5 & [\\num{0.3}, \\num{0.7}]")));
     tests::difference(study.scenarios[0].conditions.back(), primary)->n = 12;
     write_figures(study, folder.path());
     EXPECT_THAT(text_of(folder.path() / "factors-emergency-grid.tex"), HasSubstr("; n = 12 to 20 pairs,"));
+}
+
+TEST(FigureFiles, HaveAPanelForEachLevelOfAThirdFactorInTheOrderOfTheStudy) {
+    StudyFacts study = tests::study({"merge"});
+    std::vector<ConditionFacts>& conditions = study.scenarios[0].conditions;
+    conditions.resize(1);
+    for (const auto& [predictor, words] :
+         {std::pair("none", "no repair"), std::pair("kalman", "as repaired")}) {
+        for (const char* const failure : {"B10", "B20"}) {
+            for (const char* const policy : {"corridor", "geocast", "mine"}) {
+                ConditionFacts& made = conditions.emplace_back(
+                    tests::condition(fmt::format("own+{}+{}+{}", failure, policy, predictor), "", 90.0));
+                tests::compare(made, tests::around(-5.0, 1.5), tests::around(0.5, 0.2));
+                made.factors = {{"condition.failure", failure},
+                                {"condition.policy", policy},
+                                {"condition.predictor", predictor}};
+                made.aspects = {{"predictor", words}};
+            }
+        }
+    }
+    const core::TemporaryFolder folder;
+    write_figures(study, folder.path());
+    const std::string grid = text_of(folder.path() / "factors-emergency-grid.csv");
+    EXPECT_THAT(grid, testing::StartsWith("Condition,policy,B10,"));
+    EXPECT_LT(grid.find("no repair,corridor"), grid.find("as repaired,corridor"));
+    EXPECT_THAT(grid, HasSubstr("as repaired,mine,-5.0"));
 }
 
 TEST(FigureFiles, AreAllOnOnePage) {

@@ -230,10 +230,10 @@ TEST(Verdict, does_not_praise_the_others_time_loss_where_they_never_departed) {
     EXPECT_THAT(text, HasSubstr(" More other vehicles not inserted (+8.0 per run [6.0, 10.0])"));
 }
 
-TEST(LeaseSentence, names_lane_changes_even_where_none_was_asked) {
+TEST(LeaseSentence, names_what_was_asked_or_that_nothing_was) {
     ConditionFacts condition;
     condition.condition.policies = {"corridor"};
-    EXPECT_EQ(lease_sentence(condition), "asked 0 vehicles to change lanes");
+    EXPECT_EQ(lease_sentence(condition), "asked for nothing");
     condition.leases.push_back({"corridor",
                                 traffic::LeaseKind::change_lane,
                                 1200,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -34,6 +35,11 @@ std::string built_in_title(const std::string& name, const experiment::ConditionS
     return name;
 }
 
+/// The name that the study file gave: what follows `+` was added by factors.
+std::string name_before_factors(const experiment::ConditionSpec& condition) {
+    return condition.factors.empty() ? condition.name : condition.name.substr(0, condition.name.find('+'));
+}
+
 /// `preempt_signals.lead_s`, `4` -> `lead 4 s`.
 std::string setting_text(const std::string& setting, const std::string& value) {
     static const std::map<std::string, const char*> units = {
@@ -49,9 +55,15 @@ std::string setting_text(const std::string& setting, const std::string& value) {
 }  // namespace
 
 void ConditionTitles::give(std::vector<ConditionFacts>& conditions) const {
+    std::set<std::string> bases;
+    for (const ConditionFacts& condition : conditions) {
+        if (condition.condition.factors.contains(policy_factor))
+            bases.insert(name_before_factors(condition.condition));
+    }
     std::map<std::string, int> uses;
     for (ConditionFacts& condition : conditions) {
-        condition.title = of(condition.condition);
+        condition.title = of(condition.condition, bases.size() > 1 ? Bases::several : Bases::one);
+        condition.base_title = base_of(condition.condition);
         condition.aspects = aspects_of(condition.condition);
         for (const auto& [factor, value] : condition.condition.factors) {
             const auto own = given_.find(value);
@@ -67,19 +79,19 @@ void ConditionTitles::give(std::vector<ConditionFacts>& conditions) const {
     }
 }
 
-std::string ConditionTitles::of(const experiment::ConditionSpec& condition) const {
+std::string ConditionTitles::of(const experiment::ConditionSpec& condition, Bases bases) const {
     if (const auto own = given_.find(condition.name); own != given_.end()) return own->second;
-    std::string title = stem_of(condition);
+    const bool has_policy = condition.factors.contains(policy_factor);
+    std::string title = has_policy ? policy_text(condition) : base_of(condition);
+    if (has_policy && bases == Bases::several) title += ", " + base_of(condition);
     for (const auto& [factor, value] : condition.factors) {
         if (factor != policy_factor) title += ", " + value_text(factor, value);
     }
     return title;
 }
 
-std::string ConditionTitles::stem_of(const experiment::ConditionSpec& condition) const {
-    if (condition.factors.contains(policy_factor)) return policy_text(condition);
-    const std::string name =
-        condition.factors.empty() ? condition.name : condition.name.substr(0, condition.name.find('+'));
+std::string ConditionTitles::base_of(const experiment::ConditionSpec& condition) const {
+    const std::string name = name_before_factors(condition);
     const auto own = given_.find(name);
     return own == given_.end() ? built_in_title(name, condition) : own->second;
 }
@@ -88,7 +100,7 @@ std::string ConditionTitles::policy_text(const experiment::ConditionSpec& condit
     if (const auto policy = condition.factors.find(policy_factor); policy != condition.factors.end()) {
         if (const auto own = given_.find(policy->second); own != given_.end()) return own->second;
     } else if (!condition.factors.empty()) {
-        const auto own = given_.find(condition.name.substr(0, condition.name.find('+')));
+        const auto own = given_.find(name_before_factors(condition));
         if (own != given_.end()) return own->second;
     }
     std::vector<std::string> words;

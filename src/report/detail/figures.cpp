@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <map>
+#include <functional>
 #include <numeric>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "report/detail/style.hpp"
 #include "report/overview.hpp"
@@ -50,25 +51,45 @@ const std::string& aspect_of(const ConditionFacts& condition, const std::string&
     return found == condition.aspects.end() ? shipped : found->second;
 }
 
-/// Those with several levels, by name.
+/// `outages, repaired`: what a condition has of these aspects.
+std::string level_words(const ConditionFacts& condition, const std::vector<std::string>& names) {
+    std::vector<std::string> words;
+    for (const std::string& name : names) {
+        const std::string& word = aspect_of(condition, name);
+        if (!word.empty()) words.push_back(word);
+    }
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+Crossing::Aspect aspect_with(std::vector<std::string> names,
+                             const std::vector<const ConditionFacts*>& conditions) {
+    Crossing::Aspect aspect{std::move(names), {}};
+    for (const ConditionFacts* const condition : conditions)
+        if (aspect.level_of(*condition) == 0) aspect.levels.push_back(level_words(*condition, aspect.names));
+    return aspect;
+}
+
+/// Those with several levels: the policy first, then those with most levels.
 std::vector<Crossing::Aspect> varied_aspects(const std::vector<const ConditionFacts*>& conditions) {
-    std::map<std::string, Crossing::Aspect> aspects;
+    std::set<std::string> names;
     for (const ConditionFacts* const condition : conditions)
         for (const auto& aspect : condition->aspects)
-            aspects[aspect.first].name = aspect.first;
+            names.insert(aspect.first);
     std::vector<Crossing::Aspect> varied;
-    for (auto& [name, aspect] : aspects) {
-        for (const ConditionFacts* const condition : conditions)
-            if (aspect.level_of(*condition) == 0) aspect.levels.push_back(aspect_of(*condition, name));
+    for (const std::string& name : names) {
+        Crossing::Aspect aspect = aspect_with({name}, conditions);
         if (aspect.levels.size() > 1) varied.push_back(std::move(aspect));
     }
+    std::ranges::stable_sort(varied, std::greater{}, [](const Crossing::Aspect& aspect) {
+        return std::pair(aspect.names.front() == "policy", aspect.levels.size());
+    });
     return varied;
 }
 
 }  // namespace
 
 std::size_t Crossing::Aspect::level_of(const ConditionFacts& condition) const {
-    const auto found = std::ranges::find(levels, aspect_of(condition, name));
+    const auto found = std::ranges::find(levels, level_words(condition, names));
     return found == levels.end() ? 0 : static_cast<std::size_t>(found - levels.begin()) + 1;
 }
 
@@ -76,16 +97,19 @@ std::optional<Crossing> crossing_of(const StudyFacts& study, const ScenarioFacts
     constexpr std::size_t fewest = 6;  // below, numbers seldom hide each other
     const std::vector<const ConditionFacts*> conditions = crossed_conditions(study, scenario);
     if (conditions.size() < fewest) return std::nullopt;
-    std::vector<Crossing::Aspect> varied = varied_aspects(conditions);
-    if (varied.size() != 2) return std::nullopt;
-    if (varied[1].name == "policy") std::swap(varied[0], varied[1]);
+    const std::vector<Crossing::Aspect> varied = varied_aspects(conditions);
+    if (varied.size() < 2) return std::nullopt;
+    std::vector<std::string> others;
+    for (auto aspect = varied.begin() + 1; aspect != varied.end(); ++aspect)
+        others.push_back(aspect->names.front());
+    const Crossing crossing{varied.front(), aspect_with(std::move(others), conditions)};
     std::set<std::pair<std::size_t, std::size_t>> levels;
     for (const ConditionFacts* const condition : conditions)
-        levels.emplace(varied[0].level_of(*condition), varied[1].level_of(*condition));
+        levels.emplace(crossing.colour.level_of(*condition), crossing.mark.level_of(*condition));
     const bool told_apart = levels.size() == conditions.size() &&
-                            varied[0].levels.size() <= Series::most_levels &&
-                            varied[1].levels.size() <= Series::most_levels;
-    return told_apart ? std::optional(Crossing{varied[0], varied[1]}) : std::nullopt;
+                            crossing.colour.levels.size() <= Series::most_levels &&
+                            crossing.mark.levels.size() <= Series::most_levels;
+    return told_apart ? std::optional(crossing) : std::nullopt;
 }
 
 std::string standalone(const std::string& drawing) {

@@ -58,11 +58,11 @@ inline std::string estimate_or_nothing(const MaybeEstimate& difference, NumberSt
     return difference ? estimate(difference, style, factor) : std::string();
 }
 
-/// The two things in which many conditions differ, if they differ in no other: colours and dashes show the
-/// levels of one (the policy, if it is one of them), marks those of the other.
+/// The things in which many conditions differ: colours and dashes show the levels of one (the policy, if it
+/// is one of them), marks those of all others together, such as `outages, repaired`.
 struct Crossing {
     struct Aspect {
-        std::string name;                 ///< Of ConditionFacts::aspects.
+        std::vector<std::string> names;   ///< Of ConditionFacts::aspects.
         std::vector<std::string> levels;  ///< In the order of the conditions.
 
         /// Counted from 1; 0 for others.

@@ -3,6 +3,7 @@
 
 #include "report/detail/figures.hpp"
 #include "report/detail/map_canvas.hpp"
+#include "report/verdict.hpp"
 
 namespace clearway::report::detail {
 namespace {
@@ -63,6 +64,10 @@ DataTable data_of(const RoadMap& roads, const Reach& reach) {
 
 Figure reach_figure(const ScenarioFacts& scenario) {
     if (!scenario.map || !scenario.map->reach || !is_drawable(*scenario.roads)) return {};
+    // Where chance could be all of a difference, a map would show chance, street by street.
+    const ConditionFacts& condition = scenario.conditions[scenario.map->condition];
+    const Effect effect = effect_of(condition, primary);
+    if (effect != Effect::better && effect != Effect::worse) return {};
     const RoadMap& roads = *scenario.roads;
     const Reach& reach = *scenario.map->reach;
     const double within_s = 60.0 * reach.minutes;
@@ -82,14 +87,14 @@ Figure reach_figure(const ScenarioFacts& scenario) {
     entries.push_back(stripe_entry("road", "not reached"));
     canvas.legend(entries);
     const std::string note = fmt::format(
-        "Within {} min from the nearest station: {} km of road without and {} km with {} (means of the "
-        "replications). On {} % of the network\u2019s length the time is that of emergency vehicles which "
+        "Within {} min, half a usual trip, from the nearest station: {} km of road without and {} km with {} "
+        "(means of the replications). On {} % of the network\u2019s length the time is that of emergency "
+        "vehicles which "
         "drove there; elsewhere it is estimated as the time at the limit, times {} without and {} with it, "
         "as "
         "on the roads that were driven.",
         minutes, number(reach.baseline_m(roads, within_s) / kilometre, typeset(1)),
-        number(reach.condition_m(roads, within_s) / kilometre, typeset(1)),
-        scenario.conditions[scenario.map->condition].label(),
+        number(reach.condition_m(roads, within_s) / kilometre, typeset(1)), condition.label(),
         number(100.0 * driven_share(roads, reach), typeset(0)), number(reach.baseline_delay, typeset(2)),
         number(reach.condition_delay, typeset(2)));
     return {"reach-" + scenario.name, fmt::format("Reached within {} minutes", minutes), canvas.finish(),

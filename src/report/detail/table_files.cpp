@@ -235,7 +235,7 @@ std::string to_latex(const Table& table) {
     for (std::size_t column = 0; column < columns.size(); ++column) {
         const bool words = column == 0 || data.cells == DataTable::Cells::words;
         const bool lines = words && is_long(data, column);
-        types += (column == 0 ? "" : " ") + columns[column].type(lines ? paragraph : words ? "l" : "r");
+        types += (column == 0 ? "" : " ") + columns[column].type(lines ? paragraph : "l");
     }
     std::string text = fmt::format(
         "% needs \\usepackage{{booktabs,graphicx,siunitx}}\n\\begin{{table}}\n\\centering\n\\caption{{{}}}\n"

@@ -192,7 +192,10 @@ std::vector<LegendEntry> sign_entries(const ScenarioFacts& scenario, const std::
 /// `policy: ...` in colours, `failure: ...` in marks, and what hollow marks mean.
 void add_legends(Plot& plot, const Crossing& crossing, const std::vector<Point>& points) {
     const auto named = [](const Crossing::Aspect& aspect, const auto& entry_of) {
-        std::vector<LegendEntry> entries = {{"", aspect.name.substr(aspect.name.rfind('.') + 1) + ":"}};
+        std::vector<std::string> names;
+        for (const std::string& name : aspect.names)
+            names.push_back(name.substr(name.rfind('.') + 1));
+        std::vector<LegendEntry> entries = {{"", fmt::format("{}:", fmt::join(names, ", "))}};
         for (std::size_t level = 1; level <= aspect.levels.size(); ++level)
             entries.push_back(entry_of(level, aspect.levels[level - 1]));
         return entries;

@@ -1,9 +1,9 @@
 #include "report/detail/traffic_facts.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <map>
-#include <optional>
+#include <utility>
 
 namespace clearway::report::detail {
 namespace {
@@ -42,12 +42,6 @@ double mean_difference_s(const ConditionFacts* condition) {
     return analysis::mean_of(condition->difference(primary)).value_or(0.0);
 }
 
-/// Of the pairs: a lost EV or a lock moves their mean to where no trip is.
-double median_difference_s(const ConditionFacts& condition) {
-    const auto& comparison = condition.outcome(primary).comparison;
-    return comparison ? comparison->median.value_or(0.0) : 0.0;
-}
-
 /// Conditions that are shown: the baseline and those that help the EVs most.
 std::vector<const ConditionFacts*> shown_conditions(const ScenarioFacts& scenario) {
     std::vector<const ConditionFacts*> compared;
@@ -64,27 +58,36 @@ std::vector<const ConditionFacts*> shown_conditions(const ScenarioFacts& scenari
     return shown;
 }
 
-/// A vehicle and how far its gain is from what is looked for, s.
-struct Typical {
+using Journeys = std::map<std::string, JourneyFacts>;  // of one run, by vehicle
+
+/// A trip that could be shown.
+struct Candidate {
+    std::uint32_t replication = 0;
     std::string vehicle;
-    double off_s = 0.0;
+    double gain_s = 0.0;  ///< From the baseline to the condition that helps most.
+    bool passes_signals = false;
 };
 
-/// Of the vehicles that occur in all runs the one whose gain, from the first to the second run, is nearest to
-/// `gain_s`; of equals the first. Nothing if there is none.
-std::optional<Typical> typical_vehicle(const std::vector<std::map<std::string, JourneyFacts>>& runs,
-                                       double gain_s) {
-    std::optional<Typical> best;
+/// Adds the vehicles that occur in the runs of all conditions.
+void add_candidates(std::uint32_t replication, const std::vector<Journeys>& runs,
+                    std::vector<Candidate>& candidates) {
     for (const auto& [vehicle, journey] : runs.front()) {
         const bool everywhere =
             std::ranges::all_of(runs, [&, &name = vehicle](const auto& run) { return run.contains(name); });
         if (!everywhere) continue;
         const JourneyFacts& with = runs[std::min<std::size_t>(1, runs.size() - 1)].at(vehicle);
-        const double gained_s = journey.places.back().time_s - with.places.back().time_s;
-        const double off_s = std::abs(gained_s - gain_s);
-        if (!best || off_s < best->off_s) best = Typical{vehicle, off_s};
+        candidates.push_back({replication, vehicle, journey.places.back().time_s - with.places.back().time_s,
+                              !with.signals.empty()});
     }
-    return best;
+}
+
+/// The one in the middle of the gains; of trips that pass signals, if there are any: the others tell nothing
+/// of what was asked of signals. Candidates may not be empty.
+Candidate typical_of(std::vector<Candidate> candidates) {
+    const auto passes = [](const Candidate& one) { return one.passes_signals; };
+    if (std::ranges::any_of(candidates, passes)) std::erase_if(candidates, std::not_fn(passes));
+    std::ranges::stable_sort(candidates, {}, &Candidate::gain_s);
+    return candidates[candidates.size() / 2];
 }
 
 }  // namespace
@@ -98,25 +101,23 @@ const metrics::TrafficTables& RunTraffic::of(const experiment::RunKey& key) {
 std::vector<JourneyFacts> journeys_in(RunTraffic& traffic, const ScenarioFacts& scenario) {
     const std::vector<const ConditionFacts*> conditions = shown_conditions(scenario);
     if (conditions.empty()) return {};
-    const ConditionFacts& first = *conditions[std::min<std::size_t>(1, conditions.size() - 1)];
-    const double gain_s = -median_difference_s(first);
     constexpr std::uint32_t looked_at = 3;  // as many replications as keep journeys
-    std::vector<JourneyFacts> journeys;
-    std::optional<Typical> shown;
-    for (std::uint32_t replication = 0;
-         replication < std::min<std::uint64_t>(looked_at, scenario.replications); ++replication) {
-        std::vector<std::map<std::string, JourneyFacts>> runs;
+    std::vector<std::vector<Journeys>> runs(std::min<std::uint64_t>(looked_at, scenario.replications));
+    std::vector<Candidate> candidates;
+    for (std::uint32_t replication = 0; replication < runs.size(); ++replication) {
         for (const ConditionFacts* condition : conditions)
-            runs.push_back(journeys_of(traffic.of({scenario.name, condition->name(), replication}).journeys));
-        const std::optional<Typical> found = typical_vehicle(runs, gain_s);
-        if (!found || (shown && shown->off_s <= found->off_s)) continue;
-        shown = found;
-        journeys.clear();
-        for (std::size_t row = 0; row < runs.size(); ++row) {
-            JourneyFacts& journey = journeys.emplace_back(std::move(runs[row].at(found->vehicle)));
-            journey.condition = conditions[row]->label();
-            journey.replication = replication;
-        }
+            runs[replication].push_back(
+                journeys_of(traffic.of({scenario.name, condition->name(), replication}).journeys));
+        add_candidates(replication, runs[replication], candidates);
+    }
+    if (candidates.empty()) return {};
+    const Candidate shown = typical_of(std::move(candidates));
+    std::vector<JourneyFacts> journeys;
+    for (std::size_t row = 0; row < conditions.size(); ++row) {
+        JourneyFacts& journey =
+            journeys.emplace_back(std::move(runs[shown.replication][row].at(shown.vehicle)));
+        journey.condition = conditions[row]->label();
+        journey.replication = shown.replication;
     }
     return journeys;
 }

@@ -93,7 +93,7 @@
       const most = of => Math.max(...numbers.map(value => (of(value.replace(/^[+-]/, '').split('.')) ?? '').length));
       const intervals = cells.some(cell => interval(cell));
       if (numbers.length === 0)
-        return {type: at !== 0 && !words ? 'r' : rows.some(row => [...row[at]].length > 60) ? 'p{0.7\\linewidth}' : 'l', head: escaped, body: escaped};
+        return {type: (at === 0 || words) && rows.some(row => [...row[at]].length > 60) ? 'p{0.7\\linewidth}' : 'l', head: escaped, body: escaped};
       const plus = has('+');
       const format = `${plus ? '+' : has('-') ? '-' : ''}${most(parts => parts[0])}.${most(parts => parts[1])}`;
       const end = text => `\\num{${text.replaceAll('\u2212', '-')}}`;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -52,7 +55,8 @@ std::string title_of(const std::vector<Made>& made, const std::string& factor, c
     return level;
 }
 
-/// Factors with at least two levels, the one with most levels first.
+/// Factors with at least two levels, in the order of their use: across, down, in panels. The one with most
+/// levels goes down, where there is room; a single one across.
 std::vector<Factor> varied(const std::vector<Made>& made) {
     std::map<std::string, std::vector<std::string>> levels;
     for (const Made& one : made) {
@@ -70,6 +74,7 @@ std::vector<Factor> varied(const std::vector<Made>& made) {
             factor.titles.push_back(title_of(made, factor.name, level));
     }
     std::ranges::stable_sort(factors, std::greater{}, [](const Factor& one) { return one.levels.size(); });
+    if (factors.size() > 1) std::swap(factors[0], factors[1]);
     return factors;
 }
 
@@ -83,17 +88,20 @@ std::string last_part(const std::string& factor) {
     return factor.substr(factor.rfind('.') + 1);
 }
 
-/// The name that the study file gave: what follows `+` was added by factors.
-std::string plain_name(const std::string& name) {
-    return name.substr(0, name.find('+'));
+/// `repaired`, `lead 4 s`: the level of a factor in words.
+std::string level_words(const Made& made, const std::string& factor) {
+    constexpr std::string_view of_condition = "condition.";
+    const auto found = made.condition->aspects.find(
+        factor.starts_with(of_condition) ? factor.substr(of_condition.size()) : factor);
+    return found == made.condition->aspects.end() ? "" : found->second;
 }
 
 /// All that the axes of a grid do not say: scenario, condition and the levels of the other factors.
 std::vector<std::string> off_the_axes(const Made& made, const std::vector<Factor>& factors) {
-    std::vector<std::string> parts = {plain_name(made.scenario->name), plain_name(made.condition->name())};
+    const std::string& scenario = made.scenario->name;  // what follows `+` was added by factors
+    std::vector<std::string> parts = {scenario.substr(0, scenario.find('+')), made.condition->base_title};
     for (std::size_t factor = 2; factor < factors.size(); ++factor)
-        parts.push_back(
-            fmt::format("{} {}", last_part(factors[factor].name), level_of(made, factors[factor].name)));
+        parts.push_back(level_words(made, factors[factor].name));
     return parts;
 }
 
@@ -111,9 +119,10 @@ GridCell cell_of(const Made& made, Measure measure) {
             interval == nullptr ? "" : interval_text(*interval, typeset(1))};
 }
 
-using Panels = std::map<std::string, std::vector<Made>>;
+/// Headings of what is not the same in all of them, in the order of the study; a single panel has the name of
+/// the scenario.
+using Panels = std::vector<std::pair<std::string, std::vector<Made>>>;
 
-/// By headings of what is not the same in all of them; a single panel has the name of the scenario.
 Panels panels_of(const std::vector<Made>& made, const std::vector<Factor>& factors) {
     const std::vector<std::string> first = off_the_axes(made.front(), factors);
     std::vector<bool> differs(first.size(), false);
@@ -128,7 +137,11 @@ Panels panels_of(const std::vector<Made>& made, const std::vector<Factor>& facto
         std::vector<std::string> heading;
         for (std::size_t part = 0; part < parts.size(); ++part)
             if (differs[part]) heading.push_back(parts[part]);
-        panels[heading.empty() ? first.front() : fmt::format("{}", fmt::join(heading, ", "))].push_back(one);
+        const std::string words =
+            heading.empty() ? first.front() : fmt::format("{}", fmt::join(heading, ", "));
+        const auto known = std::ranges::find(panels, words, &Panels::value_type::first);
+        (known == panels.end() ? panels.emplace_back(words, std::vector<Made>()) : *known)
+            .second.push_back(one);
     }
     return panels;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "experiment/policy_words.hpp"
 #include "report/controls.hpp"
 #include "report/detail/figures.hpp"
 #include "report/sections/sections.hpp"
@@ -29,8 +30,10 @@ void write_words(const StudyFacts& study, const ScenarioFacts& scenario, const C
     writer.markup(fmt::format("<h3>{}{}</h3>\n<p class=\"headline\">{}</p>\n", escaped(scenario.name), title,
                               escaped(scenario_headline(scenario, condition, script))));
     writer.markup(coarse_step_note(scenario.step_length_s));
+    const std::string policies = experiment::policy_words(condition.condition);
     for (const std::string& note :
-         {controls_note(scenario, condition, script), incidents_sentence(scenario, script),
+         {policies.empty() ? "" : fmt::format("{}: {}.", condition.title, policies), scenario.assumptions,
+          controls_note(scenario, condition, script), incidents_sentence(scenario, script),
           locks_sentence(scenario, condition), among_conditions(study, scenario),
           worst_trips(scenario, condition, script)})
         if (!note.empty()) writer.markup(fmt::format("<p class=\"note\">{}</p>\n", escaped(note)));

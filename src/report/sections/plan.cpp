@@ -7,14 +7,14 @@
 namespace clearway::report::detail {
 
 void plan_section(const StudyFacts& study, Writer& writer) {
-    const auto p_text = [](const std::optional<double>& p) { return number_or_dash(p, typeset(4)); };
     DataTable table{
         {"Comparison", "difference, s", "pairs", "p", "p, Holm", "finding"}, {}, DataTable::Cells::words};
     for (const analysis::PlannedFinding& finding : study.planned) {
-        table.rows.push_back({fmt::format("{}: {} ({} \u2212 {})", finding.scenario, finding.comparison.name,
-                                          finding.comparison.condition, finding.comparison.against),
+        table.rows.push_back({fmt::format("{}: {} ({})", finding.scenario, finding.comparison.name,
+                                          pair_words(study, finding, Script::typeset)),
                               estimate(finding.difference, typeset(2, Sign::ends_too)),
-                              grouped(finding.pairs), p_text(finding.p), p_text(finding.holm_p),
+                              grouped(finding.pairs), p_words(finding.p, Script::typeset),
+                              p_words(finding.holm_p, Script::typeset),
                               finding_words(finding, Script::typeset)});
     }
     writer.markup(fmt::format("<p>{} Everything else on this page is exploratory.</p>\n",

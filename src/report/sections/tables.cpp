@@ -149,8 +149,9 @@ void write_statistics(const ScenarioFacts& scenario, Writer& writer) {
         DataTable table = statistics_table(scenario, measure);
         if (!table.rows.empty())
             tables.push_back({fmt::format("statistics-{}-{}", scenario.name, info(measure).field),
-                              fmt::format("{}: {}, paired differences to the baseline, {}", scenario.name,
-                                          info(measure).title, info(measure).unit),
+                              fmt::format("{}: {}, paired differences to the baseline, {}; p (Holm) over {}",
+                                          scenario.name, info(measure).title, info(measure).unit,
+                                          counted(table.rows.size(), "row")),
                               std::move(table)});
     }
     if (tables.empty()) return;

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "experiment/condition.hpp"
+
+namespace clearway::experiment {
+
+/// What a condition's policies do, for people: `green for the emergency vehicle's approach on its arrival`. A
+/// combination is told by its parts. Empty without policies, and where one is in Python.
+std::string policy_words(const ConditionSpec& condition);
+
+}  // namespace clearway::experiment
