@@ -47,8 +47,7 @@ std::optional<study::Versions> versions_from(const std::string& text);
 bool is_of_this_build(const study::Versions& worker);
 
 inline constexpr const char* cure_of_another_build =
-    "Build both programs together: ./clearway does so by itself, or `cmake --build` without a target in "
-    "the build folder";
+    "Build both programs together: ./clearway does so by itself, or `cmake --build FOLDER --target programs`";
 
 /// Versions of Clearway and of the SUMO inside its worker, as the worker reports them. Throws
 /// core::EnvironmentError when it cannot be started, usually because a shared library is missing, and when it

@@ -123,14 +123,20 @@ std::vector<std::string> component_names() {
     return core::texts_of(components(), &Component::name);
 }
 
-/// Asks for the full name probably meant by a name without a component or with a wrong one.
+/// Asks for the full name probably meant by a name without a component or with a wrong one: that of a
+/// component of nearly this name, or else the first whose last part it is.
 std::string question(const std::string& name, const std::vector<std::string>& of) {
     const std::vector<std::string> known = full_names(of);
-    const std::string last = parted(name).second;
-    const auto same =
-        std::ranges::find(known, last, [](const std::string& full) { return parted(full).second; });
-    return core::did_you_mean(same == known.end() ? name : *same, known,
-                              "`clearway list settings` shows them all");
+    const auto& [component, last] = parted(name);
+    const std::string near = component.empty() ? "" : core::nearest(component, of);
+    const auto same = std::ranges::find_if(known, [&, &field = last](const std::string& full) {
+        const auto& [owner, own] = parted(full);
+        return own == field && (near.empty() || owner == near);
+    });
+    return core::did_you_mean(same != known.end() ? *same
+                              : near.empty()      ? name
+                                                  : near + "." + last,
+                              known, "`clearway list settings` shows them all");
 }
 
 void check_model(const ConditionSpec& condition, const std::string& where,

@@ -100,6 +100,10 @@ TEST(Settings, ThatCannotBeNameTheNearest) {
     EXPECT_THAT(problems_of("preemt_signals.lead_s", "12"),
                 HasSubstr("Did you mean 'preempt_signals.lead_s'?"));
     EXPECT_THAT(problems_of("lead_s", "12"), HasSubstr("Did you mean 'preempt_signals.lead_s'?"));
+    EXPECT_THAT(check_setting("give_wy.near_m", "5", "").at(0).cure, HasSubstr("'give_way.near_m'"))
+        << "the nearest component first: others have settings of this name";
+    EXPECT_THAT(check_setting("vacatelane.horizn_m", "5", "").at(0).cure,
+                HasSubstr("'vacate_lane.horizon_m'"));
     EXPECT_THAT(problems_of("preempt_signals.lead_s", "99"),
                 testing::AllOf(HasSubstr("preempt_signals.lead_s: 99 is out of range"),
                                HasSubstr("0 to 60 s"), HasSubstr("or leave it out for")));
