@@ -233,10 +233,15 @@ def _in_words(values: np.ndarray, words: dict[str, int] | None) -> np.ndarray:
 
 
 def trace(file: str | Path) -> Recording:
-    """Opens a recording: ``for step in clearway.trace(file): step.x_m``.
+    """Opens a recording: ``for step in clearway.trace(file): step.x_m``. A run is taken as other programs name it, too:
+    ``"runs/mine/intersection/corridor/0"``.
 
     Its arrays are numpy; columns are read when they are first asked for, and kept. ``len(recording)`` is the number of steps,
     ``recording.events`` what happened. Raises InputError for what is no recording, or not as Clearway wrote it: the whole file is
     read once for its hash.
     """
+    run = Path(file)
+    if run.suffix != ".h5" and run.name.isdigit() and len(run.parts) > 3:
+        folder, scenario, condition = run.parents[2], *run.parts[-3:-1]
+        file = folder / "recordings" / scenario / condition / f"{int(run.name):05d}.h5"
     return Recording(file)
