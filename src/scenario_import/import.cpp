@@ -243,6 +243,11 @@ void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
     detail::choose_trips(import, config, network);
     import.findings.map_signals = map.signals.size();
     detail::account_for_signals(map.signals, network, import.left_out);
+    if (!network.signals().empty())
+        import.findings.changes.push_back(
+            fmt::format("programs of {} are netconvert's, of a fixed cycle: the map has none. netedit enters "
+                        "those of your town in network.net.xml",
+                        core::counted(network.signals().size(), "signal")));
     config.emergency_sites = detail::place_sites(map.sites, network, config.trips, import.left_out);
     for (const scenario::EmergencySite& site : config.emergency_sites)
         for (const auto& [kind, name] : scenario::spellings(scenario::SiteKind{}))
