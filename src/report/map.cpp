@@ -18,13 +18,13 @@ double length_within(const RoadMap& map, const std::vector<ReachedEdge>& edges,
     return sum_m;
 }
 
-/// How much longer emergency vehicles needed on the edges that they drove than at the limit.
-double delay_of(const RoadMap& map, const std::vector<EdgeTimes>& times, double EdgeTimes::*seconds) {
+/// How much longer emergency vehicles of the baseline needed on the edges that they drove than at the limit.
+double delay_of(const RoadMap& map, const std::vector<EdgeTimes>& times) {
     double needed_s = 0.0;
     double at_limit_s = 0.0;
     for (const EdgeTimes& time : times) {
         const auto passages = static_cast<double>(time.passages);
-        needed_s += passages * (time.*seconds);
+        needed_s += passages * time.baseline_s;
         at_limit_s += passages * map.edges[time.edge].free_flow_s();
     }
     return at_limit_s > 0.0 ? needed_s / at_limit_s : 1.0;
@@ -81,12 +81,11 @@ std::optional<Reach> reach_of(const RoadMap& map, const std::vector<EdgeTimes>& 
     Reach reach;
     reach.starts = std::move(starts);
     reach.minutes = std::max(1.0, std::round(usual_trip_s / 2.0 / 60.0));
-    reach.baseline_delay = delay_of(map, times, &EdgeTimes::baseline_s);
-    reach.condition_delay = delay_of(map, times, &EdgeTimes::condition_s);
+    reach.delay = delay_of(map, times);
     const auto before =
-        times_from(map, reach.starts, edge_seconds(map, times, &EdgeTimes::baseline_s, reach.baseline_delay));
-    const auto after = times_from(map, reach.starts,
-                                  edge_seconds(map, times, &EdgeTimes::condition_s, reach.condition_delay));
+        times_from(map, reach.starts, edge_seconds(map, times, &EdgeTimes::baseline_s, reach.delay));
+    const auto after =
+        times_from(map, reach.starts, edge_seconds(map, times, &EdgeTimes::condition_s, reach.delay));
     for (std::size_t edge = 0; edge < map.edges.size(); ++edge)
         reach.edges.push_back({before[edge], after[edge], false});
     for (const EdgeTimes& time : times)

@@ -112,8 +112,9 @@ struct Reach {
     std::vector<ReachedEdge> edges;   ///< In the order of RoadMap::edges.
     std::vector<std::size_t> starts;  ///< Edges of the stations.
     double minutes = 0.0;             ///< Whole ones: what the map shows.
-    double baseline_delay = 1.0;      ///< Time on a driven edge over that at the limit, for edges not driven.
-    double condition_delay = 1.0;     ///< Likewise.
+    /// Time of the baseline on a driven edge over that at the limit. Of edges not driven it gives the time,
+    /// without and with the condition: what it does is known where EVs drove alone.
+    double delay = 1.0;
 
     /// Length of all edges that are reached within a time, m.
     double baseline_m(const RoadMap& map, double within_s) const;

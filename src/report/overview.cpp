@@ -361,6 +361,7 @@ Tile incident_tile(const ScenarioFacts& scenario, const ConditionFacts& conditio
 Tile others_tile(const ScenarioFacts& /*scenario*/, const ConditionFacts& condition, Script script) {
     Tile tile = time_tile({"Other drivers: time loss", "lose less time each", "lose more time each"},
                           condition, Measure::other_time_loss, script);
+    tile.meaning = joined(std::move(tile.meaning), cross_street_words(condition, script));
     if (condition.objections.on_others()) {
         const std::string objections = analysis::other_objections(condition.objections);
         if (!objections.empty()) tile.tone = Tile::Tone::worse;

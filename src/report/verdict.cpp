@@ -175,6 +175,31 @@ std::string trip_changes_words(const ConditionFacts& condition, Script script) {
         grouped(changes.slower), felt_s);
 }
 
+std::string cross_street_words(const ConditionFacts& condition, Script script) {
+    const auto& comparison = condition.metric("cross_street_delay_s").comparison;
+    if (!comparison || !comparison->difference) return {};
+    const analysis::Interval* const interval = shown_interval(comparison->difference);
+    if (interval == nullptr || interval->contains(0.0)) return {};
+    const NumberStyle whole{.decimals = 0, .script = script, .sign = Sign::always};
+    return fmt::format("on cross streets {} vehicle-s {} a passage of an EV",
+                       number(comparison->difference->mean, whole), interval_text(*interval, {0, script}));
+}
+
+std::string privilege_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition,
+                               Script script) {
+    const std::vector<std::string> alone = {"red_privilege"};
+    const auto passing = std::ranges::find_if(scenario.conditions, [&](const ConditionFacts& other) {
+        return other.condition.policies == alone && other.condition.failure == condition.condition.failure;
+    });
+    if (passing == scenario.conditions.end() || &*passing == &condition || !condition.is_compared())
+        return {};
+    const MaybeEstimate difference = analysis::estimate_paired(
+        condition.outcome(primary).values, passing->outcome(primary).values, analysis::MetricKind::quantity);
+    if (!difference) return {};
+    return fmt::format("Against EVs that pass red ({}), s: {}.", passing->title,
+                       estimate(difference, {1, script, Sign::always}));
+}
+
 bool is_void_for_lost(const ConditionFacts& condition, Measure measure) {
     return measure == Measure::gap_closed && condition.objections.loses_emergency() &&
            !condition.value(measure);
@@ -287,10 +312,13 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     if (!others.empty()) words.facts.push_back(sentence(others));
     if (shown_interval(condition.difference(primary)) != nullptr)
         std::ranges::move(costs(scenario, condition, script), std::back_inserter(words.facts));
-    for (std::string fact : {refusals_sentence(condition), controls_sentence(scenario, condition, script),
-                             incidents_of(scenario, condition, script), regrets_of(condition, script),
-                             locked_pairs_of(condition, script), locks_of(scenario, condition),
-                             idle_sentence(condition), own_lane_sentence(condition)})
+    if (const std::string cross = cross_street_words(condition, script); !cross.empty())
+        words.facts.push_back(sentence("Lost " + cross));
+    for (std::string fact :
+         {privilege_sentence(scenario, condition, script), refusals_sentence(condition),
+          controls_sentence(scenario, condition, script), incidents_of(scenario, condition, script),
+          regrets_of(condition, script), locked_pairs_of(condition, script), locks_of(scenario, condition),
+          idle_sentence(condition), own_lane_sentence(condition)})
         if (!fact.empty()) words.facts.push_back(std::move(fact));
     if (const std::size_t same = scenario.place_of(condition.same_as); same < scenario.conditions.size())
         words.facts.push_back(

@@ -47,6 +47,14 @@ std::string survivors_words(const ConditionFacts& condition, Script script);
 /// without trips that arrived in both.
 std::string trip_changes_words(const ConditionFacts& condition, Script script);
 
+/// `on cross streets +28 vehicle-s [11, 46] a passage of an EV`: what a mean over all drivers hides. Empty
+/// where it is not shown.
+std::string cross_street_words(const ConditionFacts& condition, Script script);
+
+/// `Against EVs that pass red (red_privilege), s: -5.8 [-9.6, -2.0].` Empty where the study does not run
+/// them, and of them.
+std::string privilege_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
+
 /// What is said of a condition against the baseline. Plain text, not escaped.
 struct Verdict {
     std::string finding;  ///< `helped`: objections on the side of EVs, or whether EVs were faster.

@@ -283,6 +283,32 @@ TEST(TradeOff, has_a_mark_for_each_failure_with_each_repair) {
         EXPECT_THAT(figure, HasSubstr(words));
 }
 
+TEST(TradeOff, has_one_mark_for_conditions_with_the_same_runs) {
+    StudyFacts study = crossed(5, 2);
+    const auto marks = [&] {
+        return count_of(drawing_of(figure_of(tests::page_of(study), "tradeoff-merge")),
+                        "<path class=\"dot s");
+    };
+    EXPECT_EQ(marks(), 10u);
+    std::vector<ConditionFacts>& conditions = study.scenarios[0].conditions;
+    conditions[4].same_as = conditions[3].name();
+    EXPECT_EQ(marks(), 9u);
+    EXPECT_THAT(tests::page_of(study), HasSubstr("Without a mark: 1 condition whose"));
+    conditions[4].same_as = conditions[0].name();
+    EXPECT_EQ(marks(), 10u) << "the baseline has no mark";
+}
+
+TEST(Looks, do_not_change_with_what_is_compared) {
+    StudyFacts study = crossed(5, 2);
+    for (std::size_t number : {1u, 2u}) {  // those of the first policy, with which the others are compared
+        study.scenarios[0].conditions[number].baseline.clear();
+        study.scenarios[0].conditions[number].condition.policies = {"first"};
+    }
+    const std::string drawing = drawing_of(figure_of(tests::page_of(study), "tradeoff-merge"));
+    EXPECT_EQ(count_of(drawing, "<path class=\"dot s1\""), 0u);
+    EXPECT_EQ(count_of(drawing, "<path class=\"dot s2\""), 2u) << "the second policy";
+}
+
 TEST(TradeOff, keeps_numbers_for_few_conditions_and_where_there_are_more_levels_than_looks) {
     const auto has_numbers = [](const StudyFacts& study) {
         return count_of(figure_of(tests::page_of(study), "tradeoff-merge"), "onDot") > 0;

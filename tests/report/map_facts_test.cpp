@@ -130,17 +130,20 @@ TEST(Assumptions, say_where_traffic_comes_from_and_what_red_means) {
     scenario.roads.emplace().signals.resize(1);
     const std::string drawn =
         "[demand]\nhuman = 1076\nautomated = 579\ndensity = 0.7\n[time]\nwindow_s = 900\n";
-    EXPECT_EQ(
-        detail::assumptions_sentence(drawn, scenario),
-        "Simulated: random trips of 1,159 vehicles in 15 min, 0.7 of its usual number, automated share 0.35, "
-        "EVs of "
-        "the baseline stop at red (policy red_privilege: they pass it).");
+    EXPECT_EQ(detail::assumptions_sentence(drawn, scenario),
+              "Simulated: random trips of 1,159 vehicles in 15 min, density 0.7, automated share 0.35, "
+              "EVs of "
+              "the baseline stop at red (policy red_privilege: they pass it).");
     EXPECT_THAT(detail::assumptions_sentence(drawn + "[[flow]]\nfrom = 'a'\n", scenario),
                 HasSubstr("drawn flows of"));
     EXPECT_THAT(detail::assumptions_sentence(drawn + "[privilege]\npass_red = 1\n", scenario),
                 HasSubstr("EVs of the baseline may pass red"));
     scenario.conditions[0].condition.settings = {{"privilege.pass_red", "1"}};
     EXPECT_THAT(detail::assumptions_sentence(drawn, scenario), HasSubstr("may pass red"));
+    EXPECT_THAT(detail::assumptions_sentence(
+                    "version = 'imported'\n[network]\nattribution = 'Map data (c) OpenStreetMap'\n" + drawn,
+                    scenario),
+                HasSubstr("signal programs made up by the import"));
     scenario.roads->signals.clear();
     EXPECT_EQ(detail::assumptions_sentence("[demand]\nemergency = 2\n[measured]\nautomated_share = 0.35\n",
                                            scenario),

@@ -230,6 +230,27 @@ TEST(Verdict, does_not_praise_the_others_time_loss_where_they_never_departed) {
     EXPECT_THAT(text, HasSubstr(" More other vehicles not inserted (+8.0 per run [6.0, 10.0])"));
 }
 
+TEST(Verdict, tells_the_difference_to_vehicles_that_pass_red_and_the_cost_on_cross_streets) {
+    ScenarioFacts scenario = tests::scenario("merge");
+    ConditionFacts& condition = scenario.conditions[1];
+    EXPECT_EQ(privilege_sentence(scenario, condition, Script::plain), "");
+    scenario.conditions[2].condition.policies = {"red_privilege"};
+    scenario.conditions[2].title = "They pass red";
+    tests::metric(scenario.conditions[2], info(primary).field).values = {50.0, 60.0, 70.0, 61.0, 59.0};
+    tests::metric(condition, info(primary).field).values = {44.0, 55.0, 64.0, 55.0, 54.0};
+    EXPECT_THAT(privilege_sentence(scenario, condition, Script::plain),
+                HasSubstr("Against EVs that pass red (They pass red), s: -5.6 [-6.3, -4.9]."));
+    EXPECT_EQ(privilege_sentence(scenario, scenario.conditions[2], Script::plain), "");
+    EXPECT_EQ(cross_street_words(condition, Script::plain), "");
+    tests::metric(condition, "cross_street_delay_s").comparison.emplace().difference =
+        tests::around(28.0, 17.0);
+    EXPECT_EQ(cross_street_words(condition, Script::plain),
+              "on cross streets +28 vehicle-s [11, 45] a passage of an EV");
+    EXPECT_THAT(verdict(scenario, condition, Script::plain).text(), HasSubstr("Lost on cross streets +28"));
+    tests::metric(condition, "cross_street_delay_s").comparison->difference = tests::around(28.0, 30.0);
+    EXPECT_EQ(cross_street_words(condition, Script::plain), "");
+}
+
 TEST(LeaseSentence, names_what_was_asked_or_that_nothing_was) {
     ConditionFacts condition;
     condition.condition.policies = {"corridor"};

@@ -39,6 +39,13 @@ bool passes_red(const toml::table& scenario, const ConditionFacts& baseline) {
     return scenario["privilege"]["pass_red"].value_or(0.0) > 0.0;
 }
 
+/// Imported from OpenStreetMap, which says where signals stand and not what they show.
+bool is_of_map(const toml::table& scenario) {
+    const std::string credit = scenario["network"]["attribution"].value_or(std::string());
+    return scenario["version"].value_or(std::string()) == "imported" &&
+           credit.find("OpenStreetMap") != std::string::npos;
+}
+
 }  // namespace
 
 std::string assumptions_sentence(const std::string& configuration, const ScenarioFacts& scenario) {
@@ -46,10 +53,12 @@ std::string assumptions_sentence(const std::string& configuration, const Scenari
     if (!table["demand"].is_table()) return "";
     std::vector<std::string> words = {demand_words(table)};
     if (const double density = table["demand"]["density"].value_or(1.0); density != 1.0)
-        words.push_back(fmt::format("{:g} of its usual number", density));
+        words.push_back(fmt::format("density {:g}", density));
     if (const double share = automated_share(table); share >= 0.0)
         words.push_back(fmt::format("automated share {:.2g}", share));
     const bool has_signals = scenario.roads && !scenario.roads->signals.empty();
+    if (has_signals && is_of_map(table))
+        words.emplace_back("signal programs made up by the import: the map has none");
     if (has_signals && !scenario.conditions.empty())
         words.emplace_back(passes_red(table, scenario.conditions.front())
                                ? "EVs of the baseline may pass red"

@@ -33,12 +33,18 @@ std::array<double, 4> view_box(const std::string& drawing) {
     return box;
 }
 
-/// What the conditions have that are compared, in their order; nothing if a setting was turned alone.
+/// Whether a condition has a colour and a mark. Those that others are compared with have them too, so that
+/// looks do not change with what is compared.
+bool is_crossed(const ConditionFacts& condition) {
+    return condition.is_compared() || !condition.condition.policies.empty();
+}
+
+/// What these conditions are, in their order; nothing if a setting was turned alone.
 std::vector<const ConditionFacts*> crossed_conditions(const StudyFacts& study,
                                                       const ScenarioFacts& scenario) {
     std::vector<const ConditionFacts*> crossed;
     for (const ConditionFacts& condition : scenario.conditions) {
-        if (!condition.is_compared()) continue;
+        if (!is_crossed(condition)) continue;
         if (reference_of(study, scenario, condition) != nullptr) return {};
         crossed.push_back(&condition);
     }
@@ -166,9 +172,9 @@ Looks looks_of(const StudyFacts& study, const ScenarioFacts& scenario) {
         series.number = looks.size() - 1;
         if (&condition == featured) series.weight = Series::Weight::lead;
         if (!crossing || series.number == 0) continue;
-        series.levels = condition.is_compared() ? Series::Levels{crossing->colour.level_of(condition),
-                                                                 crossing->mark.level_of(condition)}
-                                                : Series::Levels{0, crossing->mark.levels.size() + ++beside};
+        series.levels = is_crossed(condition) ? Series::Levels{crossing->colour.level_of(condition),
+                                                               crossing->mark.level_of(condition)}
+                                              : Series::Levels{0, crossing->mark.levels.size() + ++beside};
     }
     return looks;
 }

@@ -86,17 +86,16 @@ Figure reach_figure(const ScenarioFacts& scenario) {
     if (!reached.lost.empty()) entries.push_back(stripe_entry("way worse much", "reached only without it"));
     entries.push_back(stripe_entry("road", "not reached"));
     canvas.legend(entries);
+    canvas.credit(scenario.attribution);
     const std::string note = fmt::format(
         "Within {} min, half a usual trip, from the nearest station: {} km of road without and {} km with {} "
         "(means of the replications). On {} % of the network\u2019s length the time is that of emergency "
-        "vehicles which "
-        "drove there; elsewhere it is estimated as the time at the limit, times {} without and {} with it, "
-        "as "
-        "on the roads that were driven.",
+        "vehicles which drove there; elsewhere it is estimated as {} times the time at the limit, without "
+        "and with "
+        "it.",
         minutes, number(reach.baseline_m(roads, within_s) / kilometre, typeset(1)),
         number(reach.condition_m(roads, within_s) / kilometre, typeset(1)), condition.label(),
-        number(100.0 * driven_share(roads, reach), typeset(0)), number(reach.baseline_delay, typeset(2)),
-        number(reach.condition_delay, typeset(2)));
+        number(100.0 * driven_share(roads, reach), typeset(0)), number(reach.delay, typeset(2)));
     return {"reach-" + scenario.name, fmt::format("Reached within {} minutes", minutes), canvas.finish(),
             note, data_of(roads, reach)};
 }

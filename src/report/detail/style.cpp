@@ -141,7 +141,7 @@ stroke-width:4px;stroke-linejoin:round}
 .plot .grid{stroke:var(--rule);stroke-width:1;fill:none}.plot .zero{stroke:var(--ink);stroke-width:1.3}
 .plot .blank{fill:var(--paper)}
 .plot .line,.plot .bar,.plot .leader,.plot .ring{fill:none;stroke-width:1.8;stroke-linejoin:round;stroke:currentColor}
-.plot .bar{stroke-width:2.4}.plot .leader{stroke-width:1}.plot .ring{stroke-width:2}
+.plot .bar{stroke-width:2.4}.plot .leader{stroke-width:1.4}.plot .ring{stroke-width:2}
 .plot .line.lead{stroke-width:3.8}.plot text.lead{font-weight:700;fill:var(--ink)}
 .plot .s0{color:var(--ink)}.plot .s1{color:var(--s1)}.plot .s2{color:var(--s2)}.plot .s3{color:var(--s3)}
 .plot .s4{color:var(--s4)}.plot .s5{color:var(--s5)}.plot .s6{color:var(--s6)}

@@ -35,6 +35,14 @@ struct Point {
     std::string objection() const { return analysis::emergency_objection_word(condition->objections); }
 };
 
+/// Whether each of its runs is one of another compared condition, whose mark shows both.
+bool is_shown_by_another(const ScenarioFacts& scenario, const ConditionFacts& condition,
+                         const Series& series) {
+    const std::size_t same = scenario.place_of(condition.same_as);
+    return series.weight != Series::Weight::lead && same < scenario.conditions.size() &&
+           scenario.conditions[same].is_compared();
+}
+
 /// In the order in which they are drawn.
 std::vector<Point> points_of(const StudyFacts& study, const ScenarioFacts& scenario) {
     std::vector<Point> points;
@@ -42,12 +50,25 @@ std::vector<Point> points_of(const StudyFacts& study, const ScenarioFacts& scena
     for (const std::size_t number : drawing_order(looks)) {
         const ConditionFacts& condition = scenario.conditions[number];
         Point point{number, &condition, reference_of(study, scenario, condition) != nullptr, looks[number]};
-        if (condition.is_compared() && point.gained() && point.lost()) points.push_back(point);
+        if (condition.is_compared() && point.gained() && point.lost() &&
+            !is_shown_by_another(scenario, condition, looks[number]))
+            points.push_back(point);
     }
     // The small ones first, so that none hides a number.
     std::stable_partition(points.begin(), points.end(),
                           [](const Point& point) { return point.turned_alone; });
     return points;
+}
+
+/// Conditions that another one's mark shows.
+std::size_t merged_in(const StudyFacts& study, const ScenarioFacts& scenario) {
+    const Looks looks = looks_of(study, scenario);
+    std::size_t merged = 0;
+    for (std::size_t number = 0; number < looks.size(); ++number) {
+        const ConditionFacts& condition = scenario.conditions[number];
+        merged += condition.is_compared() && is_shown_by_another(scenario, condition, looks[number]) ? 1 : 0;
+    }
+    return merged;
 }
 
 using Place = std::pair<double, double>;
@@ -119,7 +140,8 @@ void draw_mark(Plot& plot, const Point& point, const Place& at) {
 }
 
 /// Intervals first. Then numbers or marks, none of which hides another, with dots and what leads to them.
-void draw(Plot& plot, const std::vector<Point>& points) {
+/// Returns whether some do not stand at their points.
+bool draw(Plot& plot, const std::vector<Point>& points) {
     std::vector<Place> places;
     for (const Point& point : points) {
         places.emplace_back(plot.x().place(point.lost()->mean), plot.y().place(point.gained()->mean));
@@ -132,9 +154,11 @@ void draw(Plot& plot, const std::vector<Point>& points) {
     const bool marked = points.front().series.levels.has_value();
     const auto is_placed = [&](const Point& point) { return marked || !point.turned_alone; };
     std::vector<Place> taken;
+    bool is_moved = false;
     for (std::size_t at = points.size(); at-- > 0;) {  // The one that leads is placed first: at its point.
         if (!is_placed(points[at])) continue;
         taken.push_back(free_place(places[at], taken, marked ? mark_radius : badge_radius, plot));
+        is_moved = is_moved || taken.back() != places[at];
         draw_leader(plot, points[at], places[at], taken.back());
     }
     for (const Point& point : points) {
@@ -142,6 +166,7 @@ void draw(Plot& plot, const std::vector<Point>& points) {
         (marked ? draw_mark : draw_number)(plot, point, taken.back());
         taken.pop_back();
     }
+    return is_moved;
 }
 
 std::vector<Point> by_number(std::vector<Point> points) {
@@ -239,18 +264,29 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
                    "uncounted");
     plot.horizontal(0.0);
     plot.vertical(0.0);
-    draw(plot, points);
+    const bool is_moved = draw(plot, points);
     const std::optional<Crossing> crossing = crossing_of(study, scenario);
     if (crossing)
         add_legends(plot, *crossing, points);
     else
         plot.legend(entries_of(points));
-    plot.legend(sign_entries(scenario, points));
+    std::vector<LegendEntry> signs = sign_entries(scenario, points);
+    if (is_moved)
+        signs.push_back(
+            {"<circle class=\"dot s0\" cx=\"8\" cy=\"5\" r=\"2.6\"/><path class=\"leader s0\" d=\"M8 "
+             "5H28\"/>",
+             fmt::format("dot: the true place of the {} at its line", crossing ? "mark" : "number")});
+    plot.legend(signs);
     std::string note = fmt::format(
         "Up is better for emergency vehicles, left is better for the others. Bars are 95 % intervals. In the "
         "grey band a gain or loss is below {} s and does not count.",
         number(scenario.least_relevant_s, typeset(1)));
-    note += fmt::format(" A {} that would hide another has a line to its dot.", crossing ? "mark" : "number");
+    if (is_moved)
+        note +=
+            fmt::format(" A {} that would hide another has a line to its dot.", crossing ? "mark" : "number");
+    if (const std::size_t same = merged_in(study, scenario); same > 0)
+        note += fmt::format(" Without a mark: {} whose every run is one of another (see the verdicts).",
+                            counted(same, "condition"));
     if (std::ranges::any_of(points, &Point::turned_alone)) note += " Small dots: one setting turned alone.";
     return {"tradeoff-" + scenario.name, "Gain and cost", plot.finish(), note, data_of(points)};
 }

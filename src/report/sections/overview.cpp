@@ -2,6 +2,9 @@
 
 #include "report/overview.hpp"
 
+#include <initializer_list>
+#include <string>
+
 #include <fmt/format.h>
 
 #include "experiment/policy_words.hpp"
@@ -20,6 +23,11 @@ std::string tile_markup(const Tile& tile) {
                        tile.subject, escaped(tile.figure), escaped(tile.meaning));
 }
 
+void write_notes(std::initializer_list<std::string> notes, Writer& writer) {
+    for (const std::string& note : notes)
+        if (!note.empty()) writer.markup(fmt::format("<p class=\"note\">{}</p>\n", escaped(note)));
+}
+
 void write_words(const StudyFacts& study, const ScenarioFacts& scenario, const ConditionFacts& condition,
                  Writer& writer) {
     constexpr Script script = Script::typeset;
@@ -31,12 +39,9 @@ void write_words(const StudyFacts& study, const ScenarioFacts& scenario, const C
                               escaped(scenario_headline(scenario, condition, script))));
     writer.markup(coarse_step_note(scenario.step_length_s));
     const std::string policies = experiment::policy_words(condition.condition);
-    for (const std::string& note :
-         {policies.empty() ? "" : fmt::format("{}: {}.", condition.title, policies), scenario.assumptions,
-          controls_note(scenario, condition, script), incidents_sentence(scenario, script),
-          locks_sentence(scenario, condition), among_conditions(study, scenario),
-          worst_trips(scenario, condition, script)})
-        if (!note.empty()) writer.markup(fmt::format("<p class=\"note\">{}</p>\n", escaped(note)));
+    write_notes(
+        {policies.empty() ? "" : fmt::format("{}: {}.", condition.title, policies), scenario.assumptions},
+        writer);
     writer.markup(fmt::format("<p class=\"badge {}\">{}</p>\n",
                               badge.runs == Badge::Runs::enough ? "enough" : "few", escaped(badge.words)));
     const bool has_block =
@@ -45,6 +50,10 @@ void write_words(const StudyFacts& study, const ScenarioFacts& scenario, const C
     writer.markup("<div class=\"tiles\">\n" + tile_markup(emergency_tile(scenario, condition, script)) +
                   incident + tile_markup(others_tile(scenario, condition, script)) +
                   tile_markup(safety_tile(scenario, condition, script)) + "</div>\n");
+    write_notes({privilege_sentence(scenario, condition, script), controls_note(scenario, condition, script),
+                 incidents_sentence(scenario, script), locks_sentence(scenario, condition),
+                 among_conditions(study, scenario), worst_trips(scenario, condition, script)},
+                writer);
 }
 
 }  // namespace

@@ -20,8 +20,12 @@ std::string verdict_entry(const ScenarioFacts& scenario, const ConditionFacts& c
     const Effect effect = condition.objections.on_emergency()
                               ? Effect::worse
                               : effect_of(condition, Measure::emergency_restricted_time);
-    return fmt::format("<dt>{}</dt><dd><span class=\"{}\">{}</span>: {}</dd>\n", condition_label(condition),
-                       effect_class(effect), escaped(words.finding), escaped(words.figures));
+    std::string facts;
+    for (const std::string& fact : words.facts)
+        facts += fmt::format("<li>{}</li>", escaped(fact));
+    if (!facts.empty()) facts = "<ul>" + facts + "</ul>";
+    return fmt::format("<dt>{}</dt><dd><span class=\"{}\">{}</span>: {}{}</dd>\n", condition_label(condition),
+                       effect_class(effect), escaped(words.finding), escaped(words.figures), facts);
 }
 
 /// Whether nothing is shown of a condition, on either side.
