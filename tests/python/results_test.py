@@ -363,6 +363,12 @@ class ResultsTest(FolderCase):
         (self.folder / "study.toml").write_bytes(b"name = \xff\n")
         self.assertIn("is not UTF-8", self.message_of(clearway.InputError, lambda: clearway.study("study.toml")))
 
+    def test_a_recording_is_found_by_the_name_of_its_run(self) -> None:
+        with clearway.trace(f"{self.results.folder}/intersection/corridor/0") as recording:
+            self.assertEqual(recording.file.name, "00000.h5")
+        self.assertIn("recordings/intersection/corridor/00099.h5: cannot be read", self.message_of(
+            clearway.InputError, lambda: clearway.trace(f"{self.results.folder}/intersection/corridor/99")))
+
     def test_damaged_and_closed_recordings_are_told(self) -> None:
         with self.results.recording("intersection", "corridor") as recording:
             whole = recording.file.read_bytes()
