@@ -220,7 +220,7 @@ TEST(FigureFiles, HaveTheGridOfFactorsWithItsIntervals) {
         "B20,-4.0,-5.5,-2.5,-6.0,-7.5,-4.5\n")
         << "what all rows have in common is left out";
     EXPECT_THAT(text_of(folder.path() / "factors-others-grid.tex"),
-                AllOf(HasSubstr("\\label{tab:factors-others-grid}"),
+                AllOf(HasSubstr("\\label{tab:factors-others-grid}"), HasSubstr("\\caption{merge: "),
                       HasSubstr("by policy; n = 20 pairs, 95 \\% intervals in brackets}"),
                       HasSubstr("0.5 & [\\num{0.3}, \\num{0.7}]")));
     tests::difference(study.scenarios[0].conditions.back(), primary)->n = 12;
@@ -249,7 +249,7 @@ TEST(FigureFiles, HaveAPanelForEachLevelOfAThirdFactorInTheOrderOfTheStudy) {
     const core::TemporaryFolder folder;
     write_figures(study, folder.path());
     const std::string grid = text_of(folder.path() / "factors-emergency-grid.csv");
-    EXPECT_THAT(grid, testing::StartsWith("Condition,policy,B10,"));
+    EXPECT_THAT(grid, testing::StartsWith("predictor,policy,B10,"));
     EXPECT_LT(grid.find("no repair,corridor"), grid.find("as repaired,corridor"));
     EXPECT_THAT(grid, HasSubstr("as repaired,mine,-5.0"));
 }

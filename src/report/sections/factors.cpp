@@ -146,6 +146,26 @@ Panels panels_of(const std::vector<Made>& made, const std::vector<Factor>& facto
     return panels;
 }
 
+/// `merge: ` where all are of one scenario; else empty, because panels name it.
+std::string scenario_of(const std::vector<Made>& made) {
+    const bool one =
+        std::ranges::all_of(made, [&](const Made& other) { return other.scenario == made.front().scenario; });
+    return one ? made.front().scenario->name + ": " : "";
+}
+
+/// What the headings of panels are: `predictor`, or `Condition` where they name more than factors.
+std::string heading_name(const std::vector<Made>& made, const std::vector<Factor>& factors) {
+    const bool same_base = std::ranges::all_of(made, [&](const Made& other) {
+        return other.scenario == made.front().scenario &&
+               other.condition->base_title == made.front().condition->base_title;
+    });
+    if (!same_base || factors.size() < 3) return "Condition";
+    std::vector<std::string> names;
+    for (auto factor = factors.begin() + 2; factor != factors.end(); ++factor)
+        names.push_back(last_part(factor->name));
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
 /// `n = 20 pairs`, or `n = 1 to 2 pairs`: on how many the differences rest.
 std::string pairs_of(const std::vector<Made>& made, Measure measure) {
     std::vector<std::size_t> pairs;
@@ -201,7 +221,7 @@ Table grid_table(const std::vector<Made>& made, const std::vector<Factor>& facto
     const Panels panels = panels_of(made, factors);
     const bool has_heading = panels.size() > 1 || !has_down;
     DataTable table;
-    if (has_heading) table.head.emplace_back("Condition");
+    if (has_heading) table.head.push_back(heading_name(made, factors));
     if (has_down) table.head.push_back(last_part(down.name));
     table.head.insert(table.head.end(), factors[0].titles.begin(), factors[0].titles.end());
     for (const auto& [heading, panel] : panels) {
@@ -216,7 +236,7 @@ Table grid_table(const std::vector<Made>& made, const std::vector<Factor>& facto
         }
     }
     return {name + "-grid",
-            fmt::format("{}, by {}; {}, 95 % intervals in brackets",
+            fmt::format("{}{}, by {}; {}, 95 % intervals in brackets", scenario_of(made),
                         labelled(measure, "difference to the baseline"), last_part(factors[0].name),
                         pairs_of(made, measure)),
             table};
@@ -268,7 +288,8 @@ Figure factors_figure(const std::vector<Made>& made, const std::vector<Factor>& 
                     fmt::format("across: {}{}", last_part(factors[0].name),
                                 factors.size() > 1 ? "; down: " + last_part(factors[1].name) : "")});
     canvas.legend(entries_of(grids));
-    return {name, caption, canvas.finish(), "", data_of(made, factors, measure)};
+    return {name, scenario_of(made) + labelled(measure, "difference to the baseline"), canvas.finish(), "",
+            data_of(made, factors, measure)};
 }
 
 }  // namespace
