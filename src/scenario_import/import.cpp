@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "core/atomic_file.hpp"
+#include "core/counted.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/folder_name.hpp"
