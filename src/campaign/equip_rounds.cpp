@@ -74,16 +74,14 @@ EquipOutcome outcome_of(const results::Results& results, const std::string& cond
     return outcome;
 }
 
-report::UnsoundRuns unsound_runs(const results::Results& results) {
+/// Of runs in traffic: an emergency vehicle alone on the road meets no lock.
+report::UnsoundRuns unsound_runs(const results::Results& results, const std::string& alone) {
     report::UnsoundRuns unsound;
     for (const results::RunRecord& run : results.runs) {
+        if (run.key.condition == alone) continue;
         ++unsound.runs;
         unsound.locked += run.metrics.locks > 0 ? 1 : 0;
-        for (const metrics::VehicleRow& vehicle : run.vehicles)
-            unsound.lost_vehicles += vehicle.vehicle_class == traffic::VehicleClass::emergency &&
-                                             vehicle.outcome != metrics::VehicleOutcome::arrived
-                                         ? 1
-                                         : 0;
+        unsound.lost_vehicles += run.metrics.emergency_count - run.metrics.emergency_arrived;
     }
     return unsound;
 }
@@ -360,7 +358,7 @@ FreshOutcomes EquipRounds::estimate(const analysis::SignalSet& chosen) {
     const auto of = [&](std::size_t condition) {
         return outcome_of(results, config.conditions[condition].name);
     };
-    FreshOutcomes outcomes{of(0), of(2), of(1), of(3), {}, unsound_runs(results)};
+    FreshOutcomes outcomes{of(0), of(2), of(1), of(3), {}, unsound_runs(results, solo.name)};
     for (std::size_t condition = 4; condition < config.conditions.size(); ++condition)
         outcomes.chosen.push_back(of(condition));
     return outcomes;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -152,14 +153,15 @@ std::string unsound_sentence(const UnsoundRuns& unsound) {
 /// A rank that few trips pass rests on them alone.
 std::string few_trips_sentence(const EquipmentFacts& facts) {
     constexpr double few = 10.0;
-    std::vector<std::string> words;
+    std::map<std::size_t, double> few_trips;  // by rank
     for (const EquipCandidateFacts& candidate : facts.candidates) {
         const double trips = candidate.trips * static_cast<double>(facts.met.trips);
-        if (candidate.rank && trips < few)
-            words.push_back(fmt::format("rank {}: {:.0f}", *candidate.rank, trips));
+        if (candidate.rank && trips < few) few_trips.emplace(*candidate.rank, trips);
     }
-    if (words.empty()) return "";
-    std::ranges::sort(words);
+    if (few_trips.empty()) return "";
+    std::vector<std::string> words;
+    for (const auto& [rank, trips] : few_trips)
+        words.push_back(fmt::format("rank {}: {:.0f}", rank, trips));
     return fmt::format("Few of the {} that decided pass them ({}); more --seeds tell.",
                        counted(facts.met.trips, "trip"), fmt::join(words, ", "));
 }

@@ -64,7 +64,7 @@ struct SignalsMet {
 
 /// Runs whose times say more of the simulation than of signals.
 struct UnsoundRuns {
-    std::size_t runs = 0;           ///< All.
+    std::size_t runs = 0;           ///< All in traffic.
     std::size_t locked = 0;         ///< Of them, vehicles locked each other in them.
     std::size_t lost_vehicles = 0;  ///< Emergency vehicles that did not arrive, in all.
 };
