@@ -12,11 +12,10 @@
 #include "analysis/estimate.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/strict_table.hpp"
 #include "experiment/settings.hpp"
 #include "prediction/predictor.hpp"
-#include "report/detail/assumptions.hpp"
 #include "report/detail/condition_titles.hpp"
+#include "report/detail/configuration.hpp"
 #include "report/detail/map_facts.hpp"
 #include "report/detail/side_files.hpp"
 #include "report/detail/traffic_facts.hpp"
@@ -213,15 +212,6 @@ std::vector<Provenance> provenance_of(const results::Results& results) {
     return rows;
 }
 
-/// From a stored scenario.toml.
-void add_times(const std::string& configuration, ScenarioFacts& scenario) {
-    const toml::table table = core::parse_toml(configuration, "manifest.json");
-    const auto time = table["time"];
-    scenario.step_length_s = time["step_length_s"].value_or(0.0);
-    scenario.horizon_s = time["horizon_s"].value_or(0.0);
-    if (time["ignore_junction_blocker_s"].value_or(-1.0) >= 0.0) scenario.blockers = Blockers::ignored;
-}
-
 /// What lies beside a scenario's runs, each file read once.
 void add_files(const results::Store& store, const results::Results& results, ScenarioFacts& scenario) {
     const fs::path home = store.scenario_folder(scenario.name);
@@ -237,8 +227,7 @@ void add_files(const results::Store& store, const results::Results& results, Sce
     for (const results::ScenarioEntry& entry : results.manifest.scenarios) {
         if (entry.name != scenario.name) continue;
         scenario.attribution = entry.attribution;
-        scenario.assumptions = detail::assumptions_sentence(entry.configuration, scenario);
-        add_times(entry.configuration, scenario);
+        detail::add_configuration(entry.configuration, scenario);
     }
 }
 

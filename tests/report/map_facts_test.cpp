@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
-#include "report/detail/assumptions.hpp"
+#include "report/detail/configuration.hpp"
 #include "report/frozen_study.hpp"
 #include "report/read_facts.hpp"
 #include "report/verdict.hpp"
@@ -124,31 +124,34 @@ TEST_F(MapFacts, StandBesideTheTripsThatChangedAndTheWorstOnes) {
     EXPECT_EQ(conditions[0].worst_trip->end, "on the road at the end at 195 s");
 }
 
+std::string assumptions_of(const std::string& configuration, ScenarioFacts scenario) {
+    detail::add_configuration(configuration, scenario);
+    return scenario.assumptions;
+}
+
 TEST(Assumptions, say_where_traffic_comes_from_and_what_red_means) {
     ScenarioFacts scenario;
     scenario.conditions.resize(1);
     scenario.roads.emplace().signals.resize(1);
     const std::string drawn =
         "[demand]\nhuman = 1076\nautomated = 579\ndensity = 0.7\n[time]\nwindow_s = 900\n";
-    EXPECT_EQ(detail::assumptions_sentence(drawn, scenario),
+    EXPECT_EQ(assumptions_of(drawn, scenario),
               "Simulated: random trips of 1,159 vehicles in 15 min, density 0.7, automated share 0.35, "
               "EVs of "
               "the baseline stop at red (policy red_privilege: they pass it).");
-    EXPECT_THAT(detail::assumptions_sentence(drawn + "[[flow]]\nfrom = 'a'\n", scenario),
-                HasSubstr("drawn flows of"));
-    EXPECT_THAT(detail::assumptions_sentence(drawn + "[privilege]\npass_red = 1\n", scenario),
+    EXPECT_THAT(assumptions_of(drawn + "[[flow]]\nfrom = 'a'\n", scenario), HasSubstr("drawn flows of"));
+    EXPECT_THAT(assumptions_of(drawn + "[privilege]\npass_red = 1\n", scenario),
                 HasSubstr("EVs of the baseline may pass red"));
     scenario.conditions[0].condition.settings = {{"privilege.pass_red", "1"}};
-    EXPECT_THAT(detail::assumptions_sentence(drawn, scenario), HasSubstr("may pass red"));
-    EXPECT_THAT(detail::assumptions_sentence(
+    EXPECT_THAT(assumptions_of(drawn, scenario), HasSubstr("may pass red"));
+    EXPECT_THAT(assumptions_of(
                     "version = 'imported'\n[network]\nattribution = 'Map data (c) OpenStreetMap'\n" + drawn,
                     scenario),
                 HasSubstr("signal programs made up by the import"));
     scenario.roads->signals.clear();
-    EXPECT_EQ(detail::assumptions_sentence("[demand]\nemergency = 2\n[measured]\nautomated_share = 0.35\n",
-                                           scenario),
+    EXPECT_EQ(assumptions_of("[demand]\nemergency = 2\n[measured]\nautomated_share = 0.35\n", scenario),
               "Simulated: the trips of the scenario's files, automated share 0.35.");
-    EXPECT_EQ(detail::assumptions_sentence("name = 'old'\n", scenario), "");
+    EXPECT_EQ(assumptions_of("name = 'old'\n", scenario), "");
 }
 
 TEST_F(MapFacts, AreMissingWhereTheFolderHasNoRoads) {

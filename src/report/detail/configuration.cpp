@@ -1,4 +1,4 @@
-#include "report/detail/assumptions.hpp"
+#include "report/detail/configuration.hpp"
 
 #include <cmath>
 #include <vector>
@@ -46,10 +46,8 @@ bool is_of_map(const toml::table& scenario) {
            credit.find("OpenStreetMap") != std::string::npos;
 }
 
-}  // namespace
-
-std::string assumptions_sentence(const std::string& configuration, const ScenarioFacts& scenario) {
-    const toml::table table = core::parse_toml(configuration, "manifest.json");
+/// How demand came about, how much of it there is, and whether EVs of the baseline stop at red. Plain text.
+std::string assumptions_sentence(const toml::table& table, const ScenarioFacts& scenario) {
     if (!table["demand"].is_table()) return "";
     std::vector<std::string> words = {demand_words(table)};
     if (const double density = table["demand"]["density"].value_or(1.0); density != 1.0)
@@ -64,6 +62,17 @@ std::string assumptions_sentence(const std::string& configuration, const Scenari
                                ? "EVs of the baseline may pass red"
                                : "EVs of the baseline stop at red (policy red_privilege: they pass it)");
     return fmt::format("Simulated: {}.", fmt::join(words, ", "));
+}
+
+}  // namespace
+
+void add_configuration(const std::string& configuration, ScenarioFacts& scenario) {
+    const toml::table table = core::parse_toml(configuration, "manifest.json");
+    const auto time = table["time"];
+    scenario.step_length_s = time["step_length_s"].value_or(0.0);
+    scenario.horizon_s = time["horizon_s"].value_or(0.0);
+    if (time["ignore_junction_blocker_s"].value_or(-1.0) >= 0.0) scenario.blockers = Blockers::ignored;
+    scenario.assumptions = assumptions_sentence(table, scenario);
 }
 
 }  // namespace clearway::report::detail
