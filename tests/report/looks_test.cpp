@@ -294,6 +294,7 @@ TEST(TradeOff, has_one_mark_for_conditions_with_the_same_runs) {
     conditions[4].same_as = conditions[3].name();
     EXPECT_EQ(marks(), 9u);
     EXPECT_THAT(tests::page_of(study), HasSubstr("Without a mark: 1 condition whose"));
+    EXPECT_EQ(tradeoff_figure(study, study.scenarios[0]).data.rows.size(), 10u) << "the data have all";
     conditions[4].same_as = conditions[0].name();
     EXPECT_EQ(marks(), 10u) << "the baseline has no mark";
 }

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -36,10 +37,9 @@ struct Point {
 };
 
 /// Whether each of its runs is one of another compared condition, whose mark shows both.
-bool is_shown_by_another(const ScenarioFacts& scenario, const ConditionFacts& condition,
-                         const Series& series) {
-    const std::size_t same = scenario.place_of(condition.same_as);
-    return series.weight != Series::Weight::lead && same < scenario.conditions.size() &&
+bool is_shown_by_another(const ScenarioFacts& scenario, const Point& point) {
+    const std::size_t same = scenario.place_of(point.condition->same_as);
+    return point.series.weight != Series::Weight::lead && same < scenario.conditions.size() &&
            scenario.conditions[same].is_compared();
 }
 
@@ -50,25 +50,12 @@ std::vector<Point> points_of(const StudyFacts& study, const ScenarioFacts& scena
     for (const std::size_t number : drawing_order(looks)) {
         const ConditionFacts& condition = scenario.conditions[number];
         Point point{number, &condition, reference_of(study, scenario, condition) != nullptr, looks[number]};
-        if (condition.is_compared() && point.gained() && point.lost() &&
-            !is_shown_by_another(scenario, condition, looks[number]))
-            points.push_back(point);
+        if (condition.is_compared() && point.gained() && point.lost()) points.push_back(point);
     }
     // The small ones first, so that none hides a number.
     std::stable_partition(points.begin(), points.end(),
                           [](const Point& point) { return point.turned_alone; });
     return points;
-}
-
-/// Conditions that another one's mark shows.
-std::size_t merged_in(const StudyFacts& study, const ScenarioFacts& scenario) {
-    const Looks looks = looks_of(study, scenario);
-    std::size_t merged = 0;
-    for (std::size_t number = 0; number < looks.size(); ++number) {
-        const ConditionFacts& condition = scenario.conditions[number];
-        merged += condition.is_compared() && is_shown_by_another(scenario, condition, looks[number]) ? 1 : 0;
-    }
-    return merged;
 }
 
 using Place = std::pair<double, double>;
@@ -243,8 +230,11 @@ void add_legends(Plot& plot, const Crossing& crossing, const std::vector<Point>&
 }  // namespace
 
 Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
-    const std::vector<Point> points = points_of(study, scenario);
+    std::vector<Point> points = points_of(study, scenario);
     if (points.empty()) return {};
+    DataTable data = data_of(points);
+    const std::size_t merged =
+        std::erase_if(points, [&](const Point& point) { return is_shown_by_another(scenario, point); });
     Range costs;
     Range gains;
     costs.include(0.0);
@@ -284,11 +274,11 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
     if (is_moved)
         note +=
             fmt::format(" A {} that would hide another has a line to its dot.", crossing ? "mark" : "number");
-    if (const std::size_t same = merged_in(study, scenario); same > 0)
+    if (merged > 0)
         note += fmt::format(" Without a mark: {} whose every run is one of another (see the verdicts).",
-                            counted(same, "condition"));
+                            counted(merged, "condition"));
     if (std::ranges::any_of(points, &Point::turned_alone)) note += " Small dots: one setting turned alone.";
-    return {"tradeoff-" + scenario.name, "Gain and cost", plot.finish(), note, data_of(points)};
+    return {"tradeoff-" + scenario.name, "Gain and cost", plot.finish(), note, std::move(data)};
 }
 
 }  // namespace clearway::report::detail
