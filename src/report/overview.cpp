@@ -92,18 +92,13 @@ std::string others_clause(const ConditionFacts& condition, Script script) {
 
 std::string collisions_clause(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     if (condition.complete_runs == 0) return {};
-    const std::uint64_t count = condition.count("collisions");
-    const std::string runs = counted(condition.complete_runs, "run");
-    if (count == 0) return fmt::format("no collision in {}", runs);
+    if (condition.count("collisions") == 0)
+        return fmt::format("no collision in {}", counted(condition.complete_runs, "run"));
     const Effect effect = effect_of(condition, Measure::collisions);
     const char* const more = effect == Effect::worse    ? "more collisions than the baseline"
                              : effect == Effect::better ? "fewer collisions than the baseline"
                                                         : "collisions";
-    std::string words = fmt::format("{} ({} in {}", more, grouped(count), runs);
-    if (const ConditionFacts* const baseline = scenario.baseline_of(condition))
-        words += fmt::format("; baseline {} in {}", grouped(baseline->count("collisions")),
-                             baseline->complete_runs);
-    return words + ")";
+    return fmt::format("{} ({})", more, collision_counts(scenario, condition));
 }
 
 std::string missing_clause(const ConditionFacts& condition) {

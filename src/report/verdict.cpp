@@ -79,7 +79,7 @@ std::string sentence(std::string words) {
     return words + ".";
 }
 
-/// `Collisions: 5 in 8 runs, 1 with an EV; baseline 0 in 8.`, where there are more and the difference is not
+/// `Collisions: 5 in 8 runs; baseline 0 in 8; 1 with an EV.`, where there are more and the difference is not
 /// certain; empty otherwise.
 std::string collisions_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     const ConditionFacts* const baseline = scenario.baseline_of(condition);
@@ -89,10 +89,8 @@ std::string collisions_of(const ScenarioFacts& scenario, const ConditionFacts& c
         count * baseline->complete_runs <= baseline->count("collisions") * condition.complete_runs)
         return {};
     const std::uint64_t hit = condition.count("emergency_collisions");
-    return fmt::format("Collisions: {} in {}{}; baseline {} in {}.", grouped(count),
-                       counted(condition.complete_runs, "run"),
-                       hit == 0 ? "" : fmt::format(", {} with an EV", grouped(hit)),
-                       grouped(baseline->count("collisions")), baseline->complete_runs);
+    return fmt::format("Collisions: {}{}.", collision_counts(scenario, condition),
+                       hit == 0 ? "" : fmt::format("; {} with an EV", grouped(hit)));
 }
 
 /// Certain changes of other measures; for the others' time loss also that no effect is shown.
@@ -161,6 +159,15 @@ std::string survivors_words(const ConditionFacts& condition, Script script) {
         fmt::format("EVs that arrived in both: {} s{}{}", number(theirs->mean, style),
                     interval == nullptr ? "" : " " + interval_text(*interval, style), all_but);
     if (of_all->median) words += fmt::format("; median of the pairs {} s", number(*of_all->median, style));
+    return words;
+}
+
+std::string collision_counts(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    std::string words = fmt::format("{} in {}", grouped(condition.count("collisions")),
+                                    counted(condition.complete_runs, "run"));
+    if (const ConditionFacts* const baseline = scenario.baseline_of(condition))
+        words += fmt::format("; baseline {} in {}", grouped(baseline->count("collisions")),
+                             baseline->complete_runs);
     return words;
 }
 

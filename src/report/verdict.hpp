@@ -55,6 +55,9 @@ std::string cross_street_words(const ConditionFacts& condition, Script script);
 /// them, and of them.
 std::string privilege_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
 
+/// `5 in 8 runs; baseline 0 in 8`: collisions of a condition with a complete run.
+std::string collision_counts(const ScenarioFacts& scenario, const ConditionFacts& condition);
+
 /// What is said of a condition against the baseline. Plain text, not escaped.
 struct Verdict {
     std::string finding;  ///< `helped`: objections on the side of EVs, or whether EVs were faster.
