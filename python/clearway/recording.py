@@ -232,6 +232,11 @@ def _in_words(values: np.ndarray, words: dict[str, int] | None) -> np.ndarray:
     return by_value[values]
 
 
+def file_of(folder: Path, scenario: str, condition: str, replication: int) -> Path:
+    """Where the recording of a run stands in its run folder."""
+    return folder / "recordings" / scenario / condition / f"{replication:05d}.h5"
+
+
 def trace(file: str | Path) -> Recording:
     """Opens a recording: ``for step in clearway.trace(file): step.x_m``. A run is taken as other programs name it, too:
     ``"runs/mine/intersection/corridor/0"``.
@@ -242,6 +247,5 @@ def trace(file: str | Path) -> Recording:
     """
     run = Path(file)
     if run.suffix != ".h5" and run.name.isdigit() and len(run.parts) > 3:
-        folder, scenario, condition = run.parents[2], *run.parts[-3:-1]
-        file = folder / "recordings" / scenario / condition / f"{int(run.name):05d}.h5"
+        file = file_of(run.parents[2], *run.parts[-3:-1], int(run.name))
     return Recording(file)

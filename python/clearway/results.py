@@ -155,11 +155,11 @@ class Results(_program.Told):
 
     def recording(self, scenario: str, condition: Given, replication: int = 0) -> "Recording":
         """The recording of a run; see ``clearway.trace``."""
-        from .recording import Recording
+        from .recording import Recording, file_of
         self._conditions.require_scenario(scenario)
         name = self._conditions.name_of(condition)
         _program.require_whole("replication", replication, 0, MOST_SEEDS - 1)
-        return Recording(self.folder / "recordings" / scenario / name / f"{replication:05d}.h5")
+        return Recording(file_of(self.folder, scenario, name, replication))
 
     def paired_difference(self, metric: str, condition: Given, scenario: str | None = None, against: Given | None = None) -> Difference:
         """The paired difference of a condition and its baseline, with the console's intervals (the program works it out).
