@@ -97,14 +97,27 @@ class House(unittest.TestCase):
         self.write("docs/reference/policies.md", "| `slow` | drives slowly | anywhere |\n")
         self.write("studies/harm/roads.toml", 'condition = [{name = "slow", policy = ["slow"]}]\n')
         self.write("studies/harm/motorways.toml", "# Nothing to do there: slow\n")
+        self.write("CHANGELOG.md", "- Policy `slow`: drives slowly.\n")
         self.assertEqual(self.check(), (0, ""))
         for file, what in (("docs/reference/policies.md", "the policy `slow` has no row in docs/reference/policies.md"),
                            ("studies/harm/roads.toml", "the policy `slow` has no condition in studies/harm"),
-                           ("studies/harm/motorways.toml", "studies/harm/motorways.toml does not name the policy `slow`")):
+                           ("studies/harm/motorways.toml", "studies/harm/motorways.toml does not name the policy `slow`"),
+                           ("CHANGELOG.md", "CHANGELOG.md does not name the policy `slow`: add a line below its first `### Added`")):
             text = (self.root / file).read_text()
             self.write(file, "")
             self.assertEqual(self.refused(what).count("\n"), 1)
             self.write(file, text)
+
+    def test_a_predictor_that_the_changelog_does_not_name_is_found(self):
+        self.write("src/prediction/CMakeLists.txt", "clearway_module(prediction)\n")
+        self.write("src/prediction/oracle.hpp", 'inline constexpr const char* oracle_name = "oracle";\n')
+        self.write("src/prediction/predictor.cpp", '#include "prediction/oracle.hpp"\nregistered<make_last, Config>(\n    "last", "l"),\n'
+                   'registered<make_oracle>(oracle_name, "o")\n')
+        self.write(LIMIT, "9\n")
+        self.write("CHANGELOG.md", "- Predictor `last_seen`, an oracle.\n")
+        self.refused("CHANGELOG.md does not name the predictor `last`: ", "CHANGELOG.md does not name the predictor `oracle`: add a line")
+        self.write("CHANGELOG.md", "- Predictors `last` and `oracle`.\n")
+        self.assertEqual(self.check(), (0, ""))
 
     def test_a_test_that_no_list_names_is_found(self):
         self.write("tests/core/core_test.cpp", "")  # is the name of the program
