@@ -247,17 +247,24 @@ function(clearway_test name)
                                                CLEARWAY_BINARY_DIR="${CMAKE_BINARY_DIR}")
     clearway_compile_options(${name})
     target_compile_options(${name} PRIVATE ${CLEARWAY_TEST_FLAGS})
+    set(fixtures)
+    foreach(used ${arg_USES})
+        clearway_closure(${used} below)
+        if(used STREQUAL policy OR policy IN_LIST below)
+            set(fixtures FIXTURES_REQUIRED policy_names)  # tests/policy/CMakeLists.txt
+        endif()
+    endforeach()
     if("fast" IN_LIST arg_LABELS AND NOT CLEARWAY_FAST_TESTS)
         set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
     elseif("fast" IN_LIST arg_LABELS OR "torch" IN_LIST arg_LABELS)
         add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
-        set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} COST ${arg_COST})
+        set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} COST ${arg_COST} ${fixtures})
         if("torch" IN_LIST arg_LABELS AND CLEARWAY_SHORT_PRODUCTS)  # as src/cli/train.cpp
             set_tests_properties(${name} PROPERTIES ENVIRONMENT OPENBLAS_CORETYPE=SkylakeX)
         endif()
     else()
         gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 DISCOVERY_MODE PRE_TEST
-                             PROPERTIES TIMEOUT ${arg_TIMEOUT} COST ${arg_COST})
+                             PROPERTIES TIMEOUT ${arg_TIMEOUT} COST ${arg_COST} ${fixtures})
         # It takes no list for a property, so CTest reads the labels after the tests.
         set(labels ${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake)
         file(CONFIGURE OUTPUT ${labels} @ONLY CONTENT

@@ -30,12 +30,12 @@ class House(unittest.TestCase):
         (self.root / file).parent.mkdir(parents=True, exist_ok=True)
         (self.root / file).write_text(text)
 
-    def check(self):
-        done = subprocess.run([sys.executable, self.root / "scripts/count-house", "--check"], capture_output=True, text=True, check=False)
+    def check(self, option="--check"):
+        done = subprocess.run([sys.executable, self.root / "scripts/count-house", option], capture_output=True, text=True, check=False)
         return done.returncode, done.stdout + done.stderr
 
-    def refused(self, *words):
-        code, said = self.check()
+    def refused(self, *words, option="--check"):
+        code, said = self.check(option)
         self.assertEqual(code, 1, said)
         for word in words:
             self.assertIn(word, said)
@@ -107,6 +107,17 @@ class House(unittest.TestCase):
             self.write(file, "")
             self.assertEqual(self.refused(what).count("\n"), 1)
             self.write(file, text)
+
+    def test_a_policy_that_combines_one_that_is_not_there_is_found(self):
+        registry = 'entry<Slow, SlowConfig>("slow", "Drives slowly"),\ncombination<Both>("both",\n    "slow and fast", {"slow", "slwo"})\n'
+        self.write("src/policy/CMakeLists.txt", "clearway_module(policy)\n")
+        self.write("src/policy/registry.cpp", registry)
+        for option in ("--check", "--names"):
+            self.refused("src/policy/registry.cpp: `both` combines `slwo`, which is no policy (allowed: slow, both). Write `slow`, or", option=option)
+        self.write("src/policy/registry.cpp", registry.replace("slwo", "x"))
+        self.refused("`both` combines `x`, which is no policy (allowed: slow, both). Register it", option="--names")
+        self.write("src/policy/registry.cpp", registry.replace('"slwo"', '"both"'))
+        self.assertEqual(self.check("--names"), (0, ""))
 
     def test_a_predictor_that_the_changelog_does_not_name_is_found(self):
         self.write("src/prediction/CMakeLists.txt", "clearway_module(prediction)\n")
