@@ -36,7 +36,7 @@ make_tree() {
     tree=$1
     mkdir -p "$tree"/{scripts,packaging,programs,src,.ci}
     cp -- "$source_dir"/{clearway,test,.clang-format} "$tree/"
-    cp -- "$source_dir"/scripts/{setup.sh,check-format,script_help.sh} "$tree/scripts/"
+    cp -- "$source_dir"/scripts/{setup.sh,check-format,check-skips,script_help.sh} "$tree/scripts/"
     cp -- "$source_dir/.ci/run" "$tree/.ci/"
     printf '%s\n' '# a comment' '' 'alpha run who' 'beta  run who' 'gamma test who' 'delta train who' 'omega extra who' \
         >"$tree/packaging/packages.txt"
@@ -409,6 +409,28 @@ full_test_fails_with_any_stage() {
     echo 77 >"$work/bare-machine.code"
     run "$tree/.ci/run"
     expect_equal "$code" 0 'a machine that cannot make a bare one'
+    echo 'echo "why it failed"; exit 1' >"$tree/src/verdict.sh"
+    run "$tree/.ci/run"
+    expect_equal "$code" 8 'ctest: tests failed'
+}
+
+# One that passes by skipping a part of it would be taken for one that has run, in any stage.
+full_test_fails_where_a_test_is_skipped() {
+    make_tree "$work/tree"
+    fake_checks
+    printf '%s\n' 'delta 1' 'omega 1' >>"$work/installed"
+    printf '%s\n' 'case $PWD in */build/ci*) echo "/a_test.cpp:7: Skipped"; echo "python3-h5py is not installed" ;; esac' >"$tree/src/verdict.sh"
+    run "$tree/test"
+    expect_equal "$code" 0 'without --full'
+    run "$tree/.ci/run"
+    expect_equal "$code" 1
+    expect_line "$work/out" '^check-skips: verdict: python3-h5py is not installed$'
+    sed -i 's|build/ci|build/asan|' "$tree/src/verdict.sh"
+    run "$tree/.ci/run"
+    expect_equal "$code" 1 'skipped under a sanitizer'
+    sed -i 's|python3-h5py.*installed"|mounting a small file system is not permitted"|' "$tree/src/verdict.sh"
+    run "$tree/.ci/run"
+    expect_equal "$code" 0 'a reason that is allowed'
 }
 
 # libtorch is for those who train: `./clearway links train` brings it, and from then on the trainer is kept up to date.
