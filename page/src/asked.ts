@@ -53,6 +53,20 @@ export class AskedLog {
   }
 }
 
+function same(one: Thing, other: Thing): boolean {
+  return one.pane === other.pane && one.onSignal === other.onSignal && one.number === other.number;
+}
+
+/** The next of those that something is asked of now, over all runs. */
+export function nextAsked(tracks: Track[], time_s: number, chosen: Thing | undefined): Thing | undefined {
+  const things = tracks.flatMap((track, pane) => {
+    const targets = track.at(time_s).now.leases.map(({ onSignal, target }) => ({ pane, onSignal, number: target }));
+    return targets.filter((one, i) => targets.findIndex((other) => same(one, other)) === i);
+  });
+  const last = chosen === undefined ? -1 : things.findIndex((thing) => same(thing, chosen));
+  return things[(last + 1) % things.length];
+}
+
 export function nameOf(thing: Thing, track: Track, drawing: Drawing): string {
   return thing.onSignal
     ? `signal ${drawing.signals[thing.number]?.id ?? "?"}`

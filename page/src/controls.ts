@@ -1,6 +1,7 @@
 // Small pieces of the page: buttons, switches, a list of what is in force.
 
 import { actionText, reasonText } from "./asked";
+import type { Shown } from "./pane";
 import type { FrameState, Lease } from "./stream";
 import type { Track } from "./track";
 
@@ -86,6 +87,29 @@ export class LeaseList {
     const more = state.leases.length - mostListed;
     if (more > 0) this.list.append(element("li", "", `and ${more} more`));
   }
+}
+
+/** Which of its layers the map shows: changes `shown` and says so. */
+export function layerSwitches(shown: Shown, changed: () => void): HTMLElement {
+  const row = element("div", "layers");
+  const texts = ["true links", "observed links", "believed links"];
+  for (const kind of [0, 1, 2] as const) {
+    row.append(
+      toggle(texts[kind] as string, shown.links[kind], (on) => {
+        shown.links[kind] = on;
+        changed();
+      }),
+    );
+  }
+  for (const [text, what] of [["ghosts", "ghosts"], ["leases", "leases"], ["way", "ways"]] as const) {
+    row.append(
+      toggle(text, shown[what], (on) => {
+        shown[what] = on;
+        changed();
+      }),
+    );
+  }
+  return row;
 }
 
 /** What the map's colours and shapes mean. */

@@ -1,8 +1,9 @@
 // A run that happens now: the same player, fed by a WebSocket of the server that sent this page.
 
+import type { LiveControl } from "./clock";
 import { element } from "./controls";
 import { type Drawing, readDrawing } from "./drawing";
-import { followHash, type LiveControl, Player } from "./player";
+import { followHash, Player } from "./player";
 import { streamFormat } from "./stream";
 import { type About, Track } from "./track";
 
