@@ -1,7 +1,5 @@
 #include "analysis/condition_difference.hpp"
 
-#include <map>
-
 #include <fmt/format.h>
 
 #include "core/error.hpp"

@@ -1,7 +1,6 @@
 #include "policy/clear_lane.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "policy/detail/gap_search.hpp"

@@ -1,7 +1,6 @@
 #include "policy/rescue_lane.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "policy/detail/view.hpp"

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <type_traits>
 

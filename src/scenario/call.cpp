@@ -1,7 +1,6 @@
 #include "scenario/call.hpp"
 
 #include <algorithm>
-#include <map>
 
 #include <fmt/format.h>
 

@@ -1,8 +1,6 @@
 #include "scenario/incident.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <span>
 #include <sstream>
 
 #include <fmt/format.h>

@@ -2,7 +2,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "prediction/comparison/dissertation_net.hpp"
 #include "prediction/comparison/features.hpp"
