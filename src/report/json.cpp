@@ -4,6 +4,7 @@
 #include "report/controls.hpp"
 #include "report/published.hpp"
 #include "report/safety.hpp"
+#include "report/shared_sentences.hpp"
 #include "report/verdict.hpp"
 
 namespace clearway::report {

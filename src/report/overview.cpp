@@ -11,6 +11,7 @@
 
 #include "report/controls.hpp"
 #include "report/locks.hpp"
+#include "report/shared_sentences.hpp"
 
 namespace clearway::report {
 namespace {

@@ -14,6 +14,7 @@
 #include "report/controls.hpp"
 #include "report/lease_words.hpp"
 #include "report/locks.hpp"
+#include "report/shared_sentences.hpp"
 #include "traffic/step_length.hpp"
 
 namespace clearway::report {
@@ -144,69 +145,6 @@ Effect effect_of(const ConditionFacts& condition, Measure measure) {
     return ruled_out ? Effect::ruled_out : effect;
 }
 
-std::string survivors_words(const ConditionFacts& condition, Script script) {
-    const auto& of_all = condition.outcome(primary).comparison;
-    const auto& of_arrived = condition.outcome(Measure::emergency_travel_time).comparison;
-    if (!of_all || !of_arrived || !of_arrived->difference) return {};
-    const analysis::Objections& counts = condition.objections;
-    if (counts.emergency.lost() + counts.baseline_emergency.lost() == 0) return {};
-    const NumberStyle style{.decimals = 1, .script = script, .sign = Sign::always};
-    const std::string all_but =
-        of_arrived->incomplete_pairs > 0 ? "" : fmt::format(", all but {}", of_arrived->vehicles_left_out);
-    const MaybeEstimate& theirs = of_arrived->difference;
-    const analysis::Interval* const interval = shown_interval(theirs);
-    std::string words =
-        fmt::format("EVs that arrived in both: {} s{}{}", number(theirs->mean, style),
-                    interval == nullptr ? "" : " " + interval_text(*interval, style), all_but);
-    if (of_all->median) words += fmt::format("; median of the pairs {} s", number(*of_all->median, style));
-    return words;
-}
-
-std::string collision_counts(const ScenarioFacts& scenario, const ConditionFacts& condition) {
-    std::string words = fmt::format("{} in {}", grouped(condition.count("collisions")),
-                                    counted(condition.complete_runs, "run"));
-    if (const ConditionFacts* const baseline = scenario.baseline_of(condition))
-        words += fmt::format("; baseline {} in {}", grouped(baseline->count("collisions")),
-                             baseline->complete_runs);
-    return words;
-}
-
-std::string trip_changes_words(const ConditionFacts& condition, Script script) {
-    const TripChanges& changes = condition.trip_changes;
-    if (changes.trips == 0) return {};
-    const NumberStyle whole{0, script};
-    return fmt::format(
-        "{} of {} over {:g} s faster{}, {} over {:g} s slower", grouped(changes.faster),
-        counted(changes.trips, "trip"), felt_s,
-        changes.faster == 0 ? "" : fmt::format(" ({} s in the mean)", number(changes.mean_faster_s, whole)),
-        grouped(changes.slower), felt_s);
-}
-
-std::string cross_street_words(const ConditionFacts& condition, Script script) {
-    const auto& comparison = condition.metric("cross_street_delay_s").comparison;
-    if (!comparison || !comparison->difference) return {};
-    const analysis::Interval* const interval = shown_interval(comparison->difference);
-    if (interval == nullptr || interval->contains(0.0)) return {};
-    const NumberStyle whole{.decimals = 0, .script = script, .sign = Sign::always};
-    return fmt::format("on cross streets {} vehicle-s {} a passage of an EV",
-                       number(comparison->difference->mean, whole), interval_text(*interval, {0, script}));
-}
-
-std::string privilege_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition,
-                               Script script) {
-    const std::vector<std::string> alone = {"red_privilege"};
-    const auto passing = std::ranges::find_if(scenario.conditions, [&](const ConditionFacts& other) {
-        return other.condition.policies == alone && other.condition.failure == condition.condition.failure;
-    });
-    if (passing == scenario.conditions.end() || &*passing == &condition || !condition.is_compared())
-        return {};
-    const MaybeEstimate difference = analysis::estimate_paired(
-        condition.outcome(primary).values, passing->outcome(primary).values, analysis::MetricKind::quantity);
-    if (!difference) return {};
-    return fmt::format("Against EVs that pass red ({}), s: {}.", passing->title,
-                       estimate(difference, {1, script, Sign::always}));
-}
-
 bool is_void_for_lost(const ConditionFacts& condition, Measure measure) {
     return measure == Measure::gap_closed && condition.objections.loses_emergency() &&
            !condition.value(measure);
@@ -263,26 +201,6 @@ std::string regrets_of(const ConditionFacts& condition, Script script) {
     if (const std::uint64_t missing = condition.count("units_missing"); missing > 0)
         facts.push_back(fmt::format("{} missing.", counted(missing, "called unit")));
     return fmt::format("{}", fmt::join(facts, " "));
-}
-
-/// Those who are called to an incident stop before it.
-bool blocks_the_way(const RoadMap& roads) {
-    return std::ranges::any_of(roads.incidents, [&](const MapIncident& incident) {
-        return incident.is_closed &&
-               std::ranges::find(roads.calls, incident.edge, &MapCall::edge) == roads.calls.end();
-    });
-}
-
-/// `0 of 30 in the baseline`: EVs that met an incident which blocks their way; empty where one did.
-std::string unmet_incident_words(const ScenarioFacts& scenario, const ConditionFacts& condition) {
-    const ConditionFacts* const baseline = scenario.baseline_of(condition);
-    if (baseline == nullptr || baseline->emergency.total() == 0 || !scenario.roads ||
-        !blocks_the_way(*scenario.roads))
-        return {};
-    const analysis::Values& met = baseline->metric("emergency_met_incident").values;
-    const bool is_counted = std::ranges::any_of(met, [](const auto& value) { return value.has_value(); });
-    if (!is_counted || baseline->count("emergency_met_incident") > 0) return {};
-    return fmt::format("0 of {} in the baseline", grouped(baseline->emergency.total()));
 }
 
 /// `no EV met the block (0 of 30 in the baseline), of which nothing is shown; `, or empty.
@@ -366,12 +284,6 @@ constexpr std::array<const char*, 10> verdict_words = {"emergency vehicles lost"
 
 }  // namespace
 
-std::string unmet_incident_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition) {
-    const std::string words = unmet_incident_words(scenario, condition);
-    if (words.empty()) return {};
-    return fmt::format("No EV met the block ({}): these runs say nothing about it.", words);
-}
-
 std::string coarse_step_sentence(double step_length_s) {
     if (step_length_s <= traffic::coarsest_trusted_step_s) return "";
     return fmt::format(
@@ -417,15 +329,6 @@ std::string few_seeds_sentence(const StudyFacts& study) {
     for (const ScenarioFacts& scenario : study.scenarios)
         fewest = std::min(fewest, scenario.replications);
     return few_seeds_sentence(fewest);
-}
-
-std::optional<double> percent_of_baseline(const ScenarioFacts& scenario, const ConditionFacts& condition) {
-    const MaybeEstimate& difference = condition.difference(primary);
-    const ConditionFacts* const baseline = scenario.baseline_of(condition);
-    if (!difference || baseline == nullptr) return std::nullopt;
-    const MaybeEstimate& base = baseline->value(primary);
-    if (!base || base->mean == 0.0) return std::nullopt;
-    return 100.0 * difference->mean / base->mean;
 }
 
 const ConditionFacts* reference_of(const StudyFacts& study, const ScenarioFacts& scenario,

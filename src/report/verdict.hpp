@@ -39,25 +39,6 @@ Effect effect_of(const ConditionFacts& condition, Measure measure);
 /// Whether a measure has no value because the condition lost more EVs than its baseline.
 bool is_void_for_lost(const ConditionFacts& condition, Measure measure);
 
-/// `EVs that arrived in both: -10.3 s [-30.1, 9.5], all but 1; median of the pairs -4.7 s`: the travel time
-/// without the horizon that stands for an EV that did not arrive. Empty where all arrived in both.
-std::string survivors_words(const ConditionFacts& condition, Script script);
-
-/// `8 of 60 trips over 5 s faster (71 s in the mean), 2 over 5 s slower`: where a mean comes from. Empty
-/// without trips that arrived in both.
-std::string trip_changes_words(const ConditionFacts& condition, Script script);
-
-/// `on cross streets +28 vehicle-s [11, 46] a passage of an EV`: what a mean over all drivers hides. Empty
-/// where it is not shown.
-std::string cross_street_words(const ConditionFacts& condition, Script script);
-
-/// `Against EVs that pass red (red_privilege), s: -5.8 [-9.6, -2.0].` Empty where the study does not run
-/// them, and of them.
-std::string privilege_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
-
-/// `5 in 8 runs; baseline 0 in 8`: collisions of a condition with a complete run.
-std::string collision_counts(const ScenarioFacts& scenario, const ConditionFacts& condition);
-
 /// What is said of a condition against the baseline. Plain text, not escaped.
 struct Verdict {
     std::string finding;  ///< `helped`: objections on the side of EVs, or whether EVs were faster.
@@ -71,14 +52,6 @@ struct Verdict {
     std::string text() const;
 };
 Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
-
-/// `No EV met the block (0 of 30 in the baseline): these runs say nothing about it.` Empty where one did,
-/// where no incident closes a road to EVs on their way, and without a complete run of the baseline. Plain
-/// text.
-std::string unmet_incident_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition);
-
-/// Difference in the primary measure as a share of the baseline's, %.
-std::optional<double> percent_of_baseline(const ScenarioFacts& scenario, const ConditionFacts& condition);
 
 /// The condition at its defaults of which this one has a setting turned alone; null for other conditions.
 const ConditionFacts* reference_of(const StudyFacts& study, const ScenarioFacts& scenario,

@@ -10,6 +10,7 @@
 #include "report/detail/configuration.hpp"
 #include "report/frozen_study.hpp"
 #include "report/read_facts.hpp"
+#include "report/shared_sentences.hpp"
 #include "report/verdict.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -5,6 +5,7 @@
 #include "report/controls.hpp"
 #include "report/locks.hpp"
 #include "report/sample.hpp"
+#include "report/shared_sentences.hpp"
 #include "report/verdict.hpp"
 
 namespace clearway::report {

@@ -5,6 +5,7 @@
 #include "report/console.hpp"
 #include "report/lease_words.hpp"
 #include "report/sample.hpp"
+#include "report/shared_sentences.hpp"
 
 namespace clearway::report {
 namespace {

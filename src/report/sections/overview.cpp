@@ -11,6 +11,7 @@
 #include "report/controls.hpp"
 #include "report/detail/figures.hpp"
 #include "report/sections/sections.hpp"
+#include "report/shared_sentences.hpp"
 
 namespace clearway::report::detail {
 namespace {

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "report/facts.hpp"
+#include "report/text.hpp"
+
+namespace clearway::report {
+
+// What a report's first screen (report/overview.hpp) and its verdicts (report/verdict.hpp) both say of a
+// condition. Plain text.
+
+/// `EVs that arrived in both: -10.3 s [-30.1, 9.5], all but 1; median of the pairs -4.7 s`: the travel time
+/// without the horizon that stands for an EV that did not arrive. Empty where all arrived in both.
+std::string survivors_words(const ConditionFacts& condition, Script script);
+
+/// `8 of 60 trips over 5 s faster (71 s in the mean), 2 over 5 s slower`: where a mean comes from. Empty
+/// without trips that arrived in both.
+std::string trip_changes_words(const ConditionFacts& condition, Script script);
+
+/// `on cross streets +28 vehicle-s [11, 46] a passage of an EV`: what a mean over all drivers hides. Empty
+/// where it is not shown.
+std::string cross_street_words(const ConditionFacts& condition, Script script);
+
+/// `Against EVs that pass red (red_privilege), s: -5.8 [-9.6, -2.0].` Empty where the study does not run
+/// them, and of them.
+std::string privilege_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
+
+/// `5 in 8 runs; baseline 0 in 8`: collisions of a condition with a complete run.
+std::string collision_counts(const ScenarioFacts& scenario, const ConditionFacts& condition);
+
+/// `0 of 30 in the baseline`: EVs that met an incident which blocks their way; empty where one did.
+std::string unmet_incident_words(const ScenarioFacts& scenario, const ConditionFacts& condition);
+
+/// `No EV met the block (0 of 30 in the baseline): these runs say nothing about it.` Empty where one did,
+/// where no incident closes a road to EVs on their way, and without a complete run of the baseline. Plain
+/// text.
+std::string unmet_incident_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition);
+
+/// Difference in the primary measure as a share of the baseline's, %.
+std::optional<double> percent_of_baseline(const ScenarioFacts& scenario, const ConditionFacts& condition);
+
+}  // namespace clearway::report
