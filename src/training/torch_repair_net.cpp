@@ -25,8 +25,8 @@ std::int64_t size_of(std::size_t size) {
 }
 
 /// Refers to the memory of a RepairBatch.
-struct RepairInputs {
-    explicit RepairInputs(const RepairBatch& batch)
+struct BatchTensors {
+    explicit BatchTensors(const RepairBatch& batch)
         : vehicles(size_of(batch.vehicle_count())),
           receivers(size_of(batch.receiver_count())),
           nodes(float_tensor(batch.nodes, {vehicles, prediction::node_width})),
@@ -55,12 +55,12 @@ struct RepairInputs {
 };
 
 /// Sum over the messages of each receiver: receivers x width.
-Tensor sum_to_receivers(const Tensor& messages, const RepairInputs& inputs) {
+Tensor sum_to_receivers(const Tensor& messages, const BatchTensors& inputs) {
     const Tensor to = inputs.receiver.unsqueeze(1).expand({-1, messages.size(1)});
     return torch::zeros({inputs.receivers, messages.size(1)}).scatter_add(0, to, messages);
 }
 
-Tensor mean_to_receivers(const Tensor& messages, const RepairInputs& inputs) {
+Tensor mean_to_receivers(const Tensor& messages, const BatchTensors& inputs) {
     const Tensor count = inputs.degree.narrow(0, 0, inputs.receivers).clamp_min(1.0).unsqueeze(1);
     return sum_to_receivers(messages, inputs) / count;
 }
@@ -82,7 +82,7 @@ struct MessageLayer {
           out_message(width, width, generator),
           out_own(uniform_parameter({width, width}, width, generator)) {}
 
-    Tensor messages(const Tensor& h, const RepairInputs& inputs) const {
+    Tensor messages(const Tensor& h, const BatchTensors& inputs) const {
         const Tensor own = h.narrow(0, 0, inputs.receivers);
         const Tensor value = rows_of(value_source(h), inputs.source) + at::linear(inputs.edges, value_edge);
         if (aggregation == Aggregation::mean) return mean_to_receivers(value, inputs);
@@ -105,7 +105,7 @@ struct MessageLayer {
         return sum_to_receivers(score * sources, inputs) / sum_to_receivers(score, inputs).clamp_min(1e-12);
     }
 
-    Tensor operator()(const Tensor& h, const RepairInputs& inputs) const {
+    Tensor operator()(const Tensor& h, const BatchTensors& inputs) const {
         const Tensor own = h.narrow(0, 0, inputs.receivers);
         const Tensor others = h.narrow(0, inputs.receivers, inputs.vehicles - inputs.receivers);
         const Tensor renewed = at::relu(out_message(messages(h, inputs)) + at::linear(own, out_own));
@@ -142,7 +142,7 @@ struct Motion {
     Tensor direction;  ///< Unit vector.
 };
 
-Motion place_on_path(const Tensor& displacement, const Tensor& sigma, const RepairInputs& inputs) {
+Motion place_on_path(const Tensor& displacement, const Tensor& sigma, const BatchTensors& inputs) {
     constexpr auto segments = static_cast<double>(path_points - 1);
     const Tensor at_path = (displacement / inputs.reach).clamp(0.0, 1.0) * segments;
     const Tensor segment = at_path.detach().floor().clamp_max(segments - 1.0);
@@ -201,7 +201,7 @@ struct TorchRepairNet::Parts {
         return all;
     }
 
-    Motion move(const Tensor& h, const RepairInputs& inputs) const {
+    Motion move(const Tensor& h, const BatchTensors& inputs) const {
         const Tensor spread = prediction::motion_step_m + prediction::motion_share * inputs.reach;
         if (!config.motion_head) return place_on_path(inputs.displacement, 0.5 * spread, inputs);
         const Tensor out = motion2(at::relu(motion1(h.narrow(0, 0, inputs.receivers))));
@@ -211,7 +211,7 @@ struct TorchRepairNet::Parts {
     }
 
     /// Distance inputs of the decoder: distance, score, P(d < r), spread.
-    static Tensor distances(const Motion& motion, const RepairInputs& inputs, Tensor& score) {
+    static Tensor distances(const Motion& motion, const BatchTensors& inputs, Tensor& score) {
         const std::int64_t known = inputs.vehicles - inputs.receivers;
         const Tensor places = at::cat({motion.place, inputs.places.narrow(0, inputs.receivers, known)}, 0);
         const Tensor sigmas = at::cat({motion.sigma, torch::zeros({known, 1})}, 0);
@@ -231,7 +231,7 @@ struct TorchRepairNet::Parts {
             {(distance / 50.0).clamp_max(4.0), 0.5 * score, probability, (spread / 20.0).clamp_max(6.0)}, 1);
     }
 
-    static Tensor link_loss(const Tensor& logits, const RepairInputs& inputs) {
+    static Tensor link_loss(const Tensor& logits, const BatchTensors& inputs) {
         return at::binary_cross_entropy_with_logits(logits, inputs.label, inputs.weight, {},
                                                     at::Reduction::Sum) /
                inputs.weight.sum();
@@ -241,7 +241,7 @@ struct TorchRepairNet::Parts {
         Motion motion;
         Tensor logits;
     };
-    Result forward(const RepairInputs& inputs) const {
+    Result forward(const BatchTensors& inputs) const {
         Tensor h = at::relu(encoder(inputs.nodes));
         for (const MessageLayer& layer : layers)
             h = layer(h, inputs);
@@ -258,7 +258,7 @@ struct TorchRepairNet::Parts {
         return {motion, logits};
     }
 
-    static Tensor motion_loss(const Motion& motion, const RepairInputs& inputs) {
+    static Tensor motion_loss(const Motion& motion, const BatchTensors& inputs) {
         const Tensor labelled = (inputs.true_displacement >= 0.0).to(torch::kFloat32);
         const Tensor error = (motion.displacement - inputs.true_displacement).abs();
         const Tensor loss = error / motion.sigma + (2.0 * motion.sigma).log();
@@ -280,7 +280,7 @@ TorchRepairNet::~TorchRepairNet() = default;
 
 RepairOutput TorchRepairNet::run(const RepairBatch& batch) const {
     const torch::NoGradGuard no_gradient;
-    const Parts::Result result = parts_->forward(RepairInputs(batch));
+    const Parts::Result result = parts_->forward(BatchTensors(batch));
     const auto numbers = [](const Tensor& tensor) {
         const Tensor flat = tensor.contiguous();
         return std::vector<float>(flat.data_ptr<float>(), flat.data_ptr<float>() + flat.numel());
@@ -290,14 +290,14 @@ RepairOutput TorchRepairNet::run(const RepairBatch& batch) const {
 
 RepairLoss TorchRepairNet::loss(const RepairBatch& batch) const {
     const torch::NoGradGuard no_gradient;
-    const RepairInputs inputs(batch);
+    const BatchTensors inputs(batch);
     const Parts::Result result = parts_->forward(inputs);
     return {Parts::link_loss(result.logits, inputs).item<float>(),
             Parts::motion_loss(result.motion, inputs).item<float>()};
 }
 
 RepairLoss TorchRepairNet::train_step(const RepairBatch& batch, double learning_rate) {
-    const RepairInputs inputs(batch);
+    const BatchTensors inputs(batch);
     torch::optim::Adam& optimizer = *parts_->optimizer;
     static_cast<torch::optim::AdamOptions&>(optimizer.param_groups().front().options()).lr(learning_rate);
     optimizer.zero_grad();
