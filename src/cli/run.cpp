@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -21,11 +22,14 @@ namespace clearway::cli {
 namespace {
 
 enum class Floor : std::uint8_t { solo, none };
+/// Whether a condition of the user's own whose sensors or messages fail runs while nothing fails, too.
+enum class Ceiling : std::uint8_t { perfect, none };
 
 struct RunArguments {
     std::string scenario;
     ConditionWords conditions;
     Floor floor = Floor::solo;
+    Ceiling ceiling = Ceiling::perfect;
     std::uint32_t seeds = usual_seeds;
     double within_s = 0.0;  ///< 0: no time is given.
     std::uint64_t seed = 1;
@@ -61,6 +65,20 @@ std::vector<experiment::ConditionSpec> conditions_of(const RunArguments& argumen
     return all;
 }
 
+/// Puts the same condition while nothing fails before one of the user's own that acts and fails: a control.
+void add_ceiling(study::StudyConfig& study) {
+    const auto own = std::ranges::find_if(study.conditions, [](const experiment::ConditionSpec& condition) {
+        return condition.acts() && !experiment::takes_built_in_name(condition);
+    });
+    if (own == study.conditions.end()) return;
+    const experiment::ConditionSpec perfect = experiment::without_failure(*own);
+    if (std::ranges::find(study.conditions, perfect.name, &experiment::ConditionSpec::name) !=
+        study.conditions.end())
+        return;
+    study.controls[perfect.name] = own->name;
+    study.conditions.insert(own, perfect);
+}
+
 /// A regular file, or empty: Clearway's own settings.
 std::filesystem::path window_settings(const std::string& file) {
     if (file.empty()) return {};
@@ -77,6 +95,7 @@ core::ExitCode run(const RunArguments& arguments, const Invocation& invocation) 
                                                       conditions_of(arguments, std::move(conditions)),
                                                       arguments.seed, arguments.seeds);
         study.most_runs = arguments.most_runs;
+        if (arguments.ceiling == Ceiling::perfect && !arguments.is_shown) add_ceiling(study);
         return study;
     };
     const std::vector<experiment::ConditionSpec> chosen = chosen_conditions(arguments.conditions);
@@ -124,6 +143,9 @@ Action configure_run(App& app) {
     app.add_flag_callback(
         "--no-solo", [arguments] { arguments->floor = Floor::none; },
         "Leave out the runs of emergency vehicles alone and the gap closed [with them]");
+    app.add_flag_callback(
+        "--no-perfect", [arguments] { arguments->ceiling = Ceiling::none; },
+        "Leave out the condition of your own while nothing fails, which says what --failure costs [with it]");
     const Option seeds = add_seeds_option(app, arguments->seeds);
     add_within_option(app, arguments->within_s).excludes(seeds);
     add_seed_option(app, arguments->seed);

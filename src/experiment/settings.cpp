@@ -408,6 +408,23 @@ ConditionSpec baseline_for(const ConditionSpec& condition) {
     return baseline;
 }
 
+ConditionSpec without_failure(const ConditionSpec& condition) {
+    const ConditionSpec usual;
+    if (condition.failure == usual.failure) return condition;
+    ConditionSpec perfect = condition;
+    perfect.failure = usual.failure;
+    perfect.predictor = usual.predictor;
+    perfect.model_file.clear();
+    perfect.model_hash.clear();
+    const std::vector<std::string> present = components_of(perfect);
+    std::erase_if(perfect.settings, [&](const auto& setting) {
+        return std::ranges::find(present, parted(setting.first).first) == present.end();
+    });
+    perfect.name =
+        condition.name == described_name(condition) ? described_name(perfect) : condition.name + "_perfect";
+    return perfect;
+}
+
 bool reads_links(const ConditionSpec& condition) {
     return std::ranges::any_of(parts_of(condition), [&](const std::string& part) {
         return policy::policies().is(part, traffic::Trait::reads_links) || asks_linked(condition, part);

@@ -69,6 +69,10 @@ bool same_environment(const ConditionSpec& left, const ConditionSpec& right);
 /// `baseline` where nothing of the environment is set.
 ConditionSpec baseline_for(const ConditionSpec& condition);
 
+/// The same policies while nothing fails and nothing is repaired. Equal to the condition where nothing fails.
+/// One that is named after its content keeps that rule, another gets `_perfect` behind its name.
+ConditionSpec without_failure(const ConditionSpec& condition);
+
 /// Everything wrong with the settings and the model of a condition: an unknown name, a component that the
 /// condition does not have, a value of the wrong type or out of range, a model that its predictor does not
 /// take. `where` precedes the names in messages. The names of failures, predictors and policies themselves

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiment/settings.hpp"
 #include "report/verdict.hpp"
 
 namespace clearway::report {
@@ -28,16 +29,36 @@ const char* words_of(Effect effect) {
     return ", no verdict";
 }
 
+/// `nothing fails (corridor)`, or the title.
+std::string title_of(const ConditionFacts& condition, const ConditionFacts& control) {
+    const bool is_perfect = control.condition.name == experiment::without_failure(condition.condition).name;
+    return is_perfect ? fmt::format("nothing fails ({})", control.title) : control.title;
+}
+
+/// `, the same EV times in 9 of 10 runs`, or empty where none has.
+std::string same_times_words(const ConditionFacts& condition, const ConditionFacts& control) {
+    const analysis::Values& mine = condition.outcome(primary).values;
+    const analysis::Values& theirs = control.outcome(primary).values;
+    std::size_t same = 0;
+    for (std::size_t run = 0; run < std::min(mine.size(), theirs.size()); ++run)
+        same += mine[run] && mine[run] == theirs[run] ? 1 : 0;
+    return same == 0 ? "" : fmt::format(", the same EV times in {} of {}", same, counted(mine.size(), "run"));
+}
+
 std::string words_of(const ConditionFacts& condition, const Control& control, Script script) {
     const ConditionFacts& other = *control.condition;
+    const std::string title = title_of(condition, other);
     if (!other.same_as.empty() && other.same_as == other.baseline)
-        return fmt::format("{}: every run is that of the baseline", other.title);
-    if (!control.difference_s) return fmt::format("{}: no complete pair of runs", other.title);
+        return title + ": every run is that of the baseline";
+    if (other.same_as == condition.name() || condition.same_as == other.name())
+        return title + ": every run is the same, so what is off there does nothing here";
+    if (!control.difference_s) return title + ": no complete pair of runs";
     const std::string objection = analysis::emergency_objection_word(other.objections);
     return fmt::format(
-        "{}{}: {}{}", other.title, objection.empty() ? "" : " (" + objection + ")",
+        "{}{}: {}{}{}", title, objection.empty() ? "" : " (" + objection + ")",
         estimate(control.difference_s, {1, script, Sign::always}),
-        words_of(effect_of(control.difference_s, Better::lower, condition.least_relevant(primary))));
+        words_of(effect_of(control.difference_s, Better::lower, condition.least_relevant(primary))),
+        same_times_words(condition, other));
 }
 
 }  // namespace

@@ -17,6 +17,19 @@ class RunTest : public UserTest {
         UserTest::SetUp();
         write_line_scenario();
     }
+    /// Names of those that a run with these words has, without solo.
+    std::vector<std::string> conditions(const std::vector<std::string>& words,
+                                        const std::string& folder) const {
+        std::vector<std::string> all = {"run", "line", "--seeds", "1", "--no-solo", "--out", folder};
+        all.insert(all.end(), words.begin(), words.end());
+        const Ended ended = clearway(all);
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        std::vector<std::string> names;
+        const auto manifest = nlohmann::json::parse(read(folder + "/manifest.json"));
+        for (const auto& one : manifest.at("conditions"))
+            names.push_back(one.at("name"));
+        return names;
+    }
 };
 
 TEST_F(RunTest, what_is_set_stands_in_manifest_record_and_report) {
@@ -36,17 +49,6 @@ TEST_F(RunTest, what_is_set_stands_in_manifest_record_and_report) {
 }
 
 TEST_F(RunTest, settings_change_the_usual_condition_or_the_one_that_is_named) {
-    const auto conditions = [&](const std::vector<std::string>& words, const std::string& folder) {
-        std::vector<std::string> all = {"run", "line", "--seeds", "1", "--no-solo", "--out", folder};
-        all.insert(all.end(), words.begin(), words.end());
-        const Ended ended = clearway(all);
-        EXPECT_EQ(ended.code, 0) << ended.err;
-        std::vector<std::string> names;
-        const auto manifest = nlohmann::json::parse(read(folder + "/manifest.json"));
-        for (const auto& one : manifest.at("conditions"))
-            names.push_back(one.at("name"));
-        return names;
-    };
     using testing::ElementsAre;
     EXPECT_THAT(conditions({"--set", "preempt_signals.lead_s=12"}, "usual"),
                 ElementsAre("baseline", "corridor_lead_s_12"));
@@ -72,7 +74,7 @@ TEST_F(RunTest, writes_a_run_folder_and_prints_tables_on_standard_output_alone) 
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_THAT(ended.out, AllOf(HasSubstr("EV travel time"), HasSubstr("dissertation_B10_dead_reckoning")));
     EXPECT_THAT(ended.out, AllOf(Not(HasSubstr("elapsed")), Not(HasSubstr("written:"))));
-    EXPECT_THAT(ended.err, AllOf(HasSubstr("6/6"), HasSubstr("report.html")));
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("8/8"), HasSubstr("report.html")));
     for (const char* const file : {"manifest.json", "command.txt", "runs.csv", "vehicles.csv",
                                    "results.sqlite", "report.html", "scenarios/line/scenario.toml",
                                    "scenarios/line/network.svg", "scenarios/line/network/network.net.xml"}) {
@@ -80,6 +82,25 @@ TEST_F(RunTest, writes_a_run_folder_and_prints_tables_on_standard_output_alone) 
     }
     EXPECT_THAT(read("out/command.txt"), HasSubstr("clearway run line --seeds 2"));
     EXPECT_THAT(read("out/runs.csv"), AllOf(HasSubstr("line,baseline,0,ok"), HasSubstr("line,solo,1,ok")));
+}
+
+TEST_F(RunTest, what_fails_has_the_same_condition_beside_it_while_nothing_fails) {
+    using testing::ElementsAre;
+    const std::vector<std::string> failing = {
+        "--policy",    "dissertation",   "--failure", "B10",
+        "--predictor", "dead_reckoning", "--set",     "dead_reckoning.link_threshold=0.4"};
+    EXPECT_THAT(
+        conditions(failing, "beside"),
+        ElementsAre("baseline", "dissertation", testing::StartsWith("dissertation_B10_dead_reckoning")));
+    EXPECT_THAT(read("beside/controls.json"),
+                HasSubstr("\"dissertation\": \"dissertation_B10_dead_reckoning"));
+    std::vector<std::string> named = failing;
+    named.insert(named.end(), {"--name", "mine"});
+    EXPECT_THAT(conditions(named, "named"), ElementsAre("baseline", "mine_perfect", "mine"));
+    named.emplace_back("--no-perfect");
+    EXPECT_THAT(conditions(named, "alone"), ElementsAre("baseline", "mine"));
+    EXPECT_THAT(conditions({"--policy", "none", "--failure", "B10"}, "inert"),
+                ElementsAre("baseline", "no_policy_B10"));
 }
 
 TEST_F(RunTest, json_is_all_of_standard_output_and_carries_units) {

@@ -421,6 +421,25 @@ TEST(Settings, OfSumosDeviceNeedTheDevice) {
     EXPECT_THAT(described_name(condition), HasSubstr("rerouting_30s_penalty_1"));
 }
 
+TEST(Settings, WithoutFailureNothingFailsAndNothingIsRepaired) {
+    ConditionSpec condition = corridor();
+    EXPECT_EQ(without_failure(condition), condition) << "nothing fails in it";
+    condition.failure = "B10";
+    condition.predictor = "graphsage";
+    set(condition, "failure.dark_share", "0.5");
+    set(condition, "graphsage.link_threshold", "0.4");
+    set(condition, "preempt_signals.lead_s", "12");
+    condition.name = described_name(condition);
+    const ConditionSpec perfect = without_failure(condition);
+    EXPECT_EQ(perfect.failure, "perfect");
+    EXPECT_EQ(perfect.predictor, "none");
+    EXPECT_EQ(perfect.settings, (core::Settings{{"preempt_signals.lead_s", "12"}}));
+    EXPECT_EQ(perfect.name, described_name(perfect));
+    condition.failure = "perfect,dark_share=0.5";
+    condition.name = "mine";
+    EXPECT_EQ(without_failure(condition).name, "mine_perfect");
+}
+
 TEST(Settings, PrivilegesAreOfTheEnvironmentSoTheBaselineHasThemToo) {
     ConditionSpec condition = corridor();
     set(condition, "privilege.pass_red", "1");
