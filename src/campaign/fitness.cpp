@@ -302,24 +302,6 @@ Finding error_finding(const results::RunError& error, const std::filesystem::pat
     return {aborted ? "aborts" : "loads", Grade::failed, text};
 }
 
-Finding lock_finding(const LockTrials& trials) {
-    const auto runs = [&](std::size_t locked) {
-        return fmt::format("{} of {}", locked == 0 ? "none" : std::to_string(locked),
-                           core::counted(trials.trials, "trial run"));
-    };
-    const std::string text =
-        fmt::format("this network locks by itself in {}; with time.ignore_junction_blocker_s = {:g} in {}",
-                    runs(trials.locked_without), trials.ignored_after_s, runs(trials.locked_with));
-    if (trials.locked_with > 0)
-        return {"trials", Grade::falls_short, text,
-                "less traffic, or a look at the junctions that traffic.locks of a run's run.json names"};
-    if (trials.locked_without > 0)
-        return {"trials", Grade::note, text,
-                fmt::format("keep time.ignore_junction_blocker_s = {:g} in scenario.toml",
-                            trials.ignored_after_s)};
-    return {"trials", Grade::ok, text};
-}
-
 namespace {
 
 /// Makes the runs of LockTrials in a folder of their own, which it removes.
@@ -331,7 +313,9 @@ LockTrials try_locks(const scenario::ScenarioConfig& scenario, std::uint64_t see
     if (after_s.value_or(-1.0) < 0.0) after_s = scenario::usual_ignore_junction_blocker_s;
     without.time.ignore_junction_blocker_s.reset();
     without.name += "-off";
-    LockTrials trials{.trials = count, .ignored_after_s = *after_s};
+    const bool ignores = scenario.time.ignore_junction_blocker_s.value_or(-1.0) >= 0.0;
+    LockTrials trials{
+        .trials = count, .ignored_after_s = *after_s, .ignores = ignores, .with = {}, .without = {}};
     study::StudyConfig config =
         study_of(with, {experiment::built_in_condition("baseline", "check")}, seed, count);
     config.scenarios.push_back(without);
@@ -346,8 +330,9 @@ LockTrials try_locks(const scenario::ScenarioConfig& scenario, std::uint64_t see
                           fmt::format("not every trial run ended well; see {}", options.folder.string()));
     for (const experiment::RunKey& key : plan.manifest.runs()) {
         const auto record = store.read(key, results::VehicleRows::emergency);
-        if (!record || record->metrics.locks == 0) continue;
-        ++(key.scenario == with.name ? trials.locked_with : trials.locked_without);
+        if (record)
+            detail::count_trial(record->metrics, count,
+                                key.scenario == with.name ? trials.with : trials.without);
     }
     remove_runs(options.folder);
     return trials;

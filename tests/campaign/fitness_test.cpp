@@ -6,13 +6,16 @@
 #include <gmock/gmock.h>
 
 #include "campaign/detail/abort_cure.hpp"
+#include "campaign/detail/lock_findings.hpp"
 #include "campaign/detail/site_findings.hpp"
 #include "campaign/replay_page.hpp"
 
 namespace clearway::campaign {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 /// 400 vehicles, each 100 s on 10 km of lane, over 200 s: 20 on each km.
 metrics::RunMetrics busy_run() {
@@ -66,17 +69,56 @@ TEST(RoadUse, where_vehicles_do_not_get_in_is_too_full) {
     EXPECT_NEAR(use_of(run).factor, 0.8 * 0.8, 1e-9);
 }
 
-TEST(LockFinding, says_in_how_many_trial_runs_a_network_locks) {
-    LockTrials trials{.trials = 6, .locked_with = 0, .locked_without = 2, .ignored_after_s = 10.0};
+TEST(LockFinding, weighs_what_stands_in_locks_and_not_how_many_runs_lock) {
+    LockTrials trials{.trials = 6,
+                      .ignored_after_s = 10.0,
+                      .ignores = true,
+                      .with = {.locked = 5, .held_up = 0, .stood_s = 0.15, .collisions = 43.0},
+                      .without = {.locked = 3, .held_up = 2, .stood_s = 8.8, .collisions = 11.0}};
     EXPECT_EQ(
         lock_finding(trials).text,
-        "this network locks by itself in 2 of 6 trial runs; with time.ignore_junction_blocker_s = 10 in none "
-        "of 6 trial runs");
+        "with time.ignore_junction_blocker_s = 10, as here, 5 of 6 runs lock, none held up by it; 0.15 s "
+        "in locks a vehicle; 43 collisions a run. Without, 3 of 6 runs lock, 2 held up by it; 8.8 s in "
+        "locks a vehicle; 11 collisions a run");
     EXPECT_EQ(lock_finding(trials).grade, Grade::note);
-    trials.locked_with = 1;
+    EXPECT_EQ(lock_finding(trials).advice, "") << "what the scenario has is the better choice";
+
+    trials.ignores = false;
     EXPECT_EQ(lock_finding(trials).grade, Grade::falls_short);
-    trials = {.trials = 6, .locked_with = 0, .locked_without = 0, .ignored_after_s = 10.0};
-    EXPECT_EQ(lock_finding(trials).grade, Grade::ok);
+    EXPECT_THAT(lock_finding(trials).advice,
+                AllOf(StartsWith("time.ignore_junction_blocker_s = 10 in scenario.toml; "),
+                      HasSubstr("less traffic")));
+
+    trials.ignores = true;
+    trials.with.stood_s = 9.0;
+    EXPECT_EQ(lock_finding(trials).advice, "take time.ignore_junction_blocker_s = 10 out of scenario.toml");
+}
+
+TEST(LockFinding, is_ok_where_no_run_locks) {
+    const Finding finding =
+        lock_finding({.trials = 6, .ignored_after_s = 10.0, .ignores = false, .with = {}, .without = {}});
+    EXPECT_EQ(
+        finding.text,
+        "without time.ignore_junction_blocker_s = 10, as here, none of 6 runs locks; 0 collisions a run. "
+        "With it, none of 6 runs locks; 0 collisions a run");
+    EXPECT_EQ(finding.grade, Grade::ok);
+}
+
+TEST(LockFinding, counts_a_run_that_holds_up_an_emergency_vehicle_or_many_others) {
+    metrics::RunMetrics run = busy_run();
+    LockTrial trial;
+    detail::count_trial(run, 2, trial);
+    EXPECT_EQ(trial.locked, 0U);
+    run.locks = 1;
+    run.locked_vehicles = 1;
+    run.locked_vehicle_s = 100.0 * static_cast<double>(run.vehicle_count);
+    detail::count_trial(run, 2, trial);
+    EXPECT_EQ(trial.locked, 1U);
+    EXPECT_EQ(trial.held_up, 0U);
+    EXPECT_DOUBLE_EQ(trial.stood_s, 50.0);
+    run.locked_emergency_vehicles = 1;
+    detail::count_trial(run, 2, trial);
+    EXPECT_EQ(trial.held_up, 1U);
 }
 
 TEST(CollisionsFinding, tells_many_from_few) {

@@ -15,4 +15,7 @@ namespace clearway::campaign::detail {
 Finding locks_finding(const results::RunRecord& record, const std::vector<metrics::LockRow>& locks,
                       const Checked& checked, const std::string& less);
 
+/// Adds a run of the baseline, one of `trials`.
+void count_trial(const metrics::RunMetrics& run, std::uint32_t trials, LockTrial& trial);
+
 }  // namespace clearway::campaign::detail
