@@ -20,16 +20,19 @@ struct EquipRequest {
     analysis::Search search = analysis::Search::lazy;
     std::uint64_t seed = 1;
     std::uint32_t replications = 2;
-    RunOptions run;  ///< Its folder is that of the result and of the rounds.
+    double within_s = 0.0;  ///< Time that decides on `replications`, by a forecast; 0: none is given.
+    RunOptions run;         ///< Its folder is that of the result and of the rounds.
 };
 
 /// Chooses signals from runs in rounds, estimates their gains from runs on fresh seeds, writes report.html,
 /// equip.csv, candidates.csv, equip.json, curve.svg and map.svg, and prints candidates and ranks. Returns
-/// runs_failed when a run failed. Throws core::InputError for a condition that asks no signal for green and a
-/// network without signals, and as EquipRounds does.
+/// runs_failed when a run failed. Where it is interrupted it prints the gains of the last look. Throws
+/// core::InputError for a condition that asks no signal for green and a network without signals, and as
+/// EquipRounds does.
 core::ExitCode equip(EquipRequest request);
 
-/// Prints how many runs `equip` would make, and about how long they take; makes none. Throws likewise.
+/// Prints how many runs `equip` would make, and about how long they take; makes none. Throws likewise, and
+/// where the folder holds another search.
 core::ExitCode equip_dry_run(EquipRequest request);
 
 }  // namespace clearway::campaign

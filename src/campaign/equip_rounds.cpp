@@ -269,22 +269,40 @@ results::Results EquipRounds::run(const study::Plan& plan, const RunOptions& opt
     return results::read_results(store, results::VehicleRows::emergency);
 }
 
-void EquipRounds::run_round(const Wanted& wanted) {
+study::StudyConfig EquipRounds::round_of(const Wanted& wanted) const {
     study::StudyConfig config = question_.config;
     config.conditions = {experiment::baseline_for(question_.base)};
+    for (const auto& [set, replications] : wanted)
+        config.conditions.push_back(with(set));
+    return config;
+}
+
+void EquipRounds::require_fits() const {
+    std::vector<analysis::SignalSet> sets = {{}};
+    for (std::size_t candidate = 0; candidate < question_.signals.size(); ++candidate)
+        sets.push_back({candidate});
+    Wanted wanted;
+    add_missing(sets, analysis::equip_looks(question_.config.replications).front(), wanted);
+    RunOptions options = options_;
+    options.folder /= first_round;
+    const study::Plan plan = plan_for(round_of(wanted), options);
+    study::require_ready(plan, options.folder);
+    results::Store::require_fits(options.folder, plan.manifest);
+}
+
+void EquipRounds::run_round(const Wanted& wanted) {
     std::map<std::string, const Replications*> replications_of;
     std::string names;
     for (const auto& [set, replications] : wanted) {
-        const experiment::ConditionSpec condition = with(set);
-        replications_of[condition.name] = &replications;
-        names += fmt::format("{} {}\n", condition.name, fmt::join(replications, " "));
-        config.conditions.push_back(condition);
+        const std::string name = with(set).name;
+        replications_of[name] = &replications;
+        names += fmt::format("{} {}\n", name, fmt::join(replications, " "));
     }
     RunOptions options = options_;
     ++rounds_;
     options.folder /=
         rounds_ == 1 ? first_round : fmt::format("round-{}", core::content_hash(names).substr(0, 6));
-    study::Plan plan = plan_for(config, options);
+    study::Plan plan = plan_for(round_of(wanted), options);
     for (study::PlannedUnit& planned : plan.units) {
         std::erase_if(planned.unit.conditions, [&](const experiment::ConditionSpec& condition) {
             const auto found = replications_of.find(condition.name);

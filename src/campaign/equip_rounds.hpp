@@ -96,6 +96,9 @@ class EquipRounds {
     /// Of a search with another budget and fewer replications.
     EquipForecast forecast(std::size_t budget, std::uint32_t replications) const;
 
+    /// Throws core::InputError where the folder of the first round holds another search.
+    void require_fits() const;
+
     /// Makes the missing runs of these sets of candidates, of which the first has those that are chosen.
     /// Throws as prepare_run_folder and run_part do, and core::Error with its exit code when interrupted.
     std::vector<analysis::Values> measure(const std::vector<analysis::SignalSet>& sets,
@@ -125,6 +128,7 @@ class EquipRounds {
     /// Makes the missing runs of those sets of `racing` that have at most `largest` signals.
     void measure_up_to(std::size_t largest, const std::vector<analysis::SignalSet>& racing,
                        std::size_t replications);
+    study::StudyConfig round_of(const Wanted& wanted) const;
     void run_round(const Wanted& wanted);
     results::Results run(const study::Plan& plan, const RunOptions& options);
     /// Of `places`, with `tries` candidates at each.

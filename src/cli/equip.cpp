@@ -41,10 +41,12 @@ void add_study_options(App& app, const std::shared_ptr<EquipArguments>& argument
     app.add_flag_callback(
         "--dry-run", [arguments] { arguments->mode = Mode::dry_run; },
         "Print numbers of runs and estimated time, and run nothing [off]");
-    app.add_option("--seeds", request.replications,
-                   "Replications that decide, and fresh ones that estimate; all sets share their demand")
-        .range(2U, most_seeds)
-        .option_text(fmt::format("N, 2 to {} [{}]", most_seeds, request.replications));
+    const Option seeds =
+        app.add_option("--seeds", request.replications,
+                       "Replications that decide, and fresh ones that estimate; all sets share their demand")
+            .range(2U, most_seeds)
+            .option_text(fmt::format("N, 2 to {} [{}]", most_seeds, request.replications));
+    add_within_option(app, request.within_s).excludes(seeds);
     add_seed_option(app, request.seed);
     app.add_option("--out", request.run.folder,
                    "Folder of the result and of the runs; what was interrupted there is continued")

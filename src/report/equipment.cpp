@@ -175,19 +175,34 @@ std::vector<std::string> setting_lines(const EquipmentFacts& facts) {
             "--set actuation.equipped=" + printable(fmt::format("{}", fmt::join(signals, ",")))};
 }
 
+bool is_exactly_none(const analysis::MaybeEstimate& gain) {
+    return gain && gain->mean == 0.0 && gain->deviation == 0.0;
+}
+
 /// Where no EV was a step faster or slower, seeds of the same kind would not show more.
 std::string no_effect_sentence(const EquipmentFacts& facts) {
-    const analysis::MaybeEstimate& gain = facts.ranked.back().so_far;
-    const bool none = gain && gain->mean == 0.0 && gain->deviation == 0.0;
-    return none ? "In these runs no trip of an EV was changed: they say nothing of what signals are worth."
-                : "";
+    return is_exactly_none(facts.ranked.back().so_far)
+               ? "In these runs no trip of an EV was changed: they say nothing of what signals are worth."
+               : "";
+}
+
+/// Ranks that decided nothing for an EV of the fresh seeds: which signal has them is chance.
+std::string unchanged_sentence(const EquipmentFacts& facts) {
+    std::vector<std::size_t> ranks;
+    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
+        if (is_exactly_none(facts.ranked[rank].gain)) ranks.push_back(rank + 1);
+    if (ranks.empty() || is_exactly_none(facts.ranked.back().so_far)) return "";
+    return fmt::format("Rank {} changed no trip of the fresh seeds: its place is chance.",
+                       fmt::join(ranks, ", "));
 }
 
 std::string not_shown_sentence(const EquipmentFacts& facts) {
     std::vector<std::size_t> ranks;
-    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
-        if (!is_shown(facts.ranked[rank].gain) && !is_of_pair(facts, facts.ranked[rank]))
+    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank) {
+        const EquippedSignal& signal = facts.ranked[rank];
+        if (!is_shown(signal.gain) && !is_exactly_none(signal.gain) && !is_of_pair(facts, signal))
             ranks.push_back(rank + 1);
+    }
     if (ranks.empty()) return "";
     const std::string which = ranks.size() == facts.ranked.size()
                                   ? "of any of them"
@@ -319,6 +334,7 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts) {
         sentences.push_back(no_effect_sentence(facts));
         sentences.push_back(together_sentence(facts));
         sentences.push_back(not_shown_sentence(facts));
+        sentences.push_back(unchanged_sentence(facts));
         sentences.push_back(few_trips_sentence(facts));
         sentences.push_back(seeds_sentence(facts));
     }
@@ -346,6 +362,7 @@ std::vector<std::string> circumstances_of(const EquipmentFacts& facts) {
         fmt::format("EV time, s: baseline {}, {} {}, all signals {}, alone {}. Gains count from {}.",
                     estimate_or_dash(facts.baseline_s), start_of(facts), estimate_or_dash(facts.none_s),
                     estimate_or_dash(facts.all_s), estimate_or_dash(facts.alone_s), start_of(facts)),
+        facts.programs.empty() ? "" : fmt::format("Rests on {}.", facts.programs),
         fmt::format("{}.", counted(facts.runs, "run"))};
     std::erase(sentences, "");
     return sentences;
@@ -398,6 +415,11 @@ std::string SignalsMet::words() const {
 
 std::optional<RoadMap> road_map(const results::Store& store, const std::string& scenario) {
     return detail::roads_in(store.scenario_folder(scenario) / "roads.json");
+}
+
+std::string programs_words(const std::string& attribution) {
+    if (attribution.find("OpenStreetMap") == std::string::npos) return "";
+    return "signal programs made up for the map, which has none, unless yours were entered";
 }
 
 bool is_shown(const analysis::MaybeEstimate& gain) {

@@ -75,6 +75,7 @@ struct EquipmentFacts {
     std::string scenario;
     std::string title;
     std::string attribution;  ///< Credit that the map requires; may be empty.
+    std::string programs;     ///< As programs_words says.
     std::string condition;
     std::string command;
     std::uint64_t seed = 0;        ///< Of the runs that decide.
@@ -108,6 +109,9 @@ struct EquipmentFacts {
 /// The roads of a scenario of a run folder; nothing if the folder has none. Throws core::InputError for a
 /// damaged file.
 std::optional<RoadMap> road_map(const results::Store& store, const std::string& scenario);
+
+/// Where the programs of signals come from if a map with this credit has none; empty for other sources.
+std::string programs_words(const std::string& attribution);
 
 /// Whether a gain above 0 is shown: an interval of at least `fewest_for_interval` pairs lies above it.
 bool is_shown(const analysis::MaybeEstimate& gain);

@@ -1,8 +1,11 @@
 // Which signals to equip first, as a user asks for it.
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <set>
 #include <sstream>
+#include <thread>
 
 #include <nlohmann/json.hpp>
 
@@ -162,6 +165,42 @@ TEST_F(EquipTest, says_before_it_runs_what_a_quarter_of_an_hour_would_do) {
                                                  "takes about 4:26:40 (h:m:s): --seeds 5 --budget 1."));
 }
 
+TEST_F(EquipTest, chooses_its_seeds_by_the_time_that_is_given) {
+    const auto planned = [&](const std::string& time) {
+        return clearway({"equip", "./crossings", "--budget", "1", "--dry-run", "--within", time});
+    };
+    const Ended short_time = planned("1s");
+    EXPECT_THAT(short_time.err,
+                AllOf(HasSubstr("the least, 5 seeds, takes about"), HasSubstr("allow about --seeds 5\n")));
+    const Ended long_time = planned("5min");
+    EXPECT_EQ(long_time.code, 0);
+    EXPECT_THAT(long_time.err, Not(HasSubstr("the least")));
+    EXPECT_THAT(long_time.err, testing::ContainsRegex("--seeds [0-9]{2,}\n"));
+    EXPECT_NE(clearway({"equip", "./crossings", "--budget", "1", "--within", "5min", "--seeds", "5"}).code,
+              0);
+}
+
+TEST_F(EquipTest, interrupted_it_prints_what_the_last_look_knew) {
+    const core::Child child =
+        start({"equip", "./crossings", "--budget", "1", "--seeds", "100", "--out", "out"});
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto is_in_second_look = [&] {
+        for (const std::string& round : folders(folder() / "out", "round-"))
+            if (round != "round-01" && std::filesystem::exists(folder() / "out" / round / "runs"))
+                return true;
+        return false;
+    };
+    while (!(std::filesystem::exists(folder() / "out") && is_in_second_look()) &&
+           std::chrono::steady_clock::now() < patience)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ::kill(child.pid, SIGINT);
+    const Ended interrupted = finish(child);
+    EXPECT_EQ(interrupted.code, 130);
+    EXPECT_THAT(interrupted.err,
+                AllOf(HasSubstr("no ranking yet; the last complete look, "), HasSubstr("  No. 1"),
+                      HasSubstr("  No. 2"), HasSubstr("To continue:")));
+}
+
 TEST_F(EquipTest, tries_only_the_signals_that_most_emergency_vehicles_pass_where_that_is_wanted) {
     const Ended ended = equip({"--candidates", "1", "--json"});
     ASSERT_EQ(ended.code, 0) << ended.err;
@@ -273,6 +312,10 @@ TEST_F(EquipTest, refuses_a_folder_of_another_question) {
     EXPECT_EQ(other.code, 3);
     EXPECT_THAT(other.err, HasSubstr("holds another study"));
     EXPECT_EQ(read("out/equip.json"), before);
+    const Ended planned = equip({"--seed", "9", "--dry-run"});
+    EXPECT_EQ(planned.code, 3) << planned.out;
+    EXPECT_EQ(planned.err, other.err);
+    EXPECT_EQ(equip({"--dry-run"}).code, 0) << "the same question";
 }
 
 TEST_F(EquipTest, refuses_a_folder_with_anything_else_and_a_policy_that_nobody_knows) {

@@ -148,6 +148,18 @@ TEST(Equipment, SaysWhatItsFreshRunsAreWorthAndHowFewTripsDecided) {
     EXPECT_THAT(flat_text(facts), Not(HasSubstr("Few of the")));
 }
 
+TEST(Equipment, SaysWhichRanksChangedNothingAndWhosePrograms) {
+    EquipmentFacts facts = two_of_twelve();
+    EXPECT_THAT(flat_text(facts), AllOf(Not(HasSubstr("changed no trip")), Not(HasSubstr("Rests on"))));
+    facts.ranked[1].gain = Estimate{10, 0.0, 0.0, Interval{0.0, 0.0}};
+    facts.programs = programs_words("Map data (c) OpenStreetMap contributors");
+    EXPECT_THAT(flat_text(facts),
+                AllOf(HasSubstr("Rank 2 changed no trip of the fresh seeds: its place is chance."),
+                      HasSubstr("Rests on signal programs made up for the map"),
+                      Not(HasSubstr("Not shown: the gain of rank 2"))));
+    EXPECT_EQ(programs_words("from net.net.xml"), "");
+}
+
 TEST(Equipment, NamesNoOrderWhereNothingIsShown) {
     EquipmentFacts facts = two_of_twelve();
     EXPECT_THAT(flat_text(facts), Not(HasSubstr("seeds would show")));

@@ -145,10 +145,8 @@ TEST(Assumptions, say_where_traffic_comes_from_and_what_red_means) {
                 HasSubstr("EVs of the baseline may pass red"));
     scenario.conditions[0].condition.settings = {{"privilege.pass_red", "1"}};
     EXPECT_THAT(assumptions_of(drawn, scenario), HasSubstr("may pass red"));
-    EXPECT_THAT(assumptions_of(
-                    "version = 'imported'\n[network]\nattribution = 'Map data (c) OpenStreetMap'\n" + drawn,
-                    scenario),
-                HasSubstr("signal programs made up by the import"));
+    EXPECT_THAT(assumptions_of("[network]\nattribution = 'Map data (c) OpenStreetMap'\n" + drawn, scenario),
+                HasSubstr("signal programs made up for the map, which has none, unless yours were entered"));
     scenario.roads->signals.clear();
     EXPECT_EQ(assumptions_of("[demand]\nemergency = 2\n[measured]\nautomated_share = 0.35\n", scenario),
               "Simulated: the trips of the scenario's files, automated share 0.35.");

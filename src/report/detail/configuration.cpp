@@ -8,6 +8,7 @@
 #include <toml++/toml.h>
 
 #include "core/strict_table.hpp"
+#include "report/equipment.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report::detail {
@@ -39,13 +40,6 @@ bool passes_red(const toml::table& scenario, const ConditionFacts& baseline) {
     return scenario["privilege"]["pass_red"].value_or(0.0) > 0.0;
 }
 
-/// Imported from OpenStreetMap, which says where signals stand and not what they show.
-bool is_of_map(const toml::table& scenario) {
-    const std::string credit = scenario["network"]["attribution"].value_or(std::string());
-    return scenario["version"].value_or(std::string()) == "imported" &&
-           credit.find("OpenStreetMap") != std::string::npos;
-}
-
 /// How demand came about, how much of it there is, and whether EVs of the baseline stop at red. Plain text.
 std::string assumptions_sentence(const toml::table& table, const ScenarioFacts& scenario) {
     if (!table["demand"].is_table()) return "";
@@ -55,8 +49,8 @@ std::string assumptions_sentence(const toml::table& table, const ScenarioFacts& 
     if (const double share = automated_share(table); share >= 0.0)
         words.push_back(fmt::format("automated share {:.2g}", share));
     const bool has_signals = scenario.roads && !scenario.roads->signals.empty();
-    if (has_signals && is_of_map(table))
-        words.emplace_back("signal programs made up by the import: the map has none");
+    const std::string programs = programs_words(table["network"]["attribution"].value_or(std::string()));
+    if (has_signals && !programs.empty()) words.push_back(programs);
     if (has_signals && !scenario.conditions.empty())
         words.emplace_back(passes_red(table, scenario.conditions.front())
                                ? "EVs of the baseline may pass red"

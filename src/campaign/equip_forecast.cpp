@@ -1,0 +1,174 @@
+#include "campaign/detail/equip_forecast.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "campaign/detail/equip_search.hpp"
+#include "campaign/detail/run_cost.hpp"
+#include "campaign/printout.hpp"
+#include "core/error.hpp"
+#include "core/json.hpp"
+#include "core/temporary_folder.hpp"
+#include "core/terminal.hpp"
+#include "experiment/settings.hpp"
+#include "report/text.hpp"
+
+namespace clearway::campaign {
+
+using detail::Search;
+using detail::search_of;
+
+namespace {
+
+/// Of a run of the scenario, s: from earlier runs in the folder or beside it, else rough or nothing.
+RunCost cost_of(const Search& search, const EquipRequest& request) {
+    study::StudyConfig config = search.config;
+    config.conditions = {experiment::baseline_for(request.condition), request.condition};
+    RunOptions options = request.run;
+    const study::Plan plan = plan_for(config, options);
+    RunCost cost;
+    for (const std::filesystem::path& folder : {request.run.folder / "round-01", request.run.folder}) {
+        cost =
+            CostBook(folder).of(config.scenarios.front(), plan.manifest.scenarios.front().configuration_hash,
+                                request.condition.traffic_model);
+        if (cost.basis == CostBasis::measured) break;
+    }
+    return cost;
+}
+
+unsigned processes_of(const EquipRequest& request) {
+    return request.run.workers > 0 ? request.run.workers : std::max(1U, std::thread::hardware_concurrency());
+}
+
+/// As many seeds as the time allows by the forecast of the fewest, to which runs are in proportion.
+std::uint32_t seeds_within(EquipRequest request) {
+    constexpr std::uint32_t most = 1000;  // as --seeds
+    request.replications = analysis::fewest_for_interval;
+    const core::TemporaryFolder network_folder;
+    const Search search = search_of(request, network_folder.path());
+    const RunCost cost = cost_of(search, request);
+    if (!cost.wall_s)
+        throw core::InputError({"--within", "the time of a run is unknown: its route files cannot be read",
+                                "a scenario whose files can be read", "Give --seeds instead"});
+    const double least_s =
+        static_cast<double>(search.rounds.forecast().likely()) * *cost.wall_s / processes_of(request);
+    if (least_s > request.within_s)
+        core::print_message(fmt::format(
+            "clearway: the least, {} seeds, takes about {}, more than the {} given ({}); a smaller --budget "
+            "or fewer --candidates take less\n",
+            request.replications, clock_words(least_s), clock_words(request.within_s), words(cost.basis)));
+    return static_cast<std::uint32_t>(
+        std::clamp<double>(request.replications * request.within_s / least_s, request.replications, most));
+}
+
+/// What a first look of a quarter of an hour could be, the most seeds and then places, where what is asked
+/// for takes longer; else empty. A run adds `run_s` to the time.
+std::string short_plan(const EquipRounds& rounds, const EquipRequest& request, std::size_t candidates,
+                       double run_s) {
+    constexpr std::size_t minutes = 15;
+    const auto seconds = [&](const EquipForecast& runs) {
+        return static_cast<double>(runs.likely()) * run_s;
+    };
+    const auto fits = [&](const EquipForecast& runs) { return seconds(runs) <= 60.0 * minutes; };
+    if (candidates == 0 || fits(rounds.forecast())) return "";
+    for (std::uint32_t seeds = request.replications; seeds >= analysis::fewest_for_interval; --seeds) {
+        for (std::size_t budget = std::min(request.budget, candidates); budget > 0; --budget)
+            if (fits(rounds.forecast(budget, seeds)))
+                return fmt::format(" A first look, in {} minutes: --seeds {} --budget {}.", minutes, seeds,
+                                   budget);
+    }
+    // Which signals trips pass is known for the seeds that were asked for: more take as much each.
+    const auto known = std::min<std::uint32_t>(request.replications, analysis::fewest_for_interval);
+    const double least_s = seconds(rounds.forecast(1, known)) * analysis::fewest_for_interval / known;
+    return fmt::format(
+        " The smallest plan that can show something of {} takes about {}: --seeds {} --budget 1.{}",
+        report::counted(candidates, "candidate"), clock_words(least_s), analysis::fewest_for_interval,
+        candidates > 1 ? " Fewer --candidates take less." : "");
+}
+
+}  // namespace
+
+EquipRequest detail::fitted(EquipRequest request) {
+    if (request.within_s <= 0.0) return request;
+    request.replications = seeds_within(request);
+    core::print_message(fmt::format("clearway: {} allow about --seeds {}\n", clock_words(request.within_s),
+                                    request.replications));
+    return request;
+}
+
+core::ExitCode equip_dry_run(EquipRequest request) {
+    request = detail::fitted(std::move(request));
+    const core::TemporaryFolder network_folder;
+    const Search search = search_of(request, network_folder.path());
+    search.rounds.require_fits();
+    const EquipForecast runs = search.rounds.forecast();
+    const RunCost cost = cost_of(search, request);
+    const unsigned processes = processes_of(request);
+    const auto seconds = [&](std::size_t count) -> core::Json {
+        if (!cost.wall_s) return nullptr;
+        return static_cast<double>(count) * *cost.wall_s / processes;
+    };
+    const auto clock = [&](std::size_t count) {
+        const core::Json left_s = seconds(count);
+        return left_s.is_null() ? "-" : clock_words(left_s.get<double>());
+    };
+    Table table{"stages",
+                {{"stage", "stage"},
+                 {"runs", "runs"},
+                 {"most_runs", "at most"},
+                 {"estimated_time_s", ""},
+                 {"", "about"}},
+                {}};
+    const auto add = [&](const std::string& stage, std::size_t likely, std::size_t most) {
+        table.rows.push_back({{stage, likely, most, seconds(likely), clock(likely)}});
+    };
+    const std::size_t candidates = search.signals.candidates.signals.size();
+    const std::size_t first =
+        std::min<std::size_t>(analysis::equip_looks(request.replications).front(), request.replications);
+    const std::size_t pairs = request.budget > 1 ? search.signals.candidates.neighbours.size() : 0;
+    add(fmt::format("place 1: {}{} on {} seeds", report::counted(candidates, "candidate"),
+                    pairs > 0 ? " and " + report::counted(pairs, "pair") : "", first),
+        runs.first_look, runs.first_look);
+    add(fmt::format("place 1: on {} seeds, if none drops out", request.replications), runs.race, runs.race);
+    add("later places", runs.later, runs.later_most);
+    add("fresh seeds: estimate", runs.fresh, runs.fresh);
+    const std::string size =
+        fmt::format("{} likely, {} at most, into {}; runs that it holds are not made again.",
+                    report::counted(runs.likely(), "run"), runs.most(), request.run.folder.string());
+    const std::string vain =
+        request.replications < analysis::fewest_for_interval
+            ? fmt::format(" Nothing can be shown by fewer than {} seeds.", analysis::fewest_for_interval)
+            : "";
+    const std::string time =
+        cost.wall_s ? fmt::format("About {} with {}, warm-ups left out ({}).", clock(runs.likely()),
+                                  report::counted(processes, "worker"), words(cost.basis))
+                    : "Time unknown: a run of this scenario beside that folder tells.";
+    const std::string few = request.budget > candidates
+                                ? fmt::format(" The budget is {}, and {} could gain.", request.budget,
+                                              report::counted(candidates, "signal"))
+                                : "";
+    const std::string shorter =
+        cost.wall_s ? short_plan(search.rounds, request, candidates, *cost.wall_s / processes) : "";
+    const report::SignalsMet& met = search.signals.candidates.met;
+    print({{{"folder", request.run.folder.string()},
+            {"share_of_trips_with_signals", core::to_json_value(met.share())},
+            {"signals_per_trip", core::to_json_value(met.mean())},
+            {"candidates", candidates},
+            {"runs", runs.likely()},
+            {"most_runs", runs.most()},
+            {"estimated_time_s", seconds(runs.likely())},
+            {"estimate_measured", cost.basis == CostBasis::measured}},
+           {table},
+           core::wrapped(size + few + vain, 0) + "\n" + core::wrapped(time + shorter, 0) + "\n",
+           core::wrapped(met.words(), 0) + "\n\n"},
+          request.run.publish.printing);
+    return core::ExitCode::ok;
+}
+
+}  // namespace clearway::campaign
