@@ -1,9 +1,11 @@
 #include "campaign/plan_text.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,11 +14,14 @@
 #include "campaign/detail/run_cost.hpp"
 #include "core/counted.hpp"
 #include "core/error.hpp"
+#include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/settings.hpp"
 #include "report/read_facts.hpp"
 #include "results/store.hpp"
+#include "scenario/network.hpp"
+#include "scenario/site.hpp"
 #include "study/reuse.hpp"
 
 namespace clearway::campaign {
@@ -154,21 +159,21 @@ Table table_of(const std::vector<Cell>& cells, const core::Settings& titles) {
                  {"runs", "runs"},
                  {"complete_runs", "complete"},
                  {"reused_runs", ""},
-                 {"", "failure, predictor, policy"},
                  {"estimated_run_s", ""},
                  {"estimated_run_disk_bytes", ""},
                  {"estimate_measured", ""}},
                 {}};
     for (const Cell& cell : cells) {
         const experiment::ConditionSpec& condition = cell.condition;
-        table.rows.push_back(
-            {{cell.scenario, condition.name, titles.at(condition.name),
-              experiment::name(condition.traffic_model), condition.failure, condition.settings,
-              condition.model_file, condition.predictor, condition.policies,
-              experiment::name(condition.safety_checks), cell.runs, cell.complete, cell.reused,
-              fmt::format("{}, {}, {}", condition.failure, condition.predictor, policy_of(condition)),
-              core::to_json_value(cell.cost.wall_s), cell.cost.disk_bytes,
-              cell.cost.basis == CostBasis::measured}});
+        Row row{{cell.scenario, condition.name, titles.at(condition.name),
+                 experiment::name(condition.traffic_model), condition.failure, condition.settings,
+                 condition.model_file, condition.predictor, condition.policies,
+                 experiment::name(condition.safety_checks), cell.runs, cell.complete, cell.reused,
+                 core::to_json_value(cell.cost.wall_s), cell.cost.disk_bytes,
+                 cell.cost.basis == CostBasis::measured}};
+        row.below.push_back(fmt::format("failure {}, predictor {}, policy {}", condition.failure,
+                                        condition.predictor, policy_of(condition)));
+        table.rows.push_back(std::move(row));
     }
     return table;
 }
@@ -207,12 +212,29 @@ Printout plan_printout(const study::Plan& plan, const RunOptions& options) {
             text};
 }
 
+namespace {
+
+/// Sites stand on roads, which a plan does not read otherwise. Variants of a scenario share them.
+void check_sites(const study::StudyConfig& config) {
+    std::set<std::filesystem::path> checked;
+    std::vector<core::Problem> problems;
+    for (const scenario::ScenarioConfig& scenario : config.scenarios) {
+        if (scenario.emergency_sites.empty() || !checked.insert(scenario.folder).second) continue;
+        const core::TemporaryFolder folder;
+        scenario::site_edges(scenario, scenario::build_network(scenario, folder.path()).network, problems);
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+}
+
+}  // namespace
+
 core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, RunOptions options) {
     config.replications = replications_so_far(config, options.folder);
     require_divisible(config, shard);
     study::Plan plan = plan_for(config, options);
     study::require_own_shard(options.folder, shard);
     study::require_ready(plan, options.folder);
+    check_sites(config);
     std::optional<core::InputError> refusal;
     try {
         results::Store::require_fits(options.folder, plan.manifest);

@@ -352,6 +352,20 @@ TEST_F(BadInputTest, a_dry_run_refuses_the_incidents_that_a_run_refuses) {
     EXPECT_THAT(study.err, HasSubstr(wrong));
 }
 
+TEST_F(BadInputTest, a_dry_run_refuses_a_site_beside_the_roads) {
+    ASSERT_EQ(clearway({"scenario", "init", "town", "--from", "city"}).code, 0);
+    write("town/scenario.toml",
+          read("town/scenario.toml") + "\n[[emergency_site]]\nkind = \"hospital\"\nedge = \"nowhere\"\n");
+    std::vector<std::string> words = {"run", "./town", "--seeds", "1", "--out", "out"};
+    const Ended real = clearway(words);
+    EXPECT_EQ(real.code, 3);
+    EXPECT_THAT(real.err, AllOf(HasSubstr("emergency_site["), HasSubstr("nowhere")));
+    words.emplace_back("--dry-run");
+    const Ended dry = clearway(words);
+    EXPECT_EQ(dry.code, 3) << dry.out;
+    EXPECT_EQ(dry.err, real.err);
+}
+
 TEST_F(BadInputTest, a_dry_run_refuses_what_a_run_refuses) {
     write_line_scenario();
     write("my.toml", "name = \"mine\"\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n");
