@@ -366,6 +366,17 @@ Tile others_tile(const ScenarioFacts& /*scenario*/, const ConditionFacts& condit
     return tile;
 }
 
+namespace {
+
+/// Whether the baseline collides so often that its model of drivers, not a policy, makes the collisions.
+bool collides_by_itself(const ConditionFacts& baseline) {
+    constexpr double many = 0.01;  // collisions a vehicle, as `scenario check` has it
+    const double vehicles = baseline.total("vehicle_count");
+    return vehicles > 0.0 && baseline.total("collisions") > many * vehicles;
+}
+
+}  // namespace
+
 Tile safety_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     Tile tile{"Safety", missing(script), "no complete run", Tile::Tone::neutral};
     if (condition.complete_runs == 0) return tile;
@@ -373,8 +384,9 @@ Tile safety_tile(const ScenarioFacts& scenario, const ConditionFacts& condition,
     tile.figure = count == 0 ? "no collision" : counted(count, "collision");
     tile.meaning = "in " + counted(condition.complete_runs, "run");
     if (const ConditionFacts* const baseline = scenario.baseline_of(condition))
-        tile.meaning += fmt::format("; baseline: {} in {}", grouped(baseline->count("collisions")),
-                                    baseline->complete_runs);
+        tile.meaning += fmt::format(
+            "; baseline: {} in {}{}", grouped(baseline->count("collisions")), baseline->complete_runs,
+            collides_by_itself(*baseline) ? ", so many that they say nothing about safety" : "");
     const Effect effect = effect_of(condition, Measure::collisions);
     tile.tone = tone_of(effect);
     if (effect == Effect::better) tile.meaning += "; fewer";

@@ -156,6 +156,10 @@ TEST_F(Overview, CountsCollisionsAgainstTheBaseline) {
     EXPECT_EQ(safety().figure, "7 collisions");
     EXPECT_EQ(safety().tone, Tile::Tone::neutral);  // no difference is shown
     EXPECT_THAT(safety().meaning, HasSubstr("2 with an emergency vehicle"));
+    tests::set_total(scenario_.conditions[0], "vehicle_count", 500);
+    EXPECT_THAT(safety().meaning, Not(HasSubstr("say nothing about safety")));
+    tests::set_total(scenario_.conditions[0], "vehicle_count", 499);
+    EXPECT_THAT(safety().meaning, HasSubstr("baseline: 5 in 20, so many that they say nothing about safety"));
     tests::difference(corridor(), Measure::collisions) = around(0.4, 0.2);
     EXPECT_EQ(safety().tone, Tile::Tone::worse);
     EXPECT_THAT(headline(), HasSubstr("more collisions than the baseline"));
@@ -251,8 +255,23 @@ TEST_F(Controls, tell_a_part_that_harms_one_that_never_acts_objections_and_too_f
     scenario_.conditions[2].objections.baseline_emergency = {.arrived = 20};
     scenario_.conditions[3].same_as.clear();
     set(scenario_.conditions[3], {71.0, 73.0});
-    EXPECT_THAT(sentence(), testing::EndsWith("deaf (lost EVs): +0.1 [0.0, 0.2], too small to matter; blind: "
-                                              "0.0, no verdict."));
+    EXPECT_THAT(sentence(),
+                testing::EndsWith("deaf (lost EVs): +0.1 [0.0, 0.2], too small to matter, the same EV "
+                                  "times in 2 of 5 runs; blind: 0.0, no verdict."));
+}
+
+TEST_F(Controls, say_what_a_failure_costs_and_where_it_changes_nothing) {
+    corridor().condition.failure = "B40";
+    scenario_.conditions[2].condition.name = "corridor_perfect";
+    set(scenario_.conditions[2], {70.0, 74.0, 73.0, 74.0, 75.0});
+    EXPECT_THAT(sentence(),
+                HasSubstr("s: nothing fails (deaf): -0.8 [-2.2, 0.6], no difference shown, the same "
+                          "EV times in 3 of 5 runs; blind"));
+    corridor().same_as = "corridor_perfect";
+    EXPECT_THAT(
+        sentence(),
+        HasSubstr(
+            "nothing fails (deaf): every run is the same, so what is off there does nothing here; blind"));
 }
 
 TEST_F(Controls, are_neither_featured_nor_counted) {
