@@ -105,10 +105,9 @@ std::string user_among_runs(const StudyConfig& config, const fs::path& folder,
     return "";
 }
 
-core::InputError used_before(const StudyConfig& config, const fs::path& file, const std::string& user,
-                             const char* cure) {
-    return core::InputError({fmt::format("{}: seed", file.string()),
-                             fmt::format("{} was used before, by {}", config.seed, user),
+core::InputError not_fresh(const StudyConfig& config, const fs::path& file, const std::string& why,
+                           const char* cure) {
+    return core::InputError({fmt::format("{}: seed", file.string()), fmt::format("{} {}", config.seed, why),
                              "a seed that nothing was tuned on or looked at", cure});
 }
 
@@ -119,13 +118,13 @@ std::vector<core::Problem> check_fresh_seed(const StudyConfig& config, const fs:
     std::vector<core::Problem> unread;
     if (!config.plan) return unread;
     if (const std::string user = user_among_files(config, file); !user.empty())
-        throw used_before(config, file, user,
-                          "Give the study another seed, or remove [plan] and call its results exploratory");
+        throw not_fresh(
+            config, file, "is also that of " + user + ", by which it may have been looked at",
+            "Give one of the two another seed, or remove [plan] and call the results exploratory");
     if (const std::string user = user_among_runs(config, folder, unread); !user.empty())
-        throw used_before(
-            config, file, user,
-            "Other settings were run on this seed: go on with those, take a seed that was never "
-            "run, or remove [plan], take another --out and call the results exploratory");
+        throw not_fresh(config, file, "was used before, by " + user,
+                        "Other settings were run on this seed: go on with those, take a seed that was never "
+                        "run, or remove [plan], take another --out and call the results exploratory");
     return unread;
 }
 

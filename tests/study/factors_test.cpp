@@ -79,7 +79,8 @@ B10 = "one report in ten"
     EXPECT_EQ(plan.manifest, make_plan(read(factors), {"0.1.0", "1.15.0"}, "/out").manifest);
     EXPECT_THAT(problems(factors + "[titles]\nB20 = \"x\"\ngraph_simulation = \"\"\n"),
                 AllOf(HasSubstr("titles.B20: is no condition, and no text that a factor gives one"),
-                      HasSubstr("Did you mean 'B10'?"), HasSubstr("titles.graph_simulation")));
+                      HasSubstr("Did you mean 'B10'? One of the two is misspelt"),
+                      HasSubstr("titles.graph_simulation")));
 }
 
 TEST_F(Factors, MayBeQuotedAsSettingsAre) {

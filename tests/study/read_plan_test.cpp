@@ -128,6 +128,16 @@ TEST_F(PlannedStudy, NamesConditionsByFactorsInAnyOrder) {
     const std::string in_order = "corridor+failure=B10+policy=vacate_lane";
     for (const std::string& name : {in_order, std::string("corridor+policy=vacate_lane+failure=B10")})
         EXPECT_EQ(read(compared(name)).plan->comparisons[0].condition, in_order);
+    const std::string titled = compared("Green way+policy=A path+failure=B10");
+    EXPECT_EQ(read(titled + "[titles]\ncorridor = 'Green way'\nvacate_lane = 'A path'\n")
+                  .plan->comparisons[0]
+                  .condition,
+              in_order);
+    EXPECT_EQ(
+        read(compared("Both") + "[titles]\n'" + in_order + "' = 'Both'\n").plan->comparisons[0].condition,
+        in_order);
+    EXPECT_THAT(problems(compared("vacate_lane, B10, no repair")),
+                HasSubstr("Factors are part of a name: write '" + in_order + "'"));
     const std::string refused = problems(compared("corridor+policy=vacate_lan+failure=B10"));
     EXPECT_THAT(refused, HasSubstr("'corridor+policy=vacate_lan+failure=B10' is not in the study"));
     const std::string both =
@@ -228,8 +238,9 @@ TEST_F(PlannedStudy, IsRefusedWhenAnotherStudyFileHasItsSeed) {
     folder_.write("notes.toml", "seed = 77\n");
     EXPECT_EQ(refusal(check), "none") << "no study: it has no conditions";
     folder_.write("tuned.toml", "seed = 77\nconditions = [\"baseline\"]\n");
-    EXPECT_THAT(refusal(check), AllOf(HasSubstr("study.toml: seed"), HasSubstr("77 was used before, by"),
-                                      HasSubstr("tuned.toml"), HasSubstr("Give the study another seed")));
+    EXPECT_THAT(refusal(check), AllOf(HasSubstr("study.toml: seed"), HasSubstr("77 is also that of "),
+                                      HasSubstr("tuned.toml, by which it may have been looked at"),
+                                      HasSubstr("Give one of the two another seed")));
     folder_.write("tuned.toml", "seed = 1\nconditions = [\"baseline\"]\n[quick]\nseed = 77\n");
     EXPECT_THAT(refusal(check), HasSubstr("tuned.toml")) << "its trials";
     StudyConfig exploratory = config;

@@ -24,6 +24,24 @@ std::vector<std::string> names_of(const std::vector<Element>& elements) {
     return core::texts_of(elements, &Element::name);
 }
 
+/// Those whose levels are most of the words of a title, `corridor, B10, no repair`; at most three.
+std::vector<std::string> named_by(const std::string& title, const std::vector<std::string>& known) {
+    constexpr std::size_t most_told = 3;
+    std::vector<std::string> best;
+    std::size_t most = 1;  // one word alone says too little
+    for (const std::string& name : known) {
+        std::size_t count = 0;
+        std::istringstream words(title);
+        for (std::string word; std::getline(words >> std::ws, word, ',');)
+            count += (name + "+").find("=" + core::as_folder_name(word) + "+") != std::string::npos ? 1 : 0;
+        if (count > most) best.clear();
+        if (count >= std::max<std::size_t>(most, 2)) best.push_back(name);
+        most = std::max(most, count);
+    }
+    best.resize(std::min(best.size(), most_told));
+    return best;
+}
+
 /// The name probably meant by one that is not in the study. Factors lengthen names: `a` is `a+lease_s=2`
 /// then.
 std::string meant(const std::string& name, const std::vector<std::string>& known) {
@@ -31,6 +49,7 @@ std::string meant(const std::string& name, const std::vector<std::string>& known
     for (const std::string& full : known) {
         if (!name.empty() && full.starts_with(name + "+")) lengthened.push_back(full);
     }
+    if (lengthened.empty()) lengthened = named_by(name, known);
     if (!lengthened.empty())
         return fmt::format("Factors are part of a name: write '{}'", fmt::join(lengthened, "' or '"));
     return core::did_you_mean(name, known);
@@ -67,10 +86,23 @@ std::vector<std::string> parts_of(const std::string& name) {
     return parts;
 }
 
+/// What `[titles]` gives this title, or the text itself.
+std::string untitled(const std::string& text, const core::Settings& titles) {
+    const auto found = std::ranges::find(titles, text, [](const auto& title) { return title.second; });
+    return found == titles.end() ? text : found->first;
+}
+
 /// The name in the study of `linked+policy=mine.py:Green+failure=B10`, whose factors may have any order and
-/// values as they stand in the file; the same text where there is none.
-std::string full_name(const std::string& text, const std::vector<std::string>& known) {
-    const auto found = std::ranges::find(known, parts_of(text), parts_of);
+/// values as they stand in the file, and any part its title; the same text where there is none.
+std::string full_name(const std::string& text, const std::vector<std::string>& known,
+                      const core::Settings& titles) {
+    std::string name;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, '+');) {
+        const std::size_t value = part.find('=') + 1;
+        name += (name.empty() ? "" : "+") + part.substr(0, value) + untitled(part.substr(value), titles);
+    }
+    const auto found = std::ranges::find(known, parts_of(name), parts_of);
     return found == known.end() ? text : *found;
 }
 
@@ -184,8 +216,8 @@ void read_plan(StrictTable& root, Extent extent, StudyConfig& config) {
                      "2 or more", "Give as many as the claims need, or remove [plan]");
     Known known{Names(names_of(config.conditions)), Names(names_of(config.scenarios))};
     for (results::PlannedComparison& comparison : plan.comparisons) {
-        comparison.condition = full_name(comparison.condition, known.conditions.known());
-        comparison.against = full_name(comparison.against, known.conditions.known());
+        comparison.condition = full_name(comparison.condition, known.conditions.known(), config.titles);
+        comparison.against = full_name(comparison.against, known.conditions.known(), config.titles);
     }
     for (std::size_t at = 0; at < rows.size(); ++at)
         check_comparison(rows[at], plan.comparisons[at], known);

@@ -35,9 +35,10 @@ void read_titles(core::StrictTable& root, const std::vector<experiment::Conditio
         const std::string name(key.str());
         reader->text(name, config.titles[name]);
         const bool left_out = extent == Extent::quick && name.find('+') != std::string::npos;
-        if (!left_out && !has(known, name))
-            reader->problem(name, "is no condition, and no text that a factor gives one", core::listed(known),
-                            core::did_you_mean(name, known));
+        if (left_out || has(known, name)) continue;
+        const std::string nearest = core::did_you_mean(name, known);
+        reader->problem(name, "is no condition, and no text that a factor gives one", core::listed(known),
+                        nearest.empty() ? "" : nearest + " One of the two is misspelt");
     }
 }
 
