@@ -107,8 +107,8 @@ text-underline-offset:.2em}
 .save button:hover{color:var(--ink)}
 figure svg.plot,figure svg.network{display:block;width:100%;height:auto;max-width:100%}
 figure svg.network{background:var(--panel);border-radius:8px;max-height:420px}.network text{font-size:26px!important}
-@container (min-width:480px){.plot text{font-size:10.5px}.plot .heading{font-size:11.5px}}
-@container (min-width:640px){.plot text{font-size:9px}.plot .heading{font-size:10px}}
+@container (min-width:480px){.plot text{font-size:10.5px}.plot .heading{font-size:11.5px}.plot .range{font-size:9.8px}}
+@container (min-width:640px){.plot text{font-size:9px}.plot .heading{font-size:10px}.plot .range{font-size:8.4px}}
 details{margin:.4rem 0;font-size:.9rem}summary{cursor:pointer;color:var(--muted);padding:.2rem 0}
 details.section{font-size:1rem;border-top:1px solid var(--rule);margin:0}
 details.section>summary{padding:.55rem 0;color:var(--ink)}

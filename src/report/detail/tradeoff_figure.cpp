@@ -36,11 +36,20 @@ struct Point {
     std::string objection() const { return analysis::emergency_objection_word(condition->objections); }
 };
 
-/// Whether each of its runs is one of another compared condition, whose mark shows both.
+double mean_or_zero(const MaybeEstimate& estimate) {
+    return analysis::mean_of(estimate).value_or(0.0);
+}
+
+/// Whether each of its runs is one of another condition whose mark stands at the same place: with other
+/// opponents, equal runs gain differently.
 bool is_shown_by_another(const ScenarioFacts& scenario, const Point& point) {
     const std::size_t same = scenario.place_of(point.condition->same_as);
-    return point.series.weight != Series::Weight::lead && same < scenario.conditions.size() &&
-           scenario.conditions[same].is_compared();
+    if (point.series.weight == Series::Weight::lead || same >= scenario.conditions.size()) return false;
+    const ConditionFacts& other = scenario.conditions[same];
+    const auto equal = [&](Measure measure) {
+        return mean_or_zero(other.difference(measure)) == mean_or_zero(point.condition->difference(measure));
+    };
+    return other.is_compared() && equal(gain) && equal(cost);
 }
 
 /// In the order in which they are drawn.
@@ -126,8 +135,8 @@ void draw_mark(Plot& plot, const Point& point, const Place& at) {
         mark_of(point.series, at.first, at.second, mark_radius, point.objection().empty() ? "" : hollow));
 }
 
-/// Intervals first. Then numbers or marks, none of which hides another, with dots and what leads to them.
-/// Returns whether some do not stand at their points.
+/// Intervals first. Then marks at their points, or numbers, none of which hides another, with dots and what
+/// leads to them. Returns whether some numbers do not stand at their points.
 bool draw(Plot& plot, const std::vector<Point>& points) {
     std::vector<Place> places;
     for (const Point& point : points) {
@@ -138,22 +147,38 @@ bool draw(Plot& plot, const std::vector<Point>& points) {
         else
             draw_intervals(plot, point, places.back());
     }
-    const bool marked = points.front().series.levels.has_value();
-    const auto is_placed = [&](const Point& point) { return marked || !point.turned_alone; };
+    if (points.front().series.levels) {
+        for (std::size_t at = 0; at < points.size(); ++at)
+            draw_mark(plot, points[at], places[at]);
+        return false;
+    }
     std::vector<Place> taken;
     bool is_moved = false;
     for (std::size_t at = points.size(); at-- > 0;) {  // The one that leads is placed first: at its point.
-        if (!is_placed(points[at])) continue;
-        taken.push_back(free_place(places[at], taken, marked ? mark_radius : badge_radius, plot));
+        if (points[at].turned_alone) continue;
+        taken.push_back(free_place(places[at], taken, badge_radius, plot));
         is_moved = is_moved || taken.back() != places[at];
         draw_leader(plot, points[at], places[at], taken.back());
     }
     for (const Point& point : points) {
-        if (!is_placed(point)) continue;
-        (marked ? draw_mark : draw_number)(plot, point, taken.back());
+        if (point.turned_alone) continue;
+        draw_number(plot, point, taken.back());
         taken.pop_back();
     }
     return is_moved;
+}
+
+/// ` 8 marks touch others; the data have each.`, where marks are left at their values.
+std::string touching_words(const Plot& plot, const std::vector<Point>& points) {
+    if (!points.front().series.levels) return "";
+    std::vector<Place> places;
+    for (const Point& point : points)
+        places.emplace_back(plot.x().place(point.lost()->mean), plot.y().place(point.gained()->mean));
+    const auto touching = std::ranges::count_if(places, [&](const Place& place) {
+        return 1 < std::ranges::count_if(
+                       places, [&](const Place& other) { return distance(place, other) < mark_radius; });
+    });
+    return touching == 0 ? "" : fmt::format(" {} marks touch others; the data have each.", touching);
 }
 
 std::vector<Point> by_number(std::vector<Point> points) {
@@ -191,7 +216,7 @@ std::vector<LegendEntry> sign_entries(const ScenarioFacts& scenario, const std::
     for (const Point& point : points) {
         if (point.series.weight == Series::Weight::lead)
             entries.push_back(
-                dot_entry("ring " + colour_of(point.series), "ring: headline, " + point.condition->label()));
+                dot_entry("ring " + colour_of(point.series), "ring: " + point.condition->label()));
     }
     if (scenario.least_relevant_s > 0.0)
         entries.push_back(
@@ -203,19 +228,25 @@ std::vector<LegendEntry> sign_entries(const ScenarioFacts& scenario, const std::
 
 /// `policy: ...` in colours, `failure: ...` in marks, and what hollow marks mean.
 void add_legends(Plot& plot, const Crossing& crossing, const std::vector<Point>& points) {
-    const auto named = [](const Crossing::Aspect& aspect, const auto& entry_of) {
+    const auto named = [&](const Crossing::Aspect& aspect, std::size_t Series::Levels::*level_of,
+                           const auto& entry_of) {
         std::vector<std::string> names;
         for (const std::string& name : aspect.names)
             names.push_back(name.substr(name.rfind('.') + 1));
         std::vector<LegendEntry> entries = {{"", fmt::format("{}:", fmt::join(names, ", "))}};
-        for (std::size_t level = 1; level <= aspect.levels.size(); ++level)
-            entries.push_back(entry_of(level, aspect.levels[level - 1]));
+        for (std::size_t level = 1; level <= aspect.levels.size(); ++level) {
+            const bool is_drawn = std::ranges::any_of(points, [&](const Point& point) {
+                return point.series.levels && *point.series.levels.*level_of == level;
+            });
+            if (is_drawn) entries.push_back(entry_of(level, aspect.levels[level - 1]));
+        }
         return entries;
     };
-    plot.legend(named(crossing.colour, [](std::size_t level, const std::string& words) {
-        return line_entry({.levels = Series::Levels{level, 0}}, words);
-    }));
-    plot.legend(named(crossing.mark, [](std::size_t level, const std::string& words) {
+    plot.legend(
+        named(crossing.colour, &Series::Levels::colour, [](std::size_t level, const std::string& words) {
+            return line_entry({.levels = Series::Levels{level, 0}}, words);
+        }));
+    plot.legend(named(crossing.mark, &Series::Levels::mark, [](std::size_t level, const std::string& words) {
         return mark_entry({.levels = Series::Levels{0, level}}, words);
     }));
     std::set<std::string> objections;
@@ -265,20 +296,20 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
         signs.push_back(
             {"<circle class=\"dot s0\" cx=\"8\" cy=\"5\" r=\"2.6\"/><path class=\"leader s0\" d=\"M8 "
              "5H28\"/>",
-             fmt::format("dot: the true place of the {} at its line", crossing ? "mark" : "number")});
+             "dot: the true place of the number at its line"});
     plot.legend(signs);
     std::string note = fmt::format(
         "Up is better for emergency vehicles, left is better for the others. Bars are 95 % intervals. In the "
         "grey band a gain or loss is below {} s and does not count.",
         number(scenario.least_relevant_s, typeset(1)));
-    if (is_moved)
-        note +=
-            fmt::format(" A {} that would hide another has a line to its dot.", crossing ? "mark" : "number");
+    note += touching_words(plot, points);
+    if (is_moved) note += " A number that would hide another has a line to its dot.";
     if (merged > 0)
         note += fmt::format(" Without a mark: {} whose every run is one of another (see the verdicts).",
                             counted(merged, "condition"));
     if (std::ranges::any_of(points, &Point::turned_alone)) note += " Small dots: one setting turned alone.";
-    return {"tradeoff-" + scenario.name, "Gain and cost", plot.finish(), note, std::move(data)};
+    return {"tradeoff-" + scenario.name, "Gain and cost against the baseline", plot.finish(), note,
+            std::move(data)};
 }
 
 }  // namespace clearway::report::detail
