@@ -61,11 +61,6 @@ std::string label_of(const ConditionTitleMap& titles, const ScenarioSummary& sce
                 (is_unsafe(condition) ? " (!)" : ""));
 }
 
-std::string p_text(const std::optional<double>& p) {
-    if (!p) return missing(Script::plain);
-    return *p < 0.001 ? "<0.001" : number(*p, {.decimals = 3});
-}
-
 std::string numbers_of(const Comparison& comparison) {
     const NumberStyle style{.decimals = 2};
     const NumberStyle with_sign{.decimals = 2, .sign = Sign::always};
@@ -86,8 +81,8 @@ std::string numbers_of(const Comparison& comparison) {
                        relative ? number(100.0 * relative->mean, {.decimals = 0, .sign = Sign::always})
                                 : missing(Script::plain),
                        few ? missing(Script::plain) : number_or_dash(comparison.effect_size, style),
-                       few ? missing(Script::plain) : p_text(comparison.holm_p),
-                       few ? missing(Script::plain) : p_text(comparison.wilcoxon_p));
+                       few ? missing(Script::plain) : p_words(comparison.holm_p, Script::plain),
+                       few ? missing(Script::plain) : p_words(comparison.wilcoxon_p, Script::plain));
 }
 
 Json to_json(const Comparison& comparison) {

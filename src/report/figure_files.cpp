@@ -131,6 +131,14 @@ class FileWriter : public detail::Writer {
             text.replace(at, usual.size(), reference);
         return text;
     }
+    /// For axes, where a long name would run out of the drawing; captions have it in full.
+    std::string short_reference() const {
+        constexpr std::string_view same = "the same with ";
+        constexpr std::size_t longest = 24;
+        std::string words = study_.reference;
+        if (words.starts_with(same)) words.erase(0, same.size());
+        return words.size() > longest ? "its opponent" : words;
+    }
     /// Two exports of a study may stand in one paper.
     std::string label(const std::string& name) const {
         return study_.reference.empty() ? name : name + "-against-" + plain_name(study_.reference);
@@ -172,7 +180,7 @@ class FileWriter : public detail::Writer {
         return full(figure.caption, figure.name) + seeds_of(figure.name);
     }
     std::string drawing_of(const Figure& figure) const {
-        const std::string drawing = named(figure.drawing, escaped(study_.reference));
+        const std::string drawing = named(figure.drawing, escaped(short_reference()));
         if (choice_.words == FigureChoice::Words::bare) return detail::standalone(drawing);
         return detail::standalone(drawing, title_of(figure), named(figure.note, study_.reference));
     }
@@ -227,7 +235,9 @@ std::string entry_markup(const FigureEntry& entry, const std::vector<std::string
             escaped(fmt::format(
                 "\\begin{{figure}}\n\\centering\n\\includegraphics[width=\\linewidth]{{{0}{1}}}\n"
                 "\\caption{{{2}}}\n\\label{{fig:{3}}}\n\\end{{figure}}",
-                entry.name, has_pdf ? ".pdf" : "", detail::latex_escaped(entry.caption), entry.label)));
+                entry.name, has_pdf ? ".pdf" : "",
+                detail::latex_escaped(entry.caption + "." + (entry.note.empty() ? "" : " " + entry.note)),
+                entry.label)));
     }
     return html + "</figure>\n";
 }

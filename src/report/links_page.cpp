@@ -219,9 +219,9 @@ std::string comparisons_section(const LinkFacts& facts) {
     for (const links::LinkComparison& one : facts.comparisons) {
         table.rows.push_back({one.pair.predictor + " \u2212 " + one.pair.against, one.failure,
                               std::string(core::name(one.exits)), with_interval(one.ap.difference, 4),
-                              decimal(one.ap.p, 4), decimal(one.ap.holm_p, 4),
-                              with_interval(one.f1.difference, 4), decimal(one.f1.p, 4),
-                              decimal(one.f1.holm_p, 4)});
+                              p_words(one.ap.p, Script::typeset), p_words(one.ap.holm_p, Script::typeset),
+                              with_interval(one.f1.difference, 4), p_words(one.f1.p, Script::typeset),
+                              p_words(one.f1.holm_p, Script::typeset)});
     }
     return fmt::format(
         "<p>The benchmark names these comparisons in advance. {} p: two-sided, bootstrap over runs; "

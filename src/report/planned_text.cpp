@@ -39,11 +39,6 @@ std::string row_of(const StudyFacts& study, const PlannedFinding& finding) {
 
 }  // namespace
 
-std::string p_words(const std::optional<double>& p, Script script) {
-    if (p && *p < 0.0001) return "<0.0001";
-    return number_or_dash(p, {.decimals = 4, .script = script});
-}
-
 std::string pair_words(const StudyFacts& study, const PlannedFinding& finding, Script script) {
     return fmt::format("{} {} {}", title_of(study, finding.scenario, finding.comparison.condition),
                        script == Script::typeset ? "\u2212" : "-",

@@ -14,9 +14,6 @@ std::string finding_words(const analysis::PlannedFinding& finding, Script script
 /// What was compared, by the titles of the conditions: `Ours, outages - corridor, outages`.
 std::string pair_words(const StudyFacts& study, const analysis::PlannedFinding& finding, Script script);
 
-/// A p-value with four digits after the point; `<0.0001` below them.
-std::string p_words(const std::optional<double>& p, Script script);
-
 /// What is confirmatory in a study with a plan, and that the rest is not. Plain text.
 std::string plan_sentence(const StudyFacts& study);
 

@@ -43,6 +43,11 @@ std::string number_or_dash(const std::optional<double>& value, NumberStyle style
     return value ? number(*value, style) : missing(style.script);
 }
 
+std::string p_words(const std::optional<double>& p, Script script) {
+    if (p && *p < 0.001) return "<0.001";
+    return number_or_dash(p, {.decimals = 3, .script = script});
+}
+
 std::string estimate(const MaybeEstimate& estimate, NumberStyle style, double factor) {
     if (!estimate) return missing(style.script);
     std::string text = number(estimate->mean * factor, style);

@@ -46,6 +46,8 @@ std::string interval_text(const analysis::Interval& interval, NumberStyle style,
 
 /// A number, or the text for a missing one.
 std::string number_or_dash(const std::optional<double>& value, NumberStyle style);
+/// A p-value with three digits after the point; `<0.001` below them.
+std::string p_words(const std::optional<double>& p, Script script);
 
 /// Text for a terminal. Control characters become `?`, because names come from files.
 std::string printable(const std::string& text);

@@ -98,7 +98,7 @@ TEST_F(FiguresTest, with_svg_only_no_other_program_is_needed) {
     EXPECT_THAT(ended.err, AllOf(HasSubstr("figures as SVG, "), Not(HasSubstr("PDF"))));
     EXPECT_EQ(files("figures").count(".png") + files("figures").count(".pdf"), 0U);
     EXPECT_THAT(read("figures/index.html"),
-                AllOf(HasSubstr("tradeoff-line.svg"), HasSubstr("line: Gain and cost"),
+                AllOf(HasSubstr("tradeoff-line.svg"), HasSubstr("line: Gain and cost against the baseline"),
                       Not(HasSubstr("Training of the nets")), Not(HasSubstr(".pdf\""))));
     const Ended lacking = clearway({"export", "figures", "study", "--out", "others"}, bare);
     EXPECT_EQ(lacking.code, 4);

@@ -59,8 +59,8 @@ TEST(ConsoleTables, print_what_a_plan_confirms_before_all_else) {
     EXPECT_TRUE(text.starts_with("Confirmatory: the 2 comparisons of the plan, in emergency_restricted"));
     EXPECT_THAT(text, HasSubstr("\nAll claims hold together with probability 0.95 (Holm)"));
     EXPECT_THAT(text, HasSubstr("links act (merge)\n    linked - links_cut "));
-    EXPECT_THAT(text, HasSubstr("-2.50 [-3.00, -2.00]      20  <0.0001  shown: less time\n"));
-    EXPECT_THAT(text, HasSubstr("0.0200  equivalent within 1.2 s"));
+    EXPECT_THAT(text, HasSubstr("-2.50 [-3.00, -2.00]      20   <0.001  shown: less time\n"));
+    EXPECT_THAT(text, HasSubstr("0.020  equivalent within 1.2 s"));
     EXPECT_LT(text.find("Exploratory: everything below"), text.find("TABLE II"));
     for (const std::string& line : lines_of(text.substr(0, text.find("Exploratory"))))
         EXPECT_LE(line.size(), 100u) << line;

@@ -158,7 +158,7 @@ TEST(Page, marks_places_of_calls_on_the_map) {
 TEST(Page, tells_all_that_is_known_of_a_paired_difference) {
     const std::string page = page_of(tests::study({"merge"}));
     EXPECT_THAT(page, HasSubstr("Statistics of the paired differences"));
-    for (const char* const cell : {">\u22121.87</td>", ">&lt; 0.001</td>", ">0.002</td>", ">20</td>"}) {
+    for (const char* const cell : {">\u22121.87</td>", ">&lt;0.001</td>", ">0.002</td>", ">20</td>"}) {
         EXPECT_THAT(page, HasSubstr(cell));
     }
     EXPECT_THAT(page, HasSubstr("id=\"enough\""));

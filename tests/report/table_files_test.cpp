@@ -61,6 +61,22 @@ TEST(TableFiles, AreEscapedForLatex) {
     }
 }
 
+TEST(TableFiles, OfManyColumnsStandOnTheirSideInLatex) {
+    Table table{"t", "c", {{"Condition"}, {{"one"}}}};
+    const auto add = [&](const char* cell) {
+        table.data.head.emplace_back("column");
+        table.data.rows[0].emplace_back(cell);
+    };
+    for (int column = 0; column < 9; ++column)
+        add("1");
+    add("1.0 [0.5, 1.5]");
+    EXPECT_THAT(to_latex(table), HasSubstr("\\begin{table}\n")) << "11 columns, one of them two wide";
+    add("2");
+    EXPECT_THAT(to_latex(table),
+                AllOf(HasSubstr("graphicx,rotating,siunitx"), HasSubstr("\\begin{sidewaystable}\n"),
+                      HasSubstr("\\end{sidewaystable}\n")));
+}
+
 TEST(TableFiles, SetNumbersAndIntervalsInColumnsOfSiunitx) {
     const Table table{"t",
                       "c",
@@ -123,7 +139,7 @@ TEST(FigureFiles, HaveTitleSeedsAndNoteInThemUnlessTheyAreBare) {
     FigureChoice choice{{"tradeoff"}};
     write_figures(tests::study({"merge"}), folder.path() / "figures", choice);
     const std::string framed = text_of(folder.path() / "figures" / "tradeoff-merge.svg");
-    EXPECT_THAT(framed, AllOf(HasSubstr(">merge: Gain and cost; 20 seeds</text>"),
+    EXPECT_THAT(framed, AllOf(HasSubstr(">merge: Gain and cost against the baseline; 20 seeds</text>"),
                               HasSubstr(">Up is better for emergency vehicles")));
     choice.words = FigureChoice::Words::bare;
     write_figures(tests::study({"merge"}), folder.path() / "figures", choice);

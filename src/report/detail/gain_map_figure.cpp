@@ -212,8 +212,8 @@ Figure gain_map_figure(const ScenarioFacts& scenario) {
         note += fmt::format(
             " Of {} approaches on which others lose time, the {} with the largest losses are marked.",
             losing.size(), drawn_losses);
-    return {"map-" + scenario.name, "Where time is gained and lost", canvas.finish(), note,
-            data_of(roads, map, counts, losing)};
+    return {"map-" + scenario.name, "Where time is gained and lost against the baseline", canvas.finish(),
+            note, data_of(roads, map, counts, losing)};
 }
 
 }  // namespace clearway::report::detail

@@ -153,6 +153,8 @@ constexpr const char* as_wide_as_the_text =
 /// A column of sentences, in lines; shrunk to the width of the text they would be too small to read.
 constexpr const char* paragraph = "p{0.7\\linewidth}";
 constexpr std::size_t longest_word = 60;  // characters: a line of a usual page holds 80
+/// More columns, those of intervals counted twice, are turned onto the long side of the page.
+constexpr std::size_t most_upright = 12;
 
 bool is_long(const DataTable& table, std::size_t column) {
     return std::ranges::any_of(table.rows, [&](const std::vector<std::string>& row) {
@@ -237,16 +239,19 @@ std::string to_latex(const Table& table) {
         const bool lines = words && is_long(data, column);
         types += (column == 0 ? "" : " ") + columns[column].type(lines ? paragraph : "l");
     }
+    const auto intervals = static_cast<std::size_t>(std::ranges::count(columns, true, &Column::intervals));
+    const bool turned = columns.size() + intervals > most_upright;
+    const char* const kind = turned ? "sidewaystable" : "table";
     std::string text = fmt::format(
-        "% needs \\usepackage{{booktabs,graphicx,siunitx}}\n\\begin{{table}}\n\\centering\n\\caption{{{}}}\n"
+        "% needs \\usepackage{{booktabs,graphicx,{}siunitx}}\n\\begin{{{}}}\n\\centering\n\\caption{{{}}}\n"
         "\\label{{tab:{}}}\n{}{{%\n\\begin{{tabular}}{{{}}}\n\\toprule\n{}\\midrule\n",
-        latex_escaped(table.caption), table.name, as_wide_as_the_text, types,
+        turned ? "rotating," : "", kind, latex_escaped(table.caption), table.name, as_wide_as_the_text, types,
         latex_line(data.head,
                    [&](std::size_t at, const std::string& cell) { return columns[at].head(cell); }));
     for (const auto& row : data.rows)
         text +=
             latex_line(row, [&](std::size_t at, const std::string& cell) { return columns[at].body(cell); });
-    return text + "\\bottomrule\n\\end{tabular}}\n\\end{table}\n";
+    return text + fmt::format("\\bottomrule\n\\end{{tabular}}}}\n\\end{{{}}}\n", kind);
 }
 
 }  // namespace clearway::report::detail

@@ -12,9 +12,10 @@ namespace clearway::report::detail {
 /// The page's script writes the same bytes.
 std::string to_csv(const DataTable& table);
 
-/// A table as LaTeX, for the packages booktabs, graphicx and siunitx: a `table` no wider than the text, with
-/// its caption and the label `tab:NAME`. Numbers stand in columns of type S; the interval of `1.2 [0.9, 1.5]`
-/// has a column of its own. All text is escaped. The page's script writes the same bytes.
+/// A table as LaTeX, for the packages booktabs, graphicx and siunitx: a `table` no wider than the text, or
+/// one of many columns on its side (package rotating), with its caption and the label `tab:NAME`. Numbers
+/// stand in columns of type S; the interval of `1.2 [0.9, 1.5]` has a column of its own. All text is escaped.
+/// The page's script writes the same bytes.
 std::string to_latex(const Table& table);
 
 /// Text with what is special in LaTeX escaped.

@@ -98,6 +98,7 @@
       const format = `${plus ? '+' : has('-') ? '-' : ''}${most(parts => parts[0])}.${most(parts => parts[1])}`;
       const end = text => `\\num{${text.replaceAll('\u2212', '-')}}`;
       return {
+        intervals,
         type: `S[table-format=${format}${plus ? ',retain-explicit-plus' : ''}]${intervals ? '@{\\,}l' : ''}`,
         head: text => (intervals ? `\\multicolumn{2}{c}{${escaped(text)}}` : `{${escaped(text)}}`),
         body: cell => {
@@ -108,10 +109,12 @@
       };
     });
     const line = (row, part) => row.map((cell, at) => columns[at][part](cell)).join(' & ') + ' \\\\\n';
-    return `% needs \\usepackage{booktabs,graphicx,siunitx}\n\\begin{table}\n\\centering\n\\caption{${escaped(caption)}}\n\\label{tab:${name}}\n` +
+    const turned = columns.length + columns.filter(column => column.intervals).length > 12;
+    const kind = turned ? 'sidewaystable' : 'table';
+    return `% needs \\usepackage{booktabs,graphicx,${turned ? 'rotating,' : ''}siunitx}\n\\begin{${kind}}\n\\centering\n\\caption{${escaped(caption)}}\n\\label{tab:${name}}\n` +
       '\\resizebox{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}{!}{%\n' +
       `\\begin{tabular}{${columns.map(column => column.type).join(' ')}}\n\\toprule\n${line(head, 'head')}\\midrule\n` +
-      `${rows.map(row => line(row, 'body')).join('')}\\bottomrule\n\\end{tabular}}\n\\end{table}\n`;
+      `${rows.map(row => line(row, 'body')).join('')}\\bottomrule\n\\end{tabular}}\n\\end{${kind}}\n`;
   };
 
   const addButtons = (place, name, ways) => {

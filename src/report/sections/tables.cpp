@@ -68,11 +68,6 @@ std::string measure_table(const ScenarioFacts& scenario, std::span<const Measure
     return html + "</tbody></table></div>\n";
 }
 
-std::string p_value(const std::optional<double>& p) {
-    if (!p) return missing(Script::typeset);
-    return *p < 0.001 ? "< 0.001" : number(*p, typeset(3));
-}
-
 /// All statistics of the paired differences of a measure.
 DataTable statistics_table(const ScenarioFacts& scenario, Measure measure) {
     DataTable table{{info(measure).title, "difference [95 %]", "BCa [95 %]", "median [95 %]", "effect size d",
@@ -91,9 +86,10 @@ DataTable statistics_table(const ScenarioFacts& scenario, Measure measure) {
         table.rows.push_back(
             {condition.label(), estimate(paired->difference, style),
              shown_interval(bootstrap) != nullptr ? estimate(bootstrap, style) : missing(Script::typeset),
-             estimate(median, style), number_or_dash(paired->effect_size, typeset(2)), p_value(paired->t_p),
-             p_value(paired->holm_p), p_value(paired->wilcoxon_p), grouped(pairs),
-             grouped(paired->incomplete_pairs), grouped(paired->vehicles_left_out)});
+             estimate(median, style), number_or_dash(paired->effect_size, typeset(2)),
+             p_words(paired->t_p, Script::typeset), p_words(paired->holm_p, Script::typeset),
+             p_words(paired->wilcoxon_p, Script::typeset), grouped(pairs), grouped(paired->incomplete_pairs),
+             grouped(paired->vehicles_left_out)});
     }
     return table;
 }
@@ -206,11 +202,16 @@ void tables_section(const StudyFacts& study, Writer& writer) {
             writer.markup(fmt::format("<p class=\"note\">{}</p>\n", escaped(uneven)));
         writer.table(measures_of(
             scenario, published_columns, "waiting",
-            caption.empty() ? scenario.name + ": waiting time and depart delay" : caption, !caption.empty()));
+            caption.empty()
+                ? scenario.name + ": waiting time and depart delay, with differences to the baseline"
+                : caption,
+            !caption.empty()));
         writer.table(
-            measures_of(scenario, emergency_columns, "times", scenario.name + ": travel time and time loss"));
+            measures_of(scenario, emergency_columns, "times",
+                        scenario.name + ": travel time and time loss, with differences to the baseline"));
         writer.table(
-            measures_of(scenario, event_columns, "events-mean", scenario.name + ": depart delay and events"));
+            measures_of(scenario, event_columns, "events-mean",
+                        scenario.name + ": depart delay and events, with differences to the baseline"));
         write_statistics(scenario, writer);
     }
 }

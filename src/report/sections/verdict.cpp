@@ -93,7 +93,8 @@ void verdict_section(const StudyFacts& study, Writer& writer) {
         "difference excludes 0; \u201cno effect shown\u201d does not prove that there is none. EV travel "
         "time is the restricted mean over all emergency vehicles (EV): one that did not arrive counts with "
         "the horizon. Regardless of the means, no benefit is claimed for a condition that loses more EVs "
-        "than its baseline, whose EVs collide more often, or that ran without safety checks. Fewer than five "
+        "than its baseline, whose EVs are shown to collide more often, or that ran without safety checks. "
+        "Fewer than five "
         "replications give no interval and no effect: too few seeds.</p>\n");
     if (const std::string few = few_seeds_sentence(study); !few.empty())
         writer.markup(fmt::format("<p class=\"note\">{}</p>\n", escaped(few)));
