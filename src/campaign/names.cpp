@@ -17,6 +17,8 @@
 #include "prediction/predictor.hpp"
 #include "prediction/python_predictor.hpp"
 #include "python/part_process.hpp"
+#include "report/read_facts.hpp"
+#include "results/store.hpp"
 
 namespace clearway::campaign {
 
@@ -97,6 +99,9 @@ analysis::Reference reference_from(const std::string& against,
     const char* const option = "--against";
     const std::vector<std::string> names = core::texts_of(conditions, &experiment::ConditionSpec::name);
     if (std::ranges::find(names, against) != names.end()) return {.name = against};
+    const core::Settings titles = report::titles_of(results::Store::open(folder));
+    const auto titled = std::ranges::find(titles, against, [](const auto& title) { return title.second; });
+    if (titled != titles.end()) return {.name = titled->first};
     if (against == "best") return {.chosen = analysis::Reference::Chosen::best};
     const Levels levels = levels_of(conditions);
     if (levels.empty() || against.find('=') == std::string::npos || against.find('+') != std::string::npos) {

@@ -16,7 +16,7 @@ core::Problem unknown_name(const std::string& where, const std::string& name,
                            const std::vector<std::string>& known,
                            const std::string& listed_by = "clearway list");
 
-/// What `--against` names: nothing, a condition, or levels of factors, `policy=corridor` or
+/// What `--against` names: nothing, a condition or its title, or levels of factors, `policy=corridor` or
 /// `condition.policy=corridor,condition.failure=B10`. Throws core::InputError for what the study does not
 /// have; `folder` is its run folder.
 analysis::Reference reference_from(const std::string& against,

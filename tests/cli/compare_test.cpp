@@ -72,6 +72,9 @@ TEST_F(CompareTest, compares_with_a_condition_that_is_named) {
                      -usual["comparisons"][0]["metrics"][metric]["difference"].get<double>());
     EXPECT_THAT(clearway({"compare", "one", "--against", "graph_simulation"}).out,
                 HasSubstr("diff.: minus Graph made by simulation attributes (here the baseline)"));
+    EXPECT_EQ(clearway({"compare", "one", "--against", "Graph made by simulation attributes"}).out,
+              clearway({"compare", "one", "--against", "graph_simulation"}).out)
+        << "by the title that tables show";
     const Ended unknown = clearway({"compare", "one", "--against", "graph_simulatoin"});
     EXPECT_EQ(unknown.code, 3);
     EXPECT_THAT(unknown.err, HasSubstr("Did you mean 'graph_simulation'?"));
