@@ -83,9 +83,8 @@ def __getattr__(name: str) -> Any:
     if name in _MODULES:
         return importlib.import_module("." + name, __name__)
     if name not in _MODULE_OF:
-        from ._program import did_you_mean
-        meant = "." if name.startswith("_") else did_you_mean(name, [*__all__, *_MODULES], 2) or "."
-        raise AttributeError(f"clearway has no {name!r}{meant} It has {', '.join(__all__)}")
+        from ._program import no_attribute
+        raise no_attribute(__name__, name, [*__all__, *_MODULES])
     value = getattr(importlib.import_module("." + _MODULE_OF[name], __name__), name)
     globals()[name] = value
     return value

@@ -164,12 +164,12 @@ def tells_keywords(call_name: str, *, cure: str = "") -> Callable[[F], F]:
     return decorate
 
 
-def no_attribute(owner: type, name: str, names: Iterable[str]) -> AttributeError:
+def no_attribute(owner: str, name: str, names: Iterable[str]) -> AttributeError:
     """What is told where ``owner`` has no ``name``, but ``names`` of which those with an underscore are not for users."""
     if name.startswith("_"):
-        return AttributeError(f"{owner.__name__} has no {name!r}")
+        return AttributeError(f"{owner} has no {name!r}")
     there = sorted({one for one in names if not one.startswith("_")})
-    return AttributeError(f"{owner.__name__} has no {name!r}{did_you_mean(name, there, 2) or '.'} It has {', '.join(there)}")
+    return AttributeError(f"{owner} has no {name!r}{did_you_mean(name, there, 2) or '.'} It has {', '.join(there)}")
 
 
 class Told:
@@ -178,7 +178,7 @@ class Told:
     def __getattr__(self, name: str) -> Any:
         if hasattr(type(self), name):  # a property in which another attribute was missing: that one is told
             return object.__getattribute__(self, name)
-        raise no_attribute(type(self), name, dir(self))
+        raise no_attribute(type(self).__name__, name, dir(self))
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}: {', '.join(sorted({one for one in dir(self) if not one.startswith('_')}))}>"

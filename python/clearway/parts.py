@@ -271,7 +271,7 @@ class _Actions(type):
     """An action that no lease has is told with the nearest, and those that are."""
 
     def __getattr__(cls, name: str) -> Any:
-        raise no_attribute(cls, name, vars(cls))
+        raise no_attribute(cls.__name__, name, vars(cls))
 
 
 def _action(make: F) -> F:

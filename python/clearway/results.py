@@ -5,6 +5,7 @@ import dataclasses
 import errno
 import html
 import sqlite3
+from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -36,7 +37,7 @@ class Difference(_program.Told):
     * ``interval_95``: its 95 % interval by Student's t; ``bca_95``: by the bias-corrected and accelerated bootstrap; None with too
       few seeds;
     * ``relative_1``: difference divided by the baseline's mean; ``median``, ``median_95``: of the differences;
-    * ``effect_size_dz``, ``t_p``, ``wilcoxon_p``; ``holm_p``: p of the t test, corrected for all comparisons of the scenario (Holm);
+    * ``effect_size_dz``, ``t_p``, ``wilcoxon_p``; ``holm_p``: p of the t test, corrected for ``holm_over`` comparisons of the scenario (Holm);
     * ``complete_pairs``, ``incomplete_pairs``, ``vehicles_left_out``: how many;
     * ``locked_pairs``: in which vehicles locked each other in either run; where there are any, ``difference_without_locks`` and
       ``interval_95_without_locks`` are those of the other pairs, else None;
@@ -57,6 +58,7 @@ class Difference(_program.Told):
     effect_size_dz: float | None
     t_p: float | None
     holm_p: float | None
+    holm_over: int
     wilcoxon_p: float | None
     complete_pairs: int
     incomplete_pairs: int
@@ -209,11 +211,12 @@ class Results(_program.Told):
         compared = _program.call_json(["compare", str(self.folder.absolute()), "--metric", str(metric), *chosen])
         titles = {one["condition"]: one["title"] for one in compared["conditions"]}
         differences = []
+        tested = Counter(row["scenario"] for row in compared["comparisons"] if row["metrics"][metric]["holm_p"] is not None)
         for row in compared["comparisons"]:
             numbers = row["metrics"][metric]
             pairs = {key: _pair(numbers.pop(key)) for key in ("interval_95", "bca_95", "median_95", "interval_95_without_locks")}
             differences.append(Difference(scenario=row["scenario"], condition=row["condition"], compared_with=row["compared_with"],
-                                          metric=metric, objections=row["objections"], title=row["title"],
+                                          metric=metric, holm_over=tested[row["scenario"]], objections=row["objections"], title=row["title"],
                                           compared_title=titles[row["compared_with"]], **pairs, **numbers))
         return differences
 

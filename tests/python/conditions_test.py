@@ -116,6 +116,7 @@ class ConditionsTest(FolderCase):
                           for policy in ("preempt_signals", "check_in_out")])
         said = _program.call_json(["compare", str(self.results.folder.absolute()), "--metric", self.metric, "--against", "policy=corridor"])
         self.assertEqual([one.holm_p for one in every], [row["metrics"][self.metric]["holm_p"] for row in said["comparisons"]])
+        self.assertEqual({one.holm_over for one in every}, {sum(one.holm_p is not None for one in every)})
         ours = self.results.paired_difference(self.metric, self.name("preempt_signals", "B10"), against=against)
         self.assertIn(ours, every)
 

@@ -60,6 +60,10 @@ class Endless(clearway.Policy):
             pass
         return []
 
+class Refuses(clearway.Policy):
+    def act(self, belief):
+        raise TimeoutError("its own server")
+
 class Never:
     def predict(self, observation):
         return np.zeros(observation.pairs.shape[1])
@@ -117,6 +121,8 @@ class ConformanceTest(FolderCase):
         self.assertIn("answers", self.broken("parts.py:Endless"))
         self.assertRegex(self.said, r"TimeoutError: no answer after 10 s \(parts.py, line \d+\)")
         self.assertEqual(self.said.count("TimeoutError: no answer"), 1)
+        self.assertIn("answers", self.broken("parts.py:Refuses", "--all"))
+        self.assertGreater(self.said.count("TimeoutError: its own server"), 1)  # which ends no scene but its own
 
     def test_predictors_are_judged_too(self) -> None:
         self.assertEqual(self.broken("parts.py:Never", "--predictor"), {"links"})
