@@ -121,6 +121,14 @@ struct Reach {
     double condition_m(const RoadMap& map, double within_s) const;
 };
 
+/// Trips by whether they pass a signal, and by how much later than in the baseline they end.
+struct SignalTrips {
+    std::uint64_t passing = 0;
+    std::uint64_t others = 0;
+    double passing_s = 0.0;  ///< Mean change of those that pass one.
+    double others_s = 0.0;   ///< Likewise of the others.
+};
+
 /// What the maps of a scenario show of one condition.
 struct ScenarioMap {
     std::size_t condition = 0;  ///< In the scenario; the one that its first screen is about.
@@ -130,6 +138,7 @@ struct ScenarioMap {
     std::vector<ChangedWay> changed_ways = {};
     std::uint64_t trips = 0;     ///< Of emergency vehicles that both runs of a pair have.
     std::optional<Reach> reach;  ///< Nothing for a scenario without stations.
+    SignalTrips signal_trips = {};
 };
 
 /// Time from the nearest of `starts` to the end of each edge, both ends included (Dijkstra 1959), with the

@@ -91,8 +91,17 @@ std::string others_clause(const ConditionFacts& condition, Script script) {
     return {};
 }
 
+/// Whether the baseline collides so often that its model of drivers, not a policy, makes the collisions.
+bool collides_by_itself(const ConditionFacts& baseline) {
+    constexpr double many = 0.01;  // collisions a vehicle, as `scenario check` has it
+    const double vehicles = baseline.total("vehicle_count");
+    return vehicles > 0.0 && baseline.total("collisions") > many * vehicles;
+}
+
 std::string collisions_clause(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     if (condition.complete_runs == 0) return {};
+    const ConditionFacts* const baseline = scenario.baseline_of(condition);
+    if (baseline != nullptr && collides_by_itself(*baseline)) return {};  // the tile says what they are worth
     if (condition.count("collisions") == 0)
         return fmt::format("no collision in {}", counted(condition.complete_runs, "run"));
     const Effect effect = effect_of(condition, Measure::collisions);
@@ -329,6 +338,7 @@ Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& conditi
         tile.meaning = joined(std::move(tile.meaning), survivors);
     }
     tile.meaning = joined(std::move(tile.meaning), trip_changes_words(condition, script));
+    tile.meaning = joined(std::move(tile.meaning), signal_trips_words(scenario, condition, script));
     return tile;
 }
 
@@ -365,17 +375,6 @@ Tile others_tile(const ScenarioFacts& /*scenario*/, const ConditionFacts& condit
     }
     return tile;
 }
-
-namespace {
-
-/// Whether the baseline collides so often that its model of drivers, not a policy, makes the collisions.
-bool collides_by_itself(const ConditionFacts& baseline) {
-    constexpr double many = 0.01;  // collisions a vehicle, as `scenario check` has it
-    const double vehicles = baseline.total("vehicle_count");
-    return vehicles > 0.0 && baseline.total("collisions") > many * vehicles;
-}
-
-}  // namespace
 
 Tile safety_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     Tile tile{"Safety", missing(script), "no complete run", Tile::Tone::neutral};

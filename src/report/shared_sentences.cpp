@@ -56,6 +56,20 @@ std::string trip_changes_words(const ConditionFacts& condition, Script script) {
         grouped(changes.slower), felt_s);
 }
 
+std::string signal_trips_words(const ScenarioFacts& scenario, const ConditionFacts& condition,
+                               Script script) {
+    if (!scenario.map || &scenario.conditions[scenario.map->condition] != &condition || !scenario.roads ||
+        scenario.roads->signals.empty())
+        return {};
+    const SignalTrips& trips = scenario.map->signal_trips;
+    if (trips.others == 0) return {};
+    const NumberStyle style{1, script, Sign::always};
+    const std::uint64_t all = trips.passing + trips.others;
+    if (trips.passing == 0) return fmt::format("none of {} passes a signal", counted(all, "trip"));
+    return fmt::format("{} of {} pass signals: {} s in the mean, the others {} s", grouped(trips.passing),
+                       counted(all, "trip"), number(trips.passing_s, style), number(trips.others_s, style));
+}
+
 std::string cross_street_words(const ConditionFacts& condition, Script script) {
     const auto& comparison = condition.metric("cross_street_delay_s").comparison;
     if (!comparison || !comparison->difference) return {};

@@ -233,6 +233,8 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
                                           number(scenario.horizon_s, {0, script})));
     if (std::string trips = trip_changes_words(condition, script); !trips.empty())
         words.facts.push_back(trips + ".");
+    if (std::string trips = signal_trips_words(scenario, condition, script); !trips.empty())
+        words.facts.push_back(sentence(trips));
     const std::string others = analysis::other_objections(condition.objections);
     if (!others.empty()) words.facts.push_back(sentence(others));
     if (shown_interval(condition.difference(primary)) != nullptr)

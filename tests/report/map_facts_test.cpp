@@ -62,6 +62,29 @@ TEST_F(MapFacts, CountLocksWhereTheyHappened) {
     EXPECT_EQ(scenario.map->locks[0].baseline, 1U);
 }
 
+TEST_F(MapFacts, TellTripsThatPassSignalsFromOthers) {
+    const ScenarioFacts before = crossing();
+    EXPECT_EQ(before.map->signal_trips.others, 0U);
+    EXPECT_EQ(before.map->signal_trips.passing, 6U);
+    const ConditionFacts& helps = before.conditions[before.map->condition];
+    EXPECT_EQ(signal_trips_words(before, helps, Script::plain), "") << "all pass one";
+    const results::Store store = results::Store::open(folder_.path() / "study");
+    for (const char* const condition : {"baseline", "helps"}) {
+        auto run = *store.read({"crossing", condition, 1});
+        run.traffic = store.read_traffic(run.key);
+        run.traffic.edge_times.resize(1);  // ends at the signal, which it does not pass
+        std::filesystem::remove_all(folder_.path() / "study" / "runs" / "crossing" / condition / "00001");
+        store.write(run, {});
+    }
+    const ScenarioFacts after = crossing();
+    EXPECT_EQ(after.map->signal_trips.others, 1U);
+    EXPECT_EQ(after.map->signal_trips.passing, 5U);
+    EXPECT_THAT(
+        signal_trips_words(after, after.conditions[after.map->condition], Script::plain),
+        testing::MatchesRegex("5 of 6 trips pass signals: -[0-9.]+ s in the mean, the others -[0-9.]+ s"));
+    EXPECT_EQ(signal_trips_words(after, after.conditions[0], Script::plain), "") << "the map is not about it";
+}
+
 TEST_F(MapFacts, TellWhichVehiclesTookAnotherWay) {
     EXPECT_TRUE(crossing().map->changed_ways.empty());
     const results::Store store = results::Store::open(folder_.path() / "study");

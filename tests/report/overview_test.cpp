@@ -160,6 +160,8 @@ TEST_F(Overview, CountsCollisionsAgainstTheBaseline) {
     EXPECT_THAT(safety().meaning, Not(HasSubstr("say nothing about safety")));
     tests::set_total(scenario_.conditions[0], "vehicle_count", 499);
     EXPECT_THAT(safety().meaning, HasSubstr("baseline: 5 in 20, so many that they say nothing about safety"));
+    EXPECT_THAT(headline(), Not(HasSubstr("collision"))) << "the tile alone tells them";
+    tests::set_total(scenario_.conditions[0], "vehicle_count", 501);
     tests::difference(corridor(), Measure::collisions) = around(0.4, 0.2);
     EXPECT_EQ(safety().tone, Tile::Tone::worse);
     EXPECT_THAT(headline(), HasSubstr("more collisions than the baseline"));

@@ -1,5 +1,6 @@
 #include "report/detail/map_facts.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "report/detail/changed_ways.hpp"
@@ -60,7 +61,45 @@ void add_pair(const metrics::TrafficTables& without, const metrics::TrafficTable
     }
 }
 
+/// The last edge of a vehicle and the time at its end, and whether it drove past a signal.
+struct TripEnd {
+    std::string edge;
+    double at_s = 0.0;
+    bool passes_signal = false;
+    bool is_at_signal = false;  ///< The last edge ends at one.
+};
+
+std::map<std::string, TripEnd> ends_of(const metrics::TrafficTables& tables, const EdgePlaces& edges,
+                                       const RoadMap& roads) {
+    std::map<std::string, TripEnd> ends;
+    for (const metrics::EdgeTimeRow& row : tables.edge_times) {
+        TripEnd& end = ends[row.vehicle];
+        if (row.entered_s + row.time_s < end.at_s) continue;
+        const auto edge = edges.find(row.edge);
+        end.passes_signal = end.passes_signal || end.is_at_signal;
+        end.edge = row.edge;
+        end.at_s = row.entered_s + row.time_s;
+        end.is_at_signal = edge != edges.end() && roads.edges[edge->second].signal;
+    }
+    return ends;
+}
+
+/// Adds the trips that end on the same edge in both runs; sums, not means.
+void add_trips(const std::map<std::string, TripEnd>& without, const std::map<std::string, TripEnd>& with,
+               SignalTrips& trips) {
+    for (const auto& [vehicle, end] : with) {
+        const auto before = without.find(vehicle);
+        if (before == without.end() || before->second.edge != end.edge) continue;
+        const bool passes = end.passes_signal || before->second.passes_signal;
+        ++(passes ? trips.passing : trips.others);
+        (passes ? trips.passing_s : trips.others_s) += end.at_s - before->second.at_s;
+    }
+}
+
 void fill(const Sums& sums, const RoadMap& roads, ScenarioMap& map) {
+    SignalTrips& trips = map.signal_trips;
+    trips.passing_s /= static_cast<double>(std::max<std::uint64_t>(trips.passing, 1));
+    trips.others_s /= static_cast<double>(std::max<std::uint64_t>(trips.others, 1));
     for (auto [edge, times] : sums.times) {
         const auto passages = static_cast<double>(times.passages);
         times.baseline_s /= passages;
@@ -105,6 +144,7 @@ std::optional<ScenarioMap> map_in(RunTraffic& traffic, const StudyFacts& study,
         const auto& with = traffic.of({scenario.name, condition->name(), replication});
         if (with.edge_times.empty()) continue;
         add_pair(without, with, edges, sums);
+        add_trips(ends_of(without, edges, roads), ends_of(with, edges, roads), map.signal_trips);
         add_changed_ways(driven_ways(without, edges, roads), driven_ways(with, edges, roads), replication,
                          map);
     }

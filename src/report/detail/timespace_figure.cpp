@@ -95,14 +95,16 @@ Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& con
     const char* const ways =
         has_two_ways ? " It took another way with the condition: each line follows its own." : "";
     return {"trip-" + scenario.name, "One trip with and without", plot.finish(),
-            fmt::format("Vehicle {}, replication {}: {} s {}.{} A level piece is a stop. {}", with->vehicle,
-                        with->replication, number(std::abs(saved_s), typeset(1)),
-                        saved_s >= 0.0 ? "sooner" : "later", ways,
-                        without->signals.empty() && with->signals.empty()
-                            ? "No signal stands on its route. Its gain is the middle one of all trips kept."
-                            : "Signals on its route are drawn twice: without the condition above the stop "
-                              "line, with it below. Its gain is the middle one of the trips kept that pass "
-                              "signals."),
+            fmt::format(
+                "Vehicle {}, replication {}: {} s {}.{} A level piece is a stop. {}", with->vehicle,
+                with->replication, number(std::abs(saved_s), typeset(1)), saved_s >= 0.0 ? "sooner" : "later",
+                ways,
+                without->signals.empty() && with->signals.empty()
+                    ? "No signal stands on its route. Its gain is the middle one of the first replications."
+                    : "Signals on its route are drawn twice: without the condition above the stop "
+                      "line, with it below; a vehicle may stand at green behind one whose turn has red. "
+                      "Its gain is the middle one of the trips of the first replications that pass "
+                      "signals."),
             std::move(data)};
 }
 
