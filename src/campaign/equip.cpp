@@ -134,10 +134,10 @@ struct Look {
     std::size_t replications = 0;
 };
 
-/// The candidates that gained most in a look, a line each; empty without a look.
+/// The candidates that gained most in a look, a line each.
 std::string interim_words(const Look& look, const Signals& signals) {
     constexpr std::size_t most_told = 5;
-    if (look.sets.size() < 2) return "";
+    if (look.sets.size() < 2) return "clearway: no look is complete: no gain can be told yet\n";
     std::vector<std::pair<analysis::MaybeEstimate, std::size_t>> gains;
     for (std::size_t set = 1; set < look.sets.size(); ++set)
         if (look.sets[set].size() == look.sets.front().size() + 1)
@@ -161,21 +161,31 @@ std::string interim_words(const Look& look, const Signals& signals) {
     return text;
 }
 
-/// The plan, or an exception as EquipRounds has them, after what was known when it was interrupted.
-analysis::EquipPlan raced(const EquipRequest& request, Search& search) {
+/// The plan, as EquipRounds finds it; `look` has what the race knows, also when it is interrupted.
+analysis::EquipPlan raced(const EquipRequest& request, Search& search, Look& look) {
     const analysis::EquipConfig config{.candidates = search.signals.candidates.signals.size(),
                                        .budget = request.budget,
                                        .replications = request.replications,
                                        .search = request.search,
                                        .pairs = search.signals.candidates.neighbours};
+    return analysis::equip_greedily(
+        config, [&](const std::vector<analysis::SignalSet>& sets, std::size_t replications) {
+            std::vector<analysis::Values> values = search.rounds.measure(sets, replications);
+            look = {sets, values, replications};
+            return values;
+        });
+}
+
+/// What was chosen and what fresh runs make of it. Where they are interrupted, what was known is said first.
+std::pair<analysis::EquipPlan, FreshOutcomes> measured(const EquipRequest& request, Search& search) {
     Look look;
     try {
-        return analysis::equip_greedily(
-            config, [&](const std::vector<analysis::SignalSet>& sets, std::size_t replications) {
-                std::vector<analysis::Values> values = search.rounds.measure(sets, replications);
-                look = {sets, values, replications};
-                return values;
-            });
+        analysis::EquipPlan plan = raced(request, search, look);
+        analysis::SignalSet chosen;
+        for (const analysis::EquipStep& step : plan.steps)
+            chosen.push_back(step.candidate);
+        FreshOutcomes fresh = search.rounds.estimate(chosen);
+        return {std::move(plan), std::move(fresh)};
     } catch (const core::Error& error) {
         if (is_interrupted(error.exit_code())) core::print_message(interim_words(look, search.signals));
         throw;
@@ -189,11 +199,7 @@ core::ExitCode equip(EquipRequest request) {
     const core::TemporaryFolder network_folder;
     Search search = search_of(request, network_folder.path());
     EquipRounds& rounds = search.rounds;
-    const analysis::EquipPlan plan = raced(request, search);
-    analysis::SignalSet chosen;
-    for (const analysis::EquipStep& step : plan.steps)
-        chosen.push_back(step.candidate);
-    const FreshOutcomes fresh = rounds.estimate(chosen);
+    const auto [plan, fresh] = measured(request, search);
     report::EquipmentFacts facts = facts_of(search.config, request, search.signals);
     facts.fresh_seed = rounds.fresh_seed();
     facts.runs = rounds.runs();

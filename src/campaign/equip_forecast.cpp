@@ -135,7 +135,9 @@ core::ExitCode equip_dry_run(EquipRequest request) {
     add(fmt::format("place 1: {}{} on {} seeds", report::counted(candidates, "candidate"),
                     pairs > 0 ? " and " + report::counted(pairs, "pair") : "", first),
         runs.first_look, runs.first_look);
-    add(fmt::format("place 1: on {} seeds, if none drops out", request.replications), runs.race, runs.race);
+    if (runs.race > 0)
+        add(fmt::format("place 1: on {} seeds, if none drops out", request.replications), runs.race,
+            runs.race);
     add("later places", runs.later, runs.later_most);
     add("fresh seeds: estimate", runs.fresh, runs.fresh);
     const std::string size =
