@@ -64,6 +64,7 @@ class Harm(unittest.TestCase):
         self.assertIn("study 1 of 3: rescue_lane", said)  # all policies in the same folder: none is left out
         _, said = self.start("--policy", "corider").communicate(timeout=60)
         self.assertIn("no condition of studies/harm has the policy `corider`", said)
+        self.assertIn("Did you mean `corridor`?", said)
 
     def test_a_signal_ends_the_study_and_leaves_nothing(self):
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
