@@ -152,6 +152,13 @@ void check_failure(const std::string& where, const std::string& failure,
 
 namespace {
 
+/// `condition linked: policy`, or `factors.condition.policy` where a factor gives it.
+std::string place_of(const experiment::ConditionSpec& condition, const std::string& key) {
+    const std::string factor = "condition." + key;
+    return condition.factors.contains(factor) ? "factors." + factor
+                                              : fmt::format("condition {}: {}", condition.name, key);
+}
+
 /// Settings, leases and tables know parts in Python by their classes, so those of a condition must differ.
 void check_part_names(const experiment::ConditionSpec& condition, const std::string& where,
                       std::vector<core::Problem>& problems) {
@@ -172,11 +179,10 @@ void check_parts(const std::vector<experiment::ConditionSpec>& conditions) {
             python::check_part(*name, kind, settings, where);
     };
     for (const experiment::ConditionSpec& condition : conditions) {
-        const std::string where = fmt::format("condition {}: ", condition.name);
-        check(where + "predictor", condition.predictor, python::PartKind::predictor,
+        check(place_of(condition, "predictor"), condition.predictor, python::PartKind::predictor,
               prediction::parted_settings(experiment::predictor_settings(condition)).own);
         for (const std::string& policy : condition.policies)
-            check(where + "policy", policy, python::PartKind::policy,
+            check(place_of(condition, "policy"), policy, python::PartKind::policy,
                   core::settings_of(condition.settings, python::short_name(policy)));
     }
 }
@@ -193,10 +199,10 @@ void check_names(const std::vector<experiment::ConditionSpec>& conditions) {
     };
     for (const experiment::ConditionSpec& condition : conditions) {
         const std::string where = fmt::format("condition {}: ", condition.name);
-        check_failure(where + "failure", condition.failure, problems);
-        check(where + "predictor", condition.predictor, prediction::predictors().names());
+        check_failure(place_of(condition, "failure"), condition.failure, problems);
+        check(place_of(condition, "predictor"), condition.predictor, prediction::predictors().names());
         for (const std::string& policy : condition.policies) {
-            check(where + "policy", policy, policy::policies().names());
+            check(place_of(condition, "policy"), policy, policy::policies().names());
         }
         std::vector<std::string> sorted = condition.policies;
         std::ranges::sort(sorted);

@@ -238,6 +238,7 @@ study::StudyConfig study_of(scenario::ScenarioConfig scenario,
 
 study::Plan plan_for(const study::StudyConfig& config, RunOptions& options) {
     check_names(config.conditions);
+    if (!config.doubtful_titles.empty()) throw core::InputError(config.doubtful_titles);
     const study::Versions versions = installed_versions();
     if (options.folder.empty()) {
         const results::Manifest manifest = study::make_plan(config, versions, "runs").manifest;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "experiment/condition.hpp"
 #include "results/manifest.hpp"
 #include "results/run_limit.hpp"
@@ -22,7 +23,10 @@ struct StudyConfig {
     std::vector<scenario::ScenarioConfig> scenarios;
     std::map<std::string, core::Settings> scenario_factors;  ///< By scenario, for scenarios made by factors.
     std::vector<experiment::ConditionSpec> conditions;
-    core::Settings titles = {};    ///< For reports: of conditions, and of texts that factors give them.
+    core::Settings titles = {};  ///< For reports: of conditions, and of texts that factors give them.
+    /// What is wrong with titles that have nearly the name of a factor's value: it may be the value that is
+    /// misspelt, so who plans the study checks its parts first.
+    std::vector<core::Problem> doubtful_titles = {};
     core::Settings controls = {};  ///< For reports: a condition -> the one of which a part is off in it.
     /// Instead of a fixed number of replications; `replications` is then the number of the first round.
     std::optional<results::PrecisionTarget> precision;

@@ -12,7 +12,9 @@
 #include "core/files.hpp"
 #include "core/read_failure.hpp"
 #include "core/strict_table.hpp"
+#include "experiment/run_key.hpp"
 #include "results/manifest.hpp"
+#include "results/store.hpp"
 #include "study/plan.hpp"
 
 namespace clearway::study {
@@ -30,16 +32,14 @@ std::set<fs::path> entries_of(const fs::path& folder) {
     return entries;
 }
 
-/// The seeds of a study file: its own and that of its trial. Empty for other TOML files.
-std::vector<std::uint64_t> seeds_of(const fs::path& file) {
+/// The seed that the plan of a study file fixes; nothing for other TOML files.
+std::optional<std::uint64_t> planned_seed(const fs::path& file) {
     try {
         const toml::table table = core::parse_toml(core::read_file(file), file.string());
-        if (!table.contains("conditions") && !table.contains("condition")) return {};
-        const auto own = static_cast<std::uint64_t>(table["seed"].value_or<std::int64_t>(1));
-        const auto quick = table["quick"]["seed"].value<std::int64_t>();
-        return quick ? std::vector{own, static_cast<std::uint64_t>(*quick)} : std::vector{own};
+        if (!table.contains("plan")) return std::nullopt;
+        return static_cast<std::uint64_t>(table["seed"].value_or<std::int64_t>(1));
     } catch (const core::InputError&) {
-        return {};
+        return std::nullopt;
     }
 }
 
@@ -48,8 +48,7 @@ std::string user_among_files(const StudyConfig& config, const fs::path& file) {
     const fs::path absolute = fs::absolute(file);
     for (const fs::path& other : entries_of(absolute.parent_path())) {
         if (other.extension() != ".toml" || fs::equivalent(other, absolute, none)) continue;
-        const std::vector<std::uint64_t> seeds = seeds_of(other);
-        if (std::ranges::find(seeds, config.seed) != seeds.end()) return other.string();
+        if (planned_seed(other) == config.seed) return other.string() + ": it is the seed of its [plan]";
     }
     return "";
 }
@@ -82,7 +81,18 @@ std::string other_settings(const results::Manifest& stored, results::Manifest wa
     return same ? "" : results::differences(stored, wanted);
 }
 
-/// `runs/first: different conditions`, `runs/first: 8 replications instead of 10`, or nothing.
+/// `; it ran line/baseline/0`, or what its plan has fixed; nothing for a folder that was only prepared.
+std::string use_of(const fs::path& folder, const results::Manifest& manifest) {
+    const std::vector<experiment::RunKey> complete = results::Store::open(folder).complete_runs();
+    if (!complete.empty()) {
+        const experiment::RunKey& first = *std::ranges::min_element(complete);
+        return fmt::format("; it ran {}/{}/{}", first.scenario, first.condition, first.replication);
+    }
+    return manifest.plan ? "; nothing ran, but it is the seed of its plan" : "";
+}
+
+/// `runs/first: different conditions; it ran line/baseline/0`, `runs/first: 8 replications instead of 10;
+/// ...` or nothing.
 std::string user_among_runs(const StudyConfig& config, const fs::path& folder,
                             std::vector<core::Problem>& unread) {
     std::error_code none;
@@ -93,21 +103,22 @@ std::string user_among_runs(const StudyConfig& config, const fs::path& folder,
         const auto manifest = manifest_in(other, unread);
         if (!manifest || manifest->study_seed != config.seed) continue;
         const std::string different = other_settings(*manifest, wanted);
-        if (different == "replications") {
-            // The study's own folder with more: nothing would run, and the folder says so itself.
-            if (manifest->replications > wanted.replications && fs::equivalent(other, absolute, none))
-                continue;
-            return fmt::format("{}: {} replications instead of {}", other.string(), manifest->replications,
-                               wanted.replications);
-        }
-        if (!different.empty()) return fmt::format("{}: different {}", other.string(), different);
+        const std::string use = different.empty() ? "" : use_of(other, *manifest);
+        if (use.empty()) continue;
+        if (different != "replications")
+            return fmt::format("{}: different {}{}", other.string(), different, use);
+        // The study's own folder with more: nothing would run, and the folder says so itself.
+        if (manifest->replications > wanted.replications && fs::equivalent(other, absolute, none)) continue;
+        return fmt::format("{}: {} replications instead of {}{}", other.string(), manifest->replications,
+                           wanted.replications, use);
     }
     return "";
 }
 
-core::InputError not_fresh(const StudyConfig& config, const fs::path& file, const std::string& why,
-                           const char* cure) {
-    return core::InputError({fmt::format("{}: seed", file.string()), fmt::format("{} {}", config.seed, why),
+core::InputError used_before(const StudyConfig& config, const fs::path& file, const std::string& user,
+                             const char* cure) {
+    return core::InputError({fmt::format("{}: seed", file.string()),
+                             fmt::format("{} was used before, by {}", config.seed, user),
                              "a seed that nothing was tuned on or looked at", cure});
 }
 
@@ -118,13 +129,12 @@ std::vector<core::Problem> check_fresh_seed(const StudyConfig& config, const fs:
     std::vector<core::Problem> unread;
     if (!config.plan) return unread;
     if (const std::string user = user_among_files(config, file); !user.empty())
-        throw not_fresh(
-            config, file, "is also that of " + user + ", by which it may have been looked at",
-            "Give one of the two another seed, or remove [plan] and call the results exploratory");
+        throw used_before(config, file, user,
+                          "Give the study another seed, or remove [plan] and call its results exploratory");
     if (const std::string user = user_among_runs(config, folder, unread); !user.empty())
-        throw not_fresh(config, file, "was used before, by " + user,
-                        "Other settings were run on this seed: go on with those, take a seed that was never "
-                        "run, or remove [plan], take another --out and call the results exploratory");
+        throw used_before(config, file, user,
+                          "Go on with those settings, take a seed that was never run, or remove [plan], take "
+                          "another --out and call the results exploratory");
     return unread;
 }
 

@@ -77,10 +77,16 @@ B10 = "one report in ten"
     const Plan plan = make_plan(titled, {"0.1.0", "1.15.0"}, "/out");
     EXPECT_EQ(plan.titles.size(), 3U);
     EXPECT_EQ(plan.manifest, make_plan(read(factors), {"0.1.0", "1.15.0"}, "/out").manifest);
-    EXPECT_THAT(problems(factors + "[titles]\nB20 = \"x\"\ngraph_simulation = \"\"\n"),
-                AllOf(HasSubstr("titles.B20: is no condition, and no text that a factor gives one"),
-                      HasSubstr("Did you mean 'B10'? One of the two is misspelt"),
-                      HasSubstr("titles.graph_simulation")));
+    EXPECT_THAT(problems(factors + "[titles]\ngraph_simulatoin = \"x\"\ngraph_simulation = \"\"\n"),
+                AllOf(HasSubstr("titles.graph_simulatoin: is no condition, and no text that a factor gives"),
+                      HasSubstr("Did you mean 'graph_simulation'?"), HasSubstr("titles.graph_simulation:")));
+}
+
+TEST_F(Factors, WithATitleOfNearlyTheirNameMayBeTheOnesThatAreMisspelt) {
+    const StudyConfig config = read("[factors]\ncondition.failure = [\"B10\"]\n[titles]\nB20 = \"x\"\n");
+    ASSERT_EQ(config.doubtful_titles.size(), 1U);
+    EXPECT_THAT(core::format_problem(config.doubtful_titles[0]),
+                AllOf(HasSubstr("titles.B20: is no condition"), HasSubstr("Did you mean 'B10'?")));
 }
 
 TEST_F(Factors, MayBeQuotedAsSettingsAre) {

@@ -128,16 +128,6 @@ TEST_F(PlannedStudy, NamesConditionsByFactorsInAnyOrder) {
     const std::string in_order = "corridor+failure=B10+policy=vacate_lane";
     for (const std::string& name : {in_order, std::string("corridor+policy=vacate_lane+failure=B10")})
         EXPECT_EQ(read(compared(name)).plan->comparisons[0].condition, in_order);
-    const std::string titled = compared("Green way+policy=A path+failure=B10");
-    EXPECT_EQ(read(titled + "[titles]\ncorridor = 'Green way'\nvacate_lane = 'A path'\n")
-                  .plan->comparisons[0]
-                  .condition,
-              in_order);
-    EXPECT_EQ(
-        read(compared("Both") + "[titles]\n'" + in_order + "' = 'Both'\n").plan->comparisons[0].condition,
-        in_order);
-    EXPECT_THAT(problems(compared("vacate_lane, B10, no repair")),
-                HasSubstr("Factors are part of a name: write '" + in_order + "'"));
     const std::string refused = problems(compared("corridor+policy=vacate_lan+failure=B10"));
     EXPECT_THAT(refused, HasSubstr("'corridor+policy=vacate_lan+failure=B10' is not in the study"));
     const std::string both =
@@ -220,6 +210,38 @@ against = "baseline"
                                       HasSubstr("write 'a+lease_s=2' or 'a+lease_s=3'")));
 }
 
+TEST_F(PlannedStudy, NamesConditionsByTheirTitles) {
+    const std::string text = R"(
+seed = 77
+scenarios = ["merge"]
+conditions = ["baseline"]
+replications = 2
+[[condition]]
+name = "a"
+policy = ["corridor"]
+[factors]
+condition.failure = ["B5", "B10"]
+[titles]
+baseline = "Nothing"
+a = "Ours"
+B5 = "one in twenty"
+"a+failure=B10" = "Ours, worn"
+[plan]
+[[plan.comparison]]
+name = "x"
+against = "Nothing"
+condition = )";
+    EXPECT_EQ(read(text + "\"Ours, worn\"").plan->comparisons[0].condition, "a+failure=B10");
+    const StudyConfig config = read(text + "\"Ours+failure=one in twenty\"");
+    EXPECT_EQ(config.plan->comparisons[0].condition, "a+failure=B5");
+    EXPECT_EQ(config.plan->comparisons[0].against, "baseline");
+    EXPECT_THAT(problems(text + "\"Ours\""), HasSubstr("write 'a+failure=B5' or 'a+failure=B10'"));
+    EXPECT_THAT(problems(text + "\"one in twenty, no repair\""), HasSubstr("write 'a+failure=B5'"))
+        << "as tables say it";
+    EXPECT_THAT(problems(text + "\"one in twenty\""),
+                AllOf(HasSubstr("'one in twenty' is not in the study"), HasSubstr("write 'a+failure=B5'")));
+}
+
 TEST_F(PlannedStudy, TriesOutOnOtherSeedsAndConfirmsNothingThere) {
     const std::string same = std::string(study_text) + plan_text + "[quick]\nreplications = 2\n";
     EXPECT_THAT(problems(same), AllOf(HasSubstr("quick.seed"), HasSubstr("77 is that of the study")));
@@ -230,19 +252,17 @@ TEST_F(PlannedStudy, TriesOutOnOtherSeedsAndConfirmsNothingThere) {
     EXPECT_FALSE(quick.plan);
 }
 
-TEST_F(PlannedStudy, IsRefusedWhenAnotherStudyFileHasItsSeed) {
+TEST_F(PlannedStudy, IsRefusedWhenAnotherPlanHasItsSeed) {
     const fs::path file = folder_.write("study.toml", std::string(study_text) + plan_text);
     const StudyConfig config = read_study(file);
     const auto check = [&] { check_fresh_seed(config, file, folder_.path() / "runs" / "planned"); };
     EXPECT_EQ(refusal(check), "none");
-    folder_.write("notes.toml", "seed = 77\n");
-    EXPECT_EQ(refusal(check), "none") << "no study: it has no conditions";
-    folder_.write("tuned.toml", "seed = 77\nconditions = [\"baseline\"]\n");
-    EXPECT_THAT(refusal(check), AllOf(HasSubstr("study.toml: seed"), HasSubstr("77 is also that of "),
-                                      HasSubstr("tuned.toml, by which it may have been looked at"),
-                                      HasSubstr("Give one of the two another seed")));
-    folder_.write("tuned.toml", "seed = 1\nconditions = [\"baseline\"]\n[quick]\nseed = 77\n");
-    EXPECT_THAT(refusal(check), HasSubstr("tuned.toml")) << "its trials";
+    folder_.write("tuned.toml", "seed = 77\nconditions = [\"baseline\"]\n[quick]\nseed = 77\n");
+    EXPECT_EQ(refusal(check), "none") << "no plan has fixed the seed, and nothing ran";
+    folder_.write("other.toml", "seed = 77\nconditions = [\"baseline\"]\n[plan]\nalpha = 0.05\n");
+    EXPECT_THAT(refusal(check), AllOf(HasSubstr("study.toml: seed"), HasSubstr("77 was used before, by"),
+                                      HasSubstr("other.toml: it is the seed of its [plan]"),
+                                      HasSubstr("Give the study another seed")));
     StudyConfig exploratory = config;
     exploratory.plan.reset();
     EXPECT_NO_THROW(check_fresh_seed(exploratory, file, folder_.path() / "runs" / "planned"));
@@ -252,6 +272,13 @@ TEST_F(PlannedStudy, IsRefusedWhenAnotherStudyFileHasItsSeed) {
 class PlannedRuns : public PlannedStudy {
   protected:
     void ran(const std::string& name, const results::Manifest& manifest) {
+        prepared(name, manifest);
+        const experiment::RunKey first = manifest.runs().front();
+        const fs::path run = runs_ / name / "runs" / first.scenario / first.condition / "00000";
+        fs::create_directories(run);
+        core::write_atomically(run / "run.json", "{}");
+    }
+    void prepared(const std::string& name, const results::Manifest& manifest) {
         fs::create_directories(runs_ / name);
         core::write_atomically(runs_ / name / "manifest.json", results::to_json(manifest));
     }
@@ -287,7 +314,7 @@ TEST_F(PlannedRuns, AreNotExtendedAfterALook) {
     config_.replications += 1;
     EXPECT_THAT(check(), AllOf(HasSubstr(fmt::format("planned: {} replications instead of {}",
                                                      config_.replications - 1, config_.replications)),
-                               HasSubstr("go on with those")));
+                               HasSubstr("Go on with those settings")));
 }
 
 TEST_F(PlannedRuns, OfAnotherStudyUseUpTheSeed) {
@@ -295,6 +322,17 @@ TEST_F(PlannedRuns, OfAnotherStudyUseUpTheSeed) {
     EXPECT_THAT(check(), AllOf(HasSubstr("study.toml: seed: 77 was used before, by"),
                                HasSubstr("explored: different study name"),
                                HasSubstr("take a seed that was never run")));
+}
+
+TEST_F(PlannedRuns, UseUpNoSeedBeforeTheyRanUnlessAPlanHasFixedIt) {
+    const results::Manifest exploratory = changed([](StudyConfig& config) { config.plan.reset(); });
+    prepared("first", exploratory);
+    EXPECT_EQ(check(), "none");
+    ran("first", exploratory);
+    EXPECT_THAT(check(), testing::ContainsRegex("different plan.*; it ran [a-z]+/[a-z]+/0"));
+    prepared("first", changed([](StudyConfig& config) { config.name = "other"; }));
+    fs::remove_all(runs_ / "first" / "runs");
+    EXPECT_THAT(check(), HasSubstr("; nothing ran, but it is the seed of its plan"));
 }
 
 TEST_F(PlannedRuns, WithOtherSettingsUseUpTheSeed) {
@@ -308,10 +346,11 @@ TEST_F(PlannedRuns, WithOtherSettingsUseUpTheSeed) {
         {"replications", changed([](StudyConfig& config) { config.replications += 1; })}};
     for (const auto& [part, manifest] : others) {
         ran("first", manifest);
-        EXPECT_THAT(check(), AllOf(testing::ContainsRegex(part == "replications"
-                                                              ? "first: [0-9]+ replications instead of"
-                                                              : "first: different " + part + " \\("),
-                                   HasSubstr("Other settings were run on this seed")));
+        EXPECT_THAT(check(),
+                    AllOf(testing::ContainsRegex(part == "replications"
+                                                     ? "first: [0-9]+ replications instead of"
+                                                     : "first: different " + part + "( \\(|; it ran)"),
+                          HasSubstr("Go on with those settings")));
         fs::rename(runs_ / "first", runs_ / "planned");
         if (part != "replications") {
             EXPECT_THAT(check(), HasSubstr("planned: different " + part)) << "in its own folder";

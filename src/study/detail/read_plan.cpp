@@ -24,87 +24,70 @@ std::vector<std::string> names_of(const std::vector<Element>& elements) {
     return core::texts_of(elements, &Element::name);
 }
 
-/// Those whose levels are most of the words of a title, `corridor, B10, no repair`; at most three.
-std::vector<std::string> named_by(const std::string& title, const std::vector<std::string>& known) {
-    constexpr std::size_t most_told = 3;
-    std::vector<std::string> best;
-    std::size_t most = 1;  // one word alone says too little
-    for (const std::string& name : known) {
-        std::size_t count = 0;
-        std::istringstream words(title);
-        for (std::string word; std::getline(words >> std::ws, word, ',');)
-            count += (name + "+").find("=" + core::as_folder_name(word) + "+") != std::string::npos ? 1 : 0;
-        if (count > most) best.clear();
-        if (count >= std::max<std::size_t>(most, 2)) best.push_back(name);
-        most = std::max(most, count);
-    }
-    best.resize(std::min(best.size(), most_told));
-    return best;
+/// The name, or the value of a factor, that has this title; a title of several and other words as they are.
+std::string untitled(const std::string& word, const core::Settings& titles) {
+    const auto is_title = [&](const auto& one) { return one.second == word; };
+    return std::ranges::count_if(titles, is_title) == 1 ? std::ranges::find_if(titles, is_title)->first
+                                                        : word;
 }
 
 /// The name probably meant by one that is not in the study. Factors lengthen names: `a` is `a+lease_s=2`
-/// then.
-std::string meant(const std::string& name, const std::vector<std::string>& known) {
+/// then, and `2` a part of it.
+std::string meant(const std::string& text, const std::vector<std::string>& known,
+                  const core::Settings& titles) {
+    const std::string name = untitled(text.substr(0, text.find(", ")), titles);  // `Green wave, no repair`
     std::vector<std::string> lengthened;
     for (const std::string& full : known) {
-        if (!name.empty() && full.starts_with(name + "+")) lengthened.push_back(full);
+        const bool has_value = (full + "+").find("=" + core::as_folder_name(name) + "+") != std::string::npos;
+        if (!name.empty() && (full.starts_with(name + "+") || has_value)) lengthened.push_back(full);
     }
-    if (lengthened.empty()) lengthened = named_by(name, known);
     if (!lengthened.empty())
         return fmt::format("Factors are part of a name: write '{}'", fmt::join(lengthened, "' or '"));
     return core::did_you_mean(name, known);
 }
 
-/// Checks names; of several problems the first alone lists what is allowed.
-class Names {
-  public:
-    explicit Names(std::vector<std::string> known) : known_(std::move(known)) {}
-
-    void check(StrictTable& row, const char* key, const std::string& name) {
-        if (std::ranges::find(known_, name) != known_.end()) return;
-        row.problem(key, name.empty() ? "is missing" : fmt::format("'{}' is not in the study", name),
-                    is_listed_ ? "as above" : core::listed(known_), meant(name, known_));
-        is_listed_ = true;
-    }
-    const std::vector<std::string>& known() const { return known_; }
-
-  private:
-    std::vector<std::string> known_;
-    bool is_listed_ = false;
-};
-
 /// `linked`, `failure=B10`, `policy=mine.py_Green`: the parts of a name that factors lengthened, sorted.
-std::vector<std::string> parts_of(const std::string& name) {
+std::vector<std::string> parts_of(const std::string& name, const core::Settings& titles) {
     std::vector<std::string> parts;
     std::istringstream text(name);
     for (std::string part; std::getline(text, part, '+');) {
-        const std::size_t value = part.find('=') + 1;
-        parts.push_back(part.substr(0, value) +
-                        (value == 0 ? part : core::as_folder_name(part.substr(value))));
+        const std::size_t at = part.find('=') + 1;
+        const std::string value = untitled(part.substr(at), titles);
+        parts.push_back(at == 0 ? value : part.substr(0, at) + core::as_folder_name(value));
     }
     std::ranges::sort(parts);
     return parts;
 }
 
-/// What `[titles]` gives this title, or the text itself.
-std::string untitled(const std::string& text, const core::Settings& titles) {
-    const auto found = std::ranges::find(titles, text, [](const auto& title) { return title.second; });
-    return found == titles.end() ? text : found->first;
-}
+/// Checks names; of several problems the first alone lists what is allowed.
+class Names {
+  public:
+    explicit Names(std::vector<std::string> known, core::Settings titles = {})
+        : known_(std::move(known)), titles_(std::move(titles)) {}
 
-/// The name in the study of `linked+policy=mine.py:Green+failure=B10`, whose factors may have any order and
-/// values as they stand in the file, and any part its title; the same text where there is none.
-std::string full_name(const std::string& text, const std::vector<std::string>& known,
-                      const core::Settings& titles) {
-    std::string name;
-    std::istringstream stream(text);
-    for (std::string part; std::getline(stream, part, '+');) {
-        const std::size_t value = part.find('=') + 1;
-        name += (name.empty() ? "" : "+") + part.substr(0, value) + untitled(part.substr(value), titles);
+    /// The name in the study of its title, or of `linked+policy=mine.py:Green+failure=B10`, whose factors may
+    /// have any order, and values as they stand in the file or their titles; the same text where there is
+    /// none.
+    std::string full(const std::string& text) const {
+        if (std::ranges::find(known_, text) != known_.end()) return text;
+        const std::vector<std::string> parts = parts_of(untitled(text, titles_), titles_);
+        const auto found = std::ranges::find(
+            known_, parts, [](const std::string& name) { return parts_of(name, core::Settings()); });
+        return found == known_.end() ? text : *found;
     }
-    const auto found = std::ranges::find(known, parts_of(name), parts_of);
-    return found == known.end() ? text : *found;
-}
+
+    void check(StrictTable& row, const char* key, const std::string& name) {
+        if (std::ranges::find(known_, name) != known_.end()) return;
+        row.problem(key, name.empty() ? "is missing" : fmt::format("'{}' is not in the study", name),
+                    is_listed_ ? "as above" : core::listed(known_), meant(name, known_, titles_));
+        is_listed_ = true;
+    }
+
+  private:
+    std::vector<std::string> known_;
+    core::Settings titles_;
+    bool is_listed_ = false;
+};
 
 /// Metrics in seconds, for which the margin has a meaning.
 std::vector<std::string> metrics_in_seconds() {
@@ -214,10 +197,10 @@ void read_plan(StrictTable& root, Extent extent, StudyConfig& config) {
     if (config.replications < 2)
         root.problem("replications", fmt::format("{} cannot show what [plan] claims", config.replications),
                      "2 or more", "Give as many as the claims need, or remove [plan]");
-    Known known{Names(names_of(config.conditions)), Names(names_of(config.scenarios))};
+    Known known{Names(names_of(config.conditions), config.titles), Names(names_of(config.scenarios))};
     for (results::PlannedComparison& comparison : plan.comparisons) {
-        comparison.condition = full_name(comparison.condition, known.conditions.known(), config.titles);
-        comparison.against = full_name(comparison.against, known.conditions.known(), config.titles);
+        comparison.condition = known.conditions.full(comparison.condition);
+        comparison.against = known.conditions.full(comparison.against);
     }
     for (std::size_t at = 0; at < rows.size(); ++at)
         check_comparison(rows[at], plan.comparisons[at], known);

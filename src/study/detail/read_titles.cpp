@@ -25,10 +25,12 @@ void read_titles(core::StrictTable& root, const std::vector<experiment::Conditio
     std::vector<std::string> known = core::texts_of(config.conditions, &experiment::ConditionSpec::name);
     for (const experiment::ConditionSpec& condition : untouched)
         known.push_back(condition.name);
+    std::vector<std::string> given;
     for (const Factor& factor : factors.list) {
         for (const FactorValue& value : factor.values)
-            if (factor.group == "condition") known.push_back(value.text);
+            if (factor.group == "condition") given.push_back(value.text);
     }
+    known.insert(known.end(), given.begin(), given.end());
     std::ranges::sort(known);
     known.erase(std::unique(known.begin(), known.end()), known.end());
     for (const auto& [key, node] : *table) {
@@ -36,9 +38,13 @@ void read_titles(core::StrictTable& root, const std::vector<experiment::Conditio
         reader->text(name, config.titles[name]);
         const bool left_out = extent == Extent::quick && name.find('+') != std::string::npos;
         if (left_out || has(known, name)) continue;
-        const std::string nearest = core::did_you_mean(name, known);
-        reader->problem(name, "is no condition, and no text that a factor gives one", core::listed(known),
-                        nearest.empty() ? "" : nearest + " One of the two is misspelt");
+        const core::Problem problem = {reader->where(name),
+                                       "is no condition, and no text that a factor gives one",
+                                       core::listed(known), core::did_you_mean(name, known)};
+        if (has(given, core::nearest(name, known)))
+            config.doubtful_titles.push_back(problem);
+        else
+            reader->problem(name, problem.what, problem.allowed, problem.cure);
     }
 }
 
