@@ -22,16 +22,24 @@ class Conditions:
         self._folder = folder
 
     @functools.cached_property
-    def _factors(self) -> dict[str, dict[str, dict[str, str]]]:
-        """Of each scenario and each condition by name."""
+    def _manifest(self) -> tuple[dict[str, Any], dict[str, dict[str, dict[str, str]]]]:
+        """All of it, and the factors of each scenario and each condition by name."""
         file = self._folder / "manifest.json"
         content = _files.content(file)
         try:
             manifest = json.loads(content)
-            return {kind: {one["name"]: dict(one.get("factors") or {}) for one in manifest[f"{kind}s"]} for kind in ("scenario", "condition")}
+            return manifest, {kind: {one["name"]: dict(one.get("factors") or {}) for one in manifest[f"{kind}s"]} for kind in ("scenario", "condition")}
         except (ValueError, LookupError, TypeError, AttributeError) as error:
             raise _program.InputError(f"{file}: is damaged ({error!r}). Take it from a backup, or run the study into another folder"
                                       ) from None
+
+    @property
+    def study(self) -> dict[str, Any]:
+        return self._manifest[0]
+
+    @property
+    def _factors(self) -> dict[str, dict[str, dict[str, str]]]:
+        return self._manifest[1]
 
     @property
     def scenarios(self) -> list[str]:

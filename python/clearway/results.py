@@ -119,6 +119,12 @@ class Results(_program.Told):
         return self._read[name]
 
     @property
+    def study(self) -> dict[str, Any]:
+        """What the study is, as its manifest.json says: ``study`` is its name, then ``study_seed``, ``replications``, ``plan``, and
+        ``conditions`` and ``scenarios`` with all their settings."""
+        return self._conditions.study
+
+    @property
     def runs(self) -> Table:
         """One row for each run."""
         return self.table("runs")

@@ -70,6 +70,7 @@ class ImportTest(FolderCase):
     def test_says_what_it_has_when_a_name_is_wrong(self) -> None:
         self.assertIn("no 'conditions'. Did you mean 'Condition'? It has Approach, ",
                       self.message_of(AttributeError, lambda: clearway.conditions))
+        self.assertEqual("clearway has no '_nothing'", self.message_of(AttributeError, lambda: clearway._nothing))
 
     def test_has_a_module_that_says_what_torchscript_is_given(self) -> None:
         ended = python("import clearway; help(clearway.torchscript)")

@@ -340,7 +340,9 @@ class ResultsTest(FolderCase):
         given = {"traffic_model": "sublane", "bluelight": True, "safety_checks": False, "rerouting_s": 30, "rerouting_signal_penalty": 0.5}
         conditions = [clearway.Condition("plain", traffic_model="sublane"), clearway.Condition("own", **given)]
         results = clearway.run("intersection", conditions, seeds=1, baseline=False, out="runs")
-        stored = json.loads((results.folder / "manifest.json").read_text(encoding="utf-8"))["conditions"][1]
+        self.assertEqual(results.study, json.loads((results.folder / "manifest.json").read_text(encoding="utf-8")))
+        self.assertEqual((results.study["study"], results.study["replications"]), ("intersection", 1))
+        stored = results.study["conditions"][1]
         said = {key: {"on": True, "off": False}.get(value, value) for key, value in stored.items() if key in given}
         self.assertEqual(said, given)
         names = {field.name for field in dataclasses.fields(clearway.Condition)} | {"policies"}  # policy
