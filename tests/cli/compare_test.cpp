@@ -114,9 +114,9 @@ TEST_F(CompareTest, compares_with_the_same_at_another_level_of_a_factor) {
     EXPECT_THAT(read("figures/factors-emergency-grid.tex"),
                 AllOf(HasSubstr("difference to the same with policy Today, s"),
                       HasSubstr("\\label{tab:factors-emergency-grid-against-the-same-with-policy-today}")));
-    EXPECT_THAT(read("figures/differences-line.svg"),
-                AllOf(HasSubstr("difference to the same with policy Today (left: better), s"),
-                      Not(HasSubstr("the baseline"))));
+    EXPECT_THAT(
+        read("figures/differences-line.svg"),
+        AllOf(HasSubstr("difference to policy Today (left: better), s"), Not(HasSubstr("the baseline"))));
     const auto refused = [&](const char* against, const char* said) {
         const Ended ended = clearway({"compare", "runs/mine", "--against", against});
         EXPECT_EQ(ended.code, 3);
