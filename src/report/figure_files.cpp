@@ -156,8 +156,7 @@ class FileWriter : public detail::Writer {
     std::string with_scenario(const std::string& caption, const std::string& name) const {
         for (const ScenarioFacts& scenario : study_.scenarios) {
             if (caption == scenario.name) return topic_ + ": " + caption;
-            if (name.ends_with("-" + plain_name(scenario.name)) &&
-                caption.find(scenario.name) == std::string::npos)
+            if (name.ends_with("-" + plain_name(scenario.name)) && !caption.starts_with(scenario.name))
                 return scenario.name + ": " + caption;
         }
         return caption;

@@ -85,8 +85,8 @@ class LiveTest : public UserTest {
         return all;
     }
     void expect_as_run(const Ended& live) const {
-        const Ended usual =
-            clearway(joined(joined({"run"}, mine), {"--seeds", "1", "--no-solo", "--out", "usual"}));
+        const Ended usual = clearway(
+            joined(joined({"run"}, mine), {"--seeds", "1", "--no-solo", "--no-perfect", "--out", "usual"}));
         ASSERT_EQ(usual.code, 0) << usual.err;
         EXPECT_EQ(bytes_of("out"), bytes_of("usual"));
         ASSERT_THAT(live.out, testing::StartsWith("http://127.0.0.1:"));
