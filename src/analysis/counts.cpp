@@ -20,12 +20,19 @@ double widened(double outside, double degrees_of_freedom) {
     return boost::math::cdf(boost::math::normal(), t);
 }
 
-/// Pearson correlation of two samples; 0 if one does not vary.
+/// Fewer pairs with an event do not tell how two counts go together: one pair alone would make it certain.
+constexpr std::ptrdiff_t fewest_with_events = 5;
+
+/// Pearson correlation of two samples; 0 if one does not vary, or where too few pairs have an event.
 double correlation(std::span<const double> first, std::span<const double> second, const Estimate& of_first,
                    const Estimate& of_second) {
+    std::ptrdiff_t with_events = 0;
     double sum = 0.0;
-    for (std::size_t row = 0; row < first.size(); ++row)
+    for (std::size_t row = 0; row < first.size(); ++row) {
+        with_events += first[row] > 0.0 || second[row] > 0.0 ? 1 : 0;
         sum += (first[row] - of_first.mean) * (second[row] - of_second.mean);
+    }
+    if (with_events < fewest_with_events) return 0.0;
     const double scale = of_first.deviation * of_second.deviation * static_cast<double>(first.size() - 1);
     return scale > 0.0 ? sum / scale : 0.0;
 }

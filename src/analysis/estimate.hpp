@@ -86,9 +86,9 @@ std::optional<Interval> quantile_interval(std::span<const double> values, double
 MaybeEstimate estimate_count(std::span<const double> counts, double level = usual_level);
 
 /// Mean of `condition[i] - baseline[i]` of counts; the interval follows from those of the two means by the
-/// method of variance estimates recovery with their correlation (Zou and Donner 2008), so that rare events do
-/// not look like certain differences. A bootstrap and a t interval are too narrow for them: with four
-/// collisions against none they excluded 0.
+/// method of variance estimates recovery with their correlation (Zou and Donner 2008), which is 0 where fewer
+/// than five pairs have an event, so that rare events do not look like certain differences. A bootstrap and a
+/// t interval are too narrow for them: with four collisions against none they excluded 0.
 MaybeEstimate estimate_count_difference(std::span<const double> condition, std::span<const double> baseline,
                                         double level = usual_level);
 

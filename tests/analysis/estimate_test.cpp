@@ -115,11 +115,15 @@ TEST(EstimateCountDifference, DoesNotTakeFourRareEventsForCertain) {
     std::fill_n(some.begin(), 12, 1.0);
     EXPECT_GT(estimate_count_difference(some, none)->interval->low, 0.0);
     EXPECT_TRUE(estimate_count_difference(none, none)->interval->contains(0.1)) << "never seen is not never";
+    const std::vector<double> one_run = {0, 0, 0, 0, 0, 1, 0, 0, 0, 0};
+    const std::vector<double> same_run = {0, 0, 0, 0, 0, 5, 0, 0, 0, 0};
+    EXPECT_TRUE(estimate_count_difference(one_run, same_run)->interval->contains(0.0)) << "one pair alone";
+    EXPECT_TRUE(estimate_count_difference(same_run, one_run)->interval->contains(0.0));
 }
 
 TEST(EstimateCountDifference, HasTheLimitsOfZouAndDonner) {
-    const std::vector<double> more = {2.0, 4.0, 6.0, 8.0};
-    const std::vector<double> less = {1.0, 2.0, 3.0, 6.0};
+    const std::vector<double> more = {2.0, 4.0, 6.0, 8.0, 5.0};
+    const std::vector<double> less = {1.0, 2.0, 3.0, 6.0, 3.0};
     const double together = 16.0 / std::sqrt(20.0 * 14.0);  // Pearson's correlation.
     const auto limit_away = [&](double first, double second) {
         return std::sqrt(first * first + second * second - 2.0 * together * first * second);
