@@ -193,9 +193,17 @@ class FileWriter : public detail::Writer {
     }
     void put(const Table& table) override {
         if (!is_chosen(table.name)) return;
-        files_.tables.push_back(write(table.name, ".csv", detail::to_csv(table.data)));
         Table typeset = table;
-        typeset.caption = caption(table.caption);
+        bool has_reference = false;
+        for (std::string& head : typeset.data.head) {
+            head = named(head, short_reference());
+            has_reference = has_reference || head.find(short_reference()) != std::string::npos ||
+                            head.find("difference") != std::string::npos;
+        }
+        files_.tables.push_back(write(table.name, ".csv", detail::to_csv(typeset.data)));
+        // A plan compares what it names.
+        typeset.caption = has_reference && table.name != "plan" ? caption(table.caption)
+                                                                : named(table.caption, study_.reference);
         typeset.name = label(table.name);
         files_.typeset.push_back(write(table.name, ".tex", detail::to_latex(typeset)));
         files_.entries.push_back({section_, table.name, typeset.name, typeset.caption, "", false, true});

@@ -21,7 +21,7 @@ constexpr std::size_t listed_approaches = 100;
 
 DataTable approach_data(const ScenarioFacts& scenario) {
     DataTable table{{"Approach", "condition", "time lost, s per run [95 %]", "human-driven", "automated",
-                     "waiting time", "baseline, s per run", "vehicles per run", "per vehicle, s"},
+                     "waiting time", "the baseline, s per run", "vehicles per run", "per vehicle, s"},
                     {}};
     const NumberStyle style = typeset(0, Sign::always);
     for (const ConditionFacts& condition : scenario.conditions) {
