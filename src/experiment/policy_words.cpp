@@ -1,11 +1,15 @@
 #include "experiment/policy_words.hpp"
 
+#include <algorithm>
 #include <cctype>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "failures/failure_config.hpp"
 #include "policy/policy.hpp"
 
 namespace clearway::experiment {
@@ -19,6 +23,18 @@ std::string policy_words(const ConditionSpec& condition) {
             std::string& summary = words.emplace_back(policy::policies().at(part).summary);
             summary.front() = static_cast<char>(std::tolower(summary.front()));
         }
+    }
+    return fmt::format("{}", fmt::join(words, "; "));
+}
+
+std::string failure_words(const ConditionSpec& condition) {
+    const auto& presets = failures::failure_presets();
+    std::vector<std::string> words;
+    std::istringstream items(condition.failure);
+    for (std::string item; std::getline(items, item, ',');) {
+        if (item == ConditionSpec().failure) continue;
+        const auto preset = std::ranges::find(presets, item, &failures::FailurePreset::name);
+        words.push_back(preset == presets.end() ? item : preset->summary);
     }
     return fmt::format("{}", fmt::join(words, "; "));
 }

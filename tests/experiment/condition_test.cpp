@@ -35,6 +35,18 @@ TEST(PolicyWords, say_what_policies_do_and_a_combination_by_its_parts) {
     EXPECT_EQ(policy_words(condition), "");
 }
 
+TEST(FailureWords, TellPresetsInWordsAndFieldsAsTheyStand) {
+    ConditionSpec condition;
+    EXPECT_EQ(failure_words(condition), "") << "nothing fails";
+    condition.failure = "Q50,range_150m";
+    EXPECT_EQ(failure_words(condition),
+              "50 % of the messages between EVs and signals lost; half of the signals at 150 m hear EVs, in "
+              "line of "
+              "sight");
+    condition.failure = "B10,dark_share=0.5";
+    EXPECT_EQ(failure_words(condition), "outages of 10 s on average, dark 30 % of the time; dark_share=0.5");
+}
+
 TEST(BuiltInConditions, AreNotTheirPartsWhoseOptionIsNamed) {
     const auto refusal = [](const std::string& name, const std::string& where) {
         return support::message_of([&] { built_in_condition(name, where); });

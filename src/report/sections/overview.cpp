@@ -40,9 +40,10 @@ void write_words(const StudyFacts& study, const ScenarioFacts& scenario, const C
                               escaped(scenario_headline(scenario, condition, script))));
     writer.markup(coarse_step_note(scenario.step_length_s));
     const std::string policies = experiment::policy_words(condition.condition);
-    write_notes(
-        {policies.empty() ? "" : fmt::format("{}: {}.", condition.title, policies), scenario.assumptions},
-        writer);
+    const std::string failing = experiment::failure_words(condition.condition);
+    write_notes({policies.empty() ? "" : fmt::format("{}: {}.", condition.title, policies),
+                 failing.empty() ? "" : fmt::format("What fails: {}.", failing), scenario.assumptions},
+                writer);
     writer.markup(fmt::format("<p class=\"badge {}\">{}</p>\n",
                               badge.runs == Badge::Runs::enough ? "enough" : "few", escaped(badge.words)));
     const bool has_block =
