@@ -63,7 +63,7 @@ function(clearway_module name)
         add_library(${target} STATIC ${sources})
         clearway_compile_options(${target})
         # A unit parses its headers once: most of what a module costs to build.
-        set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 40)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 24)
     else()
         add_library(${target} INTERFACE)
         set(scope INTERFACE)
