@@ -44,8 +44,10 @@ herr_t take_failure(unsigned depth, const H5E_error2_t* error, void* target) {
     if (depth == 0) failure.message = words;
     const std::size_t at = words.find("errno = ");
     if (at != std::string_view::npos) failure.reason = std::atoi(words.data() + at + 8);
-    // inflate() gets bytes whose checksum was right: what it can lack is memory for its window.
-    if (error->maj_num == H5E_RESOURCE || error->min_num == H5E_CANTALLOC || words.starts_with("inflate"))
+    // inflate() gets bytes whose checksum was right: what it can lack is memory for its window. Lists of
+    // properties are in no file.
+    if (error->maj_num == H5E_RESOURCE || error->min_num == H5E_CANTALLOC || words.starts_with("inflate") ||
+        words.find("property list") != std::string_view::npos)
         failure.lacks_memory = true;
     return 0;
 }
