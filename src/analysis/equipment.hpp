@@ -11,6 +11,9 @@
 
 namespace clearway::analysis {
 
+/// As many as a search takes: the demand of each is made before anything runs.
+inline constexpr std::uint32_t most_equip_replications = 1000;
+
 /// A set of equipped signals: numbers of candidates from 0, in the order in which they were chosen.
 using SignalSet = std::vector<std::size_t>;
 

@@ -109,11 +109,11 @@ std::optional<double> paired_equivalence_p(std::span<const double> condition,
     return boost::math::cdf(boost::math::complement(distribution, t));
 }
 
-std::size_t required_replications(double deviation, double half_width, double level) {
-    assert(half_width > 0.0);
-    const auto suffices = [&](std::size_t n) {
-        return clearway::analysis::half_width(deviation, n, level) <= half_width;
-    };
+namespace {
+
+/// The least count of at least 2 that suffices, where every greater one does.
+template <class Suffices>
+std::size_t least_count(const Suffices& suffices) {
     std::size_t enough = 2;
     while (!suffices(enough))
         enough *= 2;
@@ -123,6 +123,25 @@ std::size_t required_replications(double deviation, double half_width, double le
         (suffices(middle) ? enough : too_few) = middle;
     }
     return enough;
+}
+
+}  // namespace
+
+std::size_t required_replications(double deviation, double half_width, double level) {
+    assert(half_width > 0.0);
+    return least_count(
+        [&](std::size_t n) { return clearway::analysis::half_width(deviation, n, level) <= half_width; });
+}
+
+std::size_t replications_to_show(double deviation, double difference, double level) {
+    assert(difference > 0.0);
+    return least_count([&](std::size_t n) {
+        const auto count = static_cast<double>(n);
+        const boost::math::students_t distribution(count - 1.0);
+        const double reserve =
+            boost::math::quantile(distribution, usual_power) * deviation / std::sqrt(count);
+        return half_width(deviation, n, level) + reserve <= difference;
+    });
 }
 
 double geh(double modelled_per_hour, double counted_per_hour) {

@@ -105,6 +105,12 @@ double half_width(double deviation, std::size_t n, double level = usual_level);
 /// III (FHWA-HOP-18-036, 2019), section on the number of runs, its equation iterated because t depends on n.
 /// `half_width` > 0, `deviation` >= 0, both in one unit.
 std::size_t required_replications(double deviation, double half_width, double level = usual_level);
+/// How often a study is to show a difference that is there.
+inline constexpr double usual_power = 0.8;
+/// Pairs that show a mean difference with the usual power: the least n of at least 2 whose interval, and what
+/// chance may take from the mean, t(n - 1) of the power times deviation / sqrt(n), fit into it (Cohen 1988,
+/// his paired t test with the central distribution). `difference` > 0, `deviation` >= 0, both in one unit.
+std::size_t replications_to_show(double deviation, double difference, double level = usual_level);
 /// FHWA's minimum, whatever the equation says.
 inline constexpr std::size_t fewest_replications = 10;
 /// Those required, and at least the minimum.

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/settings.hpp"
+#include "experiment/related_conditions.hpp"
 
 namespace clearway::analysis {
 namespace {

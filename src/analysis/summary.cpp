@@ -10,6 +10,7 @@
 
 #include "analysis/detail/condition_summary.hpp"
 #include "core/fields.hpp"
+#include "experiment/related_conditions.hpp"
 #include "experiment/settings.hpp"
 #include "traffic/lease.hpp"
 

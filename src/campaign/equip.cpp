@@ -129,6 +129,7 @@ void write_files(const report::EquipmentFacts& facts, const std::filesystem::pat
 
 /// What a race knew when it was interrupted.
 struct Look {
+    analysis::Values none;  ///< With none equipped, on as many seeds as the first place needed.
     std::vector<analysis::SignalSet> sets;  ///< The first has those that are chosen.
     std::vector<analysis::Values> values;
     std::size_t replications = 0;
@@ -154,7 +155,9 @@ std::string interim_words(const Look& look, const Signals& signals) {
     std::string text =
         fmt::format("clearway: no ranking yet; the last complete look, {} seeds", look.replications);
     if (!look.sets.front().empty())
-        text += fmt::format(", beside {}", core::listed(core::texts_of(look.sets.front(), name)));
+        text += fmt::format(", beside those chosen so far, {}, which gain {} s",
+                            core::listed(core::texts_of(look.sets.front(), name)),
+                            report::estimate(less(look.none, look.values.front()), {}));
     text += ". Gains, s, of which the largest flatters itself:\n";
     for (const auto& [gain, candidate] : gains)
         text += core::wrapped(fmt::format("  {}: {}", name(candidate), report::estimate(gain, {})), 4) + "\n";
@@ -171,7 +174,7 @@ analysis::EquipPlan raced(const EquipRequest& request, Search& search, Look& loo
     return analysis::equip_greedily(
         config, [&](const std::vector<analysis::SignalSet>& sets, std::size_t replications) {
             std::vector<analysis::Values> values = search.rounds.measure(sets, replications);
-            look = {sets, values, replications};
+            look = {sets.front().empty() ? values.front() : look.none, sets, values, replications};
             return values;
         });
 }
@@ -195,9 +198,10 @@ std::pair<analysis::EquipPlan, FreshOutcomes> measured(const EquipRequest& reque
 }  // namespace
 
 core::ExitCode equip(EquipRequest request) {
-    request = detail::fitted(std::move(request));
     const core::TemporaryFolder network_folder;
-    Search search = search_of(request, network_folder.path());
+    const scenario::BuiltNetwork built = detail::roads_of(request, network_folder.path());
+    request = detail::fitted(std::move(request), built);
+    Search search = search_of(request, built);
     EquipRounds& rounds = search.rounds;
     const auto [plan, fresh] = measured(request, search);
     report::EquipmentFacts facts = facts_of(search.config, request, search.signals);

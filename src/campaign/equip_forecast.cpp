@@ -16,7 +16,7 @@
 #include "core/json.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
-#include "experiment/settings.hpp"
+#include "experiment/related_conditions.hpp"
 #include "report/text.hpp"
 
 namespace clearway::campaign {
@@ -33,7 +33,8 @@ RunCost cost_of(const Search& search, const EquipRequest& request) {
     RunOptions options = request.run;
     const study::Plan plan = plan_for(config, options);
     RunCost cost;
-    for (const std::filesystem::path& folder : {request.run.folder / "round-01", request.run.folder}) {
+    for (const std::filesystem::path& folder :
+         {request.run.folder / EquipRounds::first_round, request.run.folder}) {
         cost =
             CostBook(folder).of(config.scenarios.front(), plan.manifest.scenarios.front().configuration_hash,
                                 request.condition.traffic_model);
@@ -47,11 +48,9 @@ unsigned processes_of(const EquipRequest& request) {
 }
 
 /// As many seeds as the time allows by the forecast of the fewest, to which runs are in proportion.
-std::uint32_t seeds_within(EquipRequest request) {
-    constexpr std::uint32_t most = 1000;  // as --seeds
+std::uint32_t seeds_within(EquipRequest request, const scenario::BuiltNetwork& built) {
     request.replications = analysis::fewest_for_interval;
-    const core::TemporaryFolder network_folder;
-    const Search search = search_of(request, network_folder.path());
+    const Search search = search_of(request, built);
     const RunCost cost = cost_of(search, request);
     if (!cost.wall_s)
         throw core::InputError({"--within", "the time of a run is unknown: its route files cannot be read",
@@ -63,8 +62,9 @@ std::uint32_t seeds_within(EquipRequest request) {
             "clearway: the least, {} seeds, takes about {}, more than the {} given ({}); a smaller --budget "
             "or fewer --candidates take less\n",
             request.replications, clock_words(least_s), clock_words(request.within_s), words(cost.basis)));
-    return static_cast<std::uint32_t>(
-        std::clamp<double>(request.replications * request.within_s / least_s, request.replications, most));
+    return static_cast<std::uint32_t>(std::clamp<double>(request.replications * request.within_s / least_s,
+                                                         request.replications,
+                                                         analysis::most_equip_replications));
 }
 
 /// What a first look of a quarter of an hour could be, the most seeds and then places, where what is asked
@@ -94,18 +94,19 @@ std::string short_plan(const EquipRounds& rounds, const EquipRequest& request, s
 
 }  // namespace
 
-EquipRequest detail::fitted(EquipRequest request) {
+EquipRequest detail::fitted(EquipRequest request, const scenario::BuiltNetwork& built) {
     if (request.within_s <= 0.0) return request;
-    request.replications = seeds_within(request);
+    request.replications = seeds_within(request, built);
     core::print_message(fmt::format("clearway: {} allow about --seeds {}\n", clock_words(request.within_s),
                                     request.replications));
     return request;
 }
 
 core::ExitCode equip_dry_run(EquipRequest request) {
-    request = detail::fitted(std::move(request));
     const core::TemporaryFolder network_folder;
-    const Search search = search_of(request, network_folder.path());
+    const scenario::BuiltNetwork built = detail::roads_of(request, network_folder.path());
+    request = detail::fitted(std::move(request), built);
+    const Search search = search_of(request, built);
     search.rounds.require_fits();
     const EquipForecast runs = search.rounds.forecast();
     const RunCost cost = cost_of(search, request);

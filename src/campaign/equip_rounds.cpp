@@ -22,7 +22,7 @@
 #include "core/terminal.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/equipped_signals.hpp"
-#include "experiment/settings.hpp"
+#include "experiment/related_conditions.hpp"
 #include "scenario/prepare.hpp"
 #include "study/reuse.hpp"
 
@@ -218,11 +218,16 @@ std::size_t EquipRounds::later_runs(std::size_t places, std::size_t tries, std::
     return (places * tries * passed + candidates - 1) / candidates;
 }
 
-EquipForecast EquipRounds::forecast(std::size_t budget, std::uint32_t replications) const {
-    assert(replications <= question_.passed.size());
+std::vector<analysis::SignalSet> EquipRounds::none_and_each() const {
     std::vector<analysis::SignalSet> sets = {{}};
     for (std::size_t candidate = 0; candidate < question_.signals.size(); ++candidate)
         sets.push_back({candidate});
+    return sets;
+}
+
+EquipForecast EquipRounds::forecast(std::size_t budget, std::uint32_t replications) const {
+    assert(replications <= question_.passed.size());
+    std::vector<analysis::SignalSet> sets = none_and_each();
     if (budget > 1)
         for (const auto& pair : question_.pairs)
             sets.emplace_back(pair.begin(), pair.end());
@@ -278,11 +283,8 @@ study::StudyConfig EquipRounds::round_of(const Wanted& wanted) const {
 }
 
 void EquipRounds::require_fits() const {
-    std::vector<analysis::SignalSet> sets = {{}};
-    for (std::size_t candidate = 0; candidate < question_.signals.size(); ++candidate)
-        sets.push_back({candidate});
     Wanted wanted;
-    add_missing(sets, analysis::equip_looks(question_.config.replications).front(), wanted);
+    add_missing(none_and_each(), analysis::equip_looks(question_.config.replications).front(), wanted);
     RunOptions options = options_;
     options.folder /= first_round;
     const study::Plan plan = plan_for(round_of(wanted), options);

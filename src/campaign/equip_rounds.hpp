@@ -120,6 +120,8 @@ class EquipRounds {
     using Replications = std::set<std::uint32_t>;
     using Wanted = std::map<analysis::SignalSet, Replications>;
 
+    /// No candidate, and each alone: what a race begins with, pairs apart.
+    std::vector<analysis::SignalSet> none_and_each() const;
     /// The signals of a set that a replication's emergency vehicles pass: the others change nothing there.
     analysis::SignalSet effective(const analysis::SignalSet& set, std::uint32_t replication) const;
     /// Adds the runs that these sets need and that are neither known nor in `wanted`.

@@ -16,6 +16,7 @@
 #include "core/files.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/job.hpp"
+#include "experiment/related_conditions.hpp"
 #include "experiment/settings.hpp"
 
 namespace clearway::cli {

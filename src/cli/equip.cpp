@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/equipment.hpp"
 #include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
@@ -14,7 +15,6 @@
 namespace clearway::cli {
 namespace {
 
-constexpr std::uint32_t most_seeds = 1000;  // the demand of each is made before anything runs
 constexpr std::size_t most_signals = 10000;
 
 struct EquipArguments {
@@ -44,8 +44,9 @@ void add_study_options(App& app, const std::shared_ptr<EquipArguments>& argument
     const Option seeds =
         app.add_option("--seeds", request.replications,
                        "Replications that decide, and fresh ones that estimate; all sets share their demand")
-            .range(2U, most_seeds)
-            .option_text(fmt::format("N, 2 to {} [{}]", most_seeds, request.replications));
+            .range(2U, analysis::most_equip_replications)
+            .option_text(
+                fmt::format("N, 2 to {} [{}]", analysis::most_equip_replications, request.replications));
     add_within_option(app, request.within_s).excludes(seeds);
     add_seed_option(app, request.seed);
     app.add_option("--out", request.run.folder,

@@ -16,7 +16,7 @@
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "experiment/conditions.hpp"
-#include "experiment/settings.hpp"
+#include "experiment/related_conditions.hpp"
 
 namespace clearway::cli {
 namespace {

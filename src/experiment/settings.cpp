@@ -14,7 +14,6 @@
 #include "core/folder_name.hpp"
 #include "drivers/config.hpp"
 #include "experiment/code_parts.hpp"
-#include "experiment/conditions.hpp"
 #include "experiment/detail/request_checks.hpp"
 #include "experiment/equipped_signals.hpp"
 #include "failures/failure_config.hpp"
@@ -91,21 +90,6 @@ std::vector<Component> make_components() {
 const Component* component_named(const std::string& name) {
     const auto found = std::ranges::find(components(), name, &Component::name);
     return found == components().end() ? nullptr : &*found;
-}
-
-/// Splits `component.name`; the component is empty without a dot.
-std::pair<std::string, std::string> parted(const std::string& name) {
-    const std::size_t dot = name.find('.');
-    if (dot == std::string::npos) return {"", name};
-    return {name.substr(0, dot), name.substr(dot + 1)};
-}
-
-core::Settings environment_of(const core::Settings& settings) {
-    core::Settings found;
-    for (const auto& [name, value] : settings) {
-        if (is_environment(parted(name).first)) found.emplace(name, value);
-    }
-    return found;
 }
 
 /// Full names of all settings of these components.
@@ -325,6 +309,12 @@ std::vector<std::string> parts_of(const ConditionSpec& condition) {
     return parts;
 }
 
+std::pair<std::string, std::string> parted(const std::string& name) {
+    const std::size_t dot = name.find('.');
+    if (dot == std::string::npos) return {"", name};
+    return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
 void set(ConditionSpec& condition, const std::string& name, const std::string& value) {
     const auto [component, field] = parted(name);
     const std::string text = core::setting_text(value);
@@ -388,41 +378,6 @@ std::vector<core::Problem> check_setting(const std::string& name, const std::str
 
 bool is_environment(const std::string& component) {
     return component == siren_name || component == privilege_name;
-}
-
-bool same_environment(const ConditionSpec& left, const ConditionSpec& right) {
-    return left.traffic_model == right.traffic_model &&
-           environment_of(left.settings) == environment_of(right.settings);
-}
-
-ConditionSpec baseline_for(const ConditionSpec& condition) {
-    ConditionSpec baseline = built_in_condition("baseline", "baseline");
-    if (same_environment(condition, baseline)) return baseline;
-    baseline.traffic_model = condition.traffic_model;
-    if (condition.traffic_model != TrafficModel::standard)
-        baseline.name += fmt::format("_{}", name(condition.traffic_model));
-    for (const auto& [setting, value] : environment_of(condition.settings)) {
-        baseline.settings.emplace(setting, value);
-        baseline.name += core::as_folder_name(fmt::format("_{}_{}", parted(setting).second, value));
-    }
-    return baseline;
-}
-
-ConditionSpec without_failure(const ConditionSpec& condition) {
-    const ConditionSpec usual;
-    if (condition.failure == usual.failure) return condition;
-    ConditionSpec perfect = condition;
-    perfect.failure = usual.failure;
-    perfect.predictor = usual.predictor;
-    perfect.model_file.clear();
-    perfect.model_hash.clear();
-    const std::vector<std::string> present = components_of(perfect);
-    std::erase_if(perfect.settings, [&](const auto& setting) {
-        return std::ranges::find(present, parted(setting.first).first) == present.end();
-    });
-    perfect.name =
-        condition.name == described_name(condition) ? described_name(perfect) : condition.name + "_perfect";
-    return perfect;
 }
 
 bool reads_links(const ConditionSpec& condition) {

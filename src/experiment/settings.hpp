@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -42,6 +43,9 @@ std::vector<std::string> components_of(const ConditionSpec& condition);
 /// them.
 std::vector<std::string> parts_of(const ConditionSpec& condition);
 
+/// `preempt_signals.lead_s` parted at its dot; the component is empty without one.
+std::pair<std::string, std::string> parted(const std::string& name);
+
 /// Sets `component.name` to a value given as text, without checks: see `check_settings`. A setting of the
 /// failure is added to the condition's `failure`, replacing an earlier value.
 void set(ConditionSpec& condition, const std::string& name, const std::string& value);
@@ -60,18 +64,6 @@ bool reads_links(const ConditionSpec& condition);
 /// Whether a component is part of the environment, the same in a condition and its baseline: `siren`,
 /// `privilege`.
 bool is_environment(const std::string& component);
-
-/// Whether two conditions have the same traffic model and the same settings of the environment: one of them
-/// can then be the other's baseline, because only the policy and what it needs differ.
-bool same_environment(const ConditionSpec& left, const ConditionSpec& right);
-
-/// The baseline of a condition: the car-following model alone, in the same environment. It is the built-in
-/// `baseline` where nothing of the environment is set.
-ConditionSpec baseline_for(const ConditionSpec& condition);
-
-/// The same policies while nothing fails and nothing is repaired. Equal to the condition where nothing fails.
-/// One that is named after its content keeps that rule, another gets `_perfect` behind its name.
-ConditionSpec without_failure(const ConditionSpec& condition);
 
 /// Everything wrong with the settings and the model of a condition: an unknown name, a component that the
 /// condition does not have, a value of the wrong type or out of range, a model that its predictor does not

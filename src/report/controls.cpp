@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiment/settings.hpp"
+#include "experiment/related_conditions.hpp"
 #include "report/verdict.hpp"
 
 namespace clearway::report {

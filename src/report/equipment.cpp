@@ -72,6 +72,14 @@ std::string names_of(const EquipmentFacts& facts) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
+bool is_exactly_none(const analysis::MaybeEstimate& gain) {
+    return gain && gain->mean == 0.0 && gain->deviation == 0.0;
+}
+
+bool most_runs_lock(const UnsoundRuns& unsound) {
+    return 2 * unsound.locked > unsound.runs;
+}
+
 std::size_t rank_of(const EquipmentFacts& facts, std::size_t number) {
     const auto found = std::ranges::find(facts.ranked, number, &EquippedSignal::number);
     return static_cast<std::size_t>(found - facts.ranked.begin()) + 1;
@@ -117,6 +125,11 @@ bool is_of_pair(const EquipmentFacts& facts, const EquippedSignal& signal) {
     });
 }
 
+/// Whether it changed no trip of the fresh seeds, so that its rank is chance.
+bool is_chance(const EquipmentFacts& facts, const EquippedSignal& signal) {
+    return is_exactly_none(signal.gain) && !is_of_pair(facts, signal);
+}
+
 bool shows_any(const EquipmentFacts& facts) {
     const auto shown = [](const auto& one) { return is_shown(one.gain) || is_shown(one.so_far); };
     return std::ranges::any_of(facts.ranked, shown) ||
@@ -125,16 +138,17 @@ bool shows_any(const EquipmentFacts& facts) {
            });
 }
 
-/// How many seeds would show the gain of all ranks, if it and its spread are what they look like.
+/// How many seeds would likely show the gain of all ranks, if it and its spread are what they look like.
 std::string seeds_sentence(const EquipmentFacts& facts) {
     const analysis::MaybeEstimate& gain = facts.ranked.back().so_far;
     if (analysis::shown_interval(gain) == nullptr || is_shown(gain)) return "";
     if (gain->mean <= 0.0) return "Their mean is no gain.";
-    constexpr std::size_t most = 1000;  // --seeds
-    const std::size_t seeds = analysis::required_replications(gain->deviation, gain->mean);
-    if (seeds > most)
-        return fmt::format("It would take more than {} seeds to show so small a gain of all.", most);
-    return fmt::format("About {} seeds would show the gain of all, if it is as it looks.", seeds);
+    const std::size_t seeds = analysis::replications_to_show(gain->deviation, gain->mean);
+    if (seeds > analysis::most_equip_replications)
+        return fmt::format("It would take more than {} seeds to show so small a gain of all.",
+                           analysis::most_equip_replications);
+    return fmt::format("About {} seeds would likely (80 %) show the gain of all, if it is as it looks.",
+                       seeds);
 }
 
 /// `Vehicles locked each other in 4 of 30 fresh runs, and 1 EV did not arrive: ...`, or empty.
@@ -175,10 +189,6 @@ std::vector<std::string> setting_lines(const EquipmentFacts& facts) {
             "--set actuation.equipped=" + printable(fmt::format("{}", fmt::join(signals, ",")))};
 }
 
-bool is_exactly_none(const analysis::MaybeEstimate& gain) {
-    return gain && gain->mean == 0.0 && gain->deviation == 0.0;
-}
-
 /// Where no EV was a step faster or slower, seeds of the same kind would not show more.
 std::string no_effect_sentence(const EquipmentFacts& facts) {
     return is_exactly_none(facts.ranked.back().so_far)
@@ -190,7 +200,7 @@ std::string no_effect_sentence(const EquipmentFacts& facts) {
 std::string unchanged_sentence(const EquipmentFacts& facts) {
     std::vector<std::size_t> ranks;
     for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
-        if (is_exactly_none(facts.ranked[rank].gain)) ranks.push_back(rank + 1);
+        if (is_chance(facts, facts.ranked[rank])) ranks.push_back(rank + 1);
     if (ranks.empty() || is_exactly_none(facts.ranked.back().so_far)) return "";
     return fmt::format("Rank {} changed no trip of the fresh seeds: its place is chance.",
                        fmt::join(ranks, ", "));
@@ -210,9 +220,7 @@ std::string not_shown_sentence(const EquipmentFacts& facts) {
     if (facts.replications < analysis::fewest_for_interval)
         return fmt::format("Not shown: the gain {}; that takes {} seeds.", which,
                            analysis::fewest_for_interval);
-    return fmt::format(
-        "Not shown: the gain {}. It is likely best, but chance could be all of it; more --seeds tell.",
-        which);
+    return fmt::format("Not shown: the gain {}. Chance could be all of it; more --seeds tell.", which);
 }
 
 std::string end_sentence(const EquipmentFacts& facts) {
@@ -229,6 +237,15 @@ std::string share_sentence(const EquipmentFacts& facts) {
         return fmt::format("{} of {} bring {:.0f} % of the gain of all.", *rank,
                            counted(facts.signals, "signal"), great_share * 100.0);
     return fmt::format("These do not bring {:.0f} % of the gain of all.", great_share * 100.0);
+}
+
+/// What comes before the names of those that were chosen.
+const char* answer_of(const EquipmentFacts& facts) {
+    if (most_runs_lock(facts.unsound)) return "Most fresh runs lock, so the order means little";
+    if (shows_any(facts)) return "Equip first";
+    return is_chance(facts, facts.ranked.front())
+               ? "No gain is shown, and the first changed no trip, so no order"
+               : "No gain is shown yet; likely best";
 }
 
 /// What gains count from.
@@ -324,9 +341,7 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts) {
                                         counted(facts.candidates.size(), "candidate")));
     } else {
         const EquippedSignal& last = facts.ranked.back();
-        sentences.push_back(
-            fmt::format("{}: {}.", shows_any(facts) ? "Equip first" : "No gain is shown yet; likely best",
-                        names_of(facts)));
+        sentences.push_back(fmt::format("{}: {}.", answer_of(facts), names_of(facts)));
         sentences.push_back(fmt::format(
             "Together, an EV needs {} s less a trip than with {} ({}), and the others {}.",
             estimate_or_dash(last.so_far), facts.equipped_today.empty() ? "none" : "those of today",
@@ -415,11 +430,6 @@ std::string SignalsMet::words() const {
 
 std::optional<RoadMap> road_map(const results::Store& store, const std::string& scenario) {
     return detail::roads_in(store.scenario_folder(scenario) / "roads.json");
-}
-
-std::string programs_words(const std::string& attribution) {
-    if (attribution.find("OpenStreetMap") == std::string::npos) return "";
-    return "signal programs made up for the map, which has none, unless yours were entered";
 }
 
 bool is_shown(const analysis::MaybeEstimate& gain) {

@@ -110,9 +110,6 @@ struct EquipmentFacts {
 /// damaged file.
 std::optional<RoadMap> road_map(const results::Store& store, const std::string& scenario);
 
-/// Where the programs of signals come from if a map with this credit has none; empty for other sources.
-std::string programs_words(const std::string& attribution);
-
 /// Whether a gain above 0 is shown: an interval of at least `fewest_for_interval` pairs lies above it.
 bool is_shown(const analysis::MaybeEstimate& gain);
 

@@ -83,4 +83,9 @@ std::string wide_edges_sentence(const ScenarioFacts& scenario) {
         counted(scenario.wide_edges->size(), "edge"), most);
 }
 
+std::string programs_words(const std::string& attribution) {
+    if (attribution.find("OpenStreetMap") == std::string::npos) return "";
+    return "signal programs made up for the map, which has none, unless yours were entered";
+}
+
 }  // namespace clearway::report

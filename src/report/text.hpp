@@ -68,4 +68,7 @@ using core::grouped;
 /// list them.
 std::string wide_edges_sentence(const ScenarioFacts& scenario);
 
+/// Where the programs of signals come from if a map with this credit has none; empty for other sources.
+std::string programs_words(const std::string& attribution);
+
 }  // namespace clearway::report

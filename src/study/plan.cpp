@@ -13,7 +13,7 @@
 #include "core/plain_files.hpp"
 #include "core/read_failure.hpp"
 #include "experiment/conditions.hpp"
-#include "experiment/settings.hpp"
+#include "experiment/related_conditions.hpp"
 #include "scenario/network.hpp"
 #include "study/detail/situation.hpp"
 #include "study/folder_lock.hpp"

@@ -160,5 +160,13 @@ TEST(RequiredReplications, AreTheFewestWhoseIntervalIsNarrowEnough) {
     EXPECT_GT(required_replications(10.0, 0.3), 4200U);
 }
 
+TEST(ReplicationsToShow, AreThoseOfAPairedTTestOfEightyPercentPower) {
+    // Tables of a paired t test, two-sided 0.05: 34 pairs at d = 0.5, 15 at 0.8, 199 at 0.2.
+    EXPECT_EQ(replications_to_show(10.0, 5.0), 34U);
+    EXPECT_EQ(replications_to_show(10.0, 8.0), 15U);
+    EXPECT_EQ(replications_to_show(10.0, 2.0), 199U);
+    EXPECT_EQ(replications_to_show(0.0, 2.0), 2U);
+}
+
 }  // namespace
 }  // namespace clearway::analysis

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
 #include "experiment/condition_json.hpp"
+#include "experiment/condition_words.hpp"
 #include "experiment/conditions.hpp"
-#include "experiment/policy_words.hpp"
 #include "support/message_of.hpp"
 
 namespace clearway::experiment {

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "drivers/config.hpp"
+#include "experiment/related_conditions.hpp"
 #include "experiment/settings_page.hpp"
 #include "support/temporary_folder.hpp"
 

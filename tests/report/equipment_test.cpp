@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "report/text.hpp"
+
 namespace clearway::report {
 namespace {
 
@@ -145,7 +147,10 @@ TEST(Equipment, SaysWhatItsFreshRunsAreWorthAndHowFewTripsDecided) {
                           "not arrive: such runs say little of signals. Less traffic: 0.8 times"));
     EXPECT_EQ(nlohmann::json::parse(equipment_json(facts)).at("fresh_runs_with_locks"), 4);
     facts.met.trips = 80;
-    EXPECT_THAT(flat_text(facts), Not(HasSubstr("Few of the")));
+    EXPECT_THAT(flat_text(facts), AllOf(Not(HasSubstr("Few of the")), HasSubstr("Equip first: 1)")));
+    facts.unsound.locked = 16;
+    EXPECT_THAT(flat_text(facts), AllOf(HasSubstr("Most fresh runs lock, so the order means little: 1) Gate"),
+                                        Not(HasSubstr("Equip first"))));
 }
 
 TEST(Equipment, SaysWhichRanksChangedNothingAndWhosePrograms) {
@@ -160,6 +165,15 @@ TEST(Equipment, SaysWhichRanksChangedNothingAndWhosePrograms) {
     EXPECT_EQ(programs_words("from net.net.xml"), "");
 }
 
+TEST(Equipment, NamesNoBestWhereTheFirstRankIsChance) {
+    EquipmentFacts facts = two_of_twelve();
+    facts.ranked[0].gain = facts.ranked[0].so_far = Estimate{10, 0.0, 0.0, Interval{0.0, 0.0}};
+    facts.ranked[1].gain = facts.ranked[1].so_far = about(3.0, 6.0);
+    EXPECT_THAT(flat_text(facts),
+                AllOf(HasSubstr("No gain is shown, and the first changed no trip, so no order: 1) Gate"),
+                      HasSubstr("Rank 1 changed no trip"), Not(HasSubstr("likely best"))));
+}
+
 TEST(Equipment, NamesNoOrderWhereNothingIsShown) {
     EquipmentFacts facts = two_of_twelve();
     EXPECT_THAT(flat_text(facts), Not(HasSubstr("seeds would show")));
@@ -167,9 +181,10 @@ TEST(Equipment, NamesNoOrderWhereNothingIsShown) {
     facts.ranked[1].gain = about(1.0, 4.0);
     facts.ranked[1].so_far = about(3.0, 6.0);
     facts.ranked[1].so_far->deviation = 9.0;
-    EXPECT_THAT(flat_text(facts), AllOf(HasSubstr("No gain is shown yet; likely best: 1) Gate <Road> / High"),
-                                        Not(HasSubstr("Equip first")),
-                                        HasSubstr("About 38 seeds would show the gain of all, if it is as")));
+    EXPECT_THAT(flat_text(facts),
+                AllOf(HasSubstr("No gain is shown yet; likely best: 1) Gate <Road> / High"),
+                      Not(HasSubstr("Equip first")),
+                      HasSubstr("About 73 seeds would likely (80 %) show the gain of all")));
     facts.ranked[1].so_far->mean = 0.1;
     EXPECT_THAT(flat_text(facts), HasSubstr("It would take more than 1000 seeds to show so small a gain"));
     facts.ranked[1].so_far = about(0.0, 0.0);

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
+#include "experiment/related_conditions.hpp"
 #include "experiment/settings.hpp"
 #include "study/config.hpp"
 #include "study/plan.hpp"

@@ -12,6 +12,7 @@
 #include "core/own_output.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/equipped_signals.hpp"
+#include "experiment/related_conditions.hpp"
 #include "experiment/settings.hpp"
 #include "policy/policy.hpp"
 #include "python/part_name.hpp"
@@ -54,11 +55,11 @@ std::string streets_of(const scenario::SignalSheet& sheet) {
 }
 
 Signals signals_of(const study::StudyConfig& config, const EquipRequest& request,
-                   const std::filesystem::path& folder) {
-    const scenario::ScenarioConfig& scenario = config.scenarios.front();
-    Signals signals{scenario::build_network(scenario, folder), {}, {}, {}};
-    if (signals.built.network.signals().empty())
-        throw core::InputError({"scenario " + scenario.name, "has no signals", "a network with signals",
+                   const scenario::BuiltNetwork& built) {
+    Signals signals{built, {}, {}, {}};
+    if (built.network.signals().empty())
+        throw core::InputError({"scenario " + request.scenario.name, "has no signals",
+                                "a network with signals",
                                 "`clearway scenario signals SCENARIO` lists those of a scenario"});
     signals.today = experiment::equipped_signals(request.condition, signals.built.network);
     if (signals.ids_of_today().size() == signals.built.network.signals().size()) refuse_all_equipped();
@@ -105,11 +106,15 @@ void check_folder(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Search search_of(EquipRequest& request, const std::filesystem::path& network_folder) {
+scenario::BuiltNetwork roads_of(const EquipRequest& request, const std::filesystem::path& folder) {
     check_condition(request.condition);
+    return scenario::build_network(request.scenario, folder);
+}
+
+Search search_of(EquipRequest& request, const scenario::BuiltNetwork& built) {
     study::StudyConfig config = study_of(request.scenario, {}, request.seed, request.replications);
     config.name = "equip-" + config.name;
-    Signals signals = signals_of(config, request, network_folder);
+    Signals signals = signals_of(config, request, built);
     if (request.run.folder.empty()) request.run.folder = usual_folder(config, request.condition);
     check_folder(request.run.folder);
     EquipQuestion question = question_of(config, request, signals);

@@ -14,7 +14,7 @@ namespace clearway::campaign::detail {
 
 /// The signals of a scenario, and which of them could gain.
 struct Signals {
-    scenario::BuiltNetwork built;
+    const scenario::BuiltNetwork& built;  ///< Outlives this.
     EquipCandidates candidates;
     std::vector<std::string> all_streets;  ///< By core::SignalIndex.
     std::vector<bool> today;               ///< Which are equipped; empty: none.
@@ -42,8 +42,11 @@ struct Search {
     EquipRounds rounds;
 };
 
-/// Checks a request, gives it a folder where it names none, and builds the roads in `network_folder`. Throws
-/// as `equip` does.
-Search search_of(EquipRequest& request, const std::filesystem::path& network_folder);
+/// Checks the condition of a request and builds its roads in a folder. Throws as `equip` does.
+scenario::BuiltNetwork roads_of(const EquipRequest& request, const std::filesystem::path& folder);
+
+/// Finds the signals of a request on roads that outlive the search, and gives it a folder where it names
+/// none. Throws as `equip` does.
+Search search_of(EquipRequest& request, const scenario::BuiltNetwork& built);
 
 }  // namespace clearway::campaign::detail

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiment/conditions.hpp"
-#include "experiment/settings.hpp"
+#include "experiment/related_conditions.hpp"
 
 namespace clearway::campaign {
 namespace {

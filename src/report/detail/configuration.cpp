@@ -8,7 +8,6 @@
 #include <toml++/toml.h>
 
 #include "core/strict_table.hpp"
-#include "report/equipment.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report::detail {

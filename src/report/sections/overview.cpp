@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "experiment/policy_words.hpp"
+#include "experiment/condition_words.hpp"
 #include "report/controls.hpp"
 #include "report/detail/figures.hpp"
 #include "report/sections/sections.hpp"

@@ -1,4 +1,4 @@
-#include "experiment/policy_words.hpp"
+#include "experiment/condition_words.hpp"
 
 #include <algorithm>
 #include <cctype>
