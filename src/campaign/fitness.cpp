@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,7 @@
 #include "core/terminal.hpp"
 #include "experiment/conditions.hpp"
 #include "report/equipment.hpp"
+#include "report/safety.hpp"
 #include "scenario/network.hpp"
 #include "scenario/prepare.hpp"
 
@@ -50,7 +52,20 @@ Finding insertion_finding(const metrics::RunMetrics& run, const std::string& les
             is_short ? less : ""};
 }
 
-Finding emergency_finding(const results::RunRecord& record, const std::string& less) {
+/// `all ambulances, others by --emergency-kinds`, or `7 ambulance, 3 fire_engine`.
+std::string kinds_words(const results::RunRecord& record, bool are_drawn) {
+    std::map<traffic::VehicleKind, std::size_t> counts;
+    for (const metrics::VehicleRow& row : record.vehicles)
+        if (row.vehicle_class == traffic::VehicleClass::emergency) ++counts[row.kind];
+    if (are_drawn && counts.size() == 1 && counts.contains(traffic::VehicleKind::ambulance))
+        return "all ambulances; --emergency-kinds ambulance=1,fire_engine=1 asks for others too";
+    std::vector<std::string> words;
+    for (const auto& [kind, count] : counts)
+        words.push_back(fmt::format("{} {}", count, name(kind)));
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+Finding emergency_finding(const results::RunRecord& record, const Checked& checked, const std::string& less) {
     std::size_t entered = 0;
     std::size_t arrived = 0;
     for (const metrics::VehicleRow& row : record.vehicles) {
@@ -62,7 +77,10 @@ Finding emergency_finding(const results::RunRecord& record, const std::string& l
     Finding finding{
         "emergency", Grade::ok,
         fmt::format("{} with a route, {} entered, {} arrived", core::counted(count, "EV"), entered, arrived)};
-    if (count == 0) finding.advice = "set demand.emergency in scenario.toml";
+    if (count == 0)
+        finding.advice = "set demand.emergency in scenario.toml";
+    else
+        finding.text += "; " + kinds_words(record, checked.config.emergency_trips.empty());
     if (arrived < count)
         finding.advice = less + ", or a longer --horizon, if EVs cannot enter or do not arrive";
     if (!finding.advice.empty()) finding.grade = Grade::falls_short;
@@ -155,23 +173,6 @@ double lane_km(const roads::Network& network) {
     return sum_m / 1000.0;
 }
 
-/// What the findings come to.
-std::string conclusion_of(const std::string& scenario, const std::vector<Finding>& findings) {
-    std::vector<std::string> failed;
-    std::vector<std::string> short_of;
-    std::vector<std::string> noted;
-    for (const Finding& finding : findings) {
-        if (finding.grade == Grade::failed) failed.push_back(finding.name);
-        if (finding.grade == Grade::falls_short) short_of.push_back(finding.name);
-        if (finding.grade == Grade::note) noted.push_back(finding.name);
-    }
-    if (!failed.empty()) return fmt::format("{} cannot be run: {}.", scenario, core::listed(failed));
-    if (short_of.empty() && noted.empty()) return scenario + " is fit for a study.";
-    if (short_of.empty())
-        return fmt::format("{} is fit for a study, with what is noted: {}.", scenario, core::listed(noted));
-    return fmt::format("{} is not fit for a study as it is: {}.", scenario, core::listed(short_of));
-}
-
 Printout printout_of(const std::string& scenario, const std::vector<Finding>& findings) {
     Table table{"", {{"grade", "grade"}, {"finding", "finding"}, {"text", "text"}, {"advice", ""}}, {}};
     for (const Finding& finding : findings) {
@@ -198,6 +199,29 @@ core::ExitCode verdict_on(const std::vector<Finding>& findings) {
 }
 
 }  // namespace
+
+std::string conclusion_of(const std::string& scenario, const std::vector<Finding>& findings) {
+    std::vector<std::string> failed;
+    std::vector<std::string> short_of;
+    std::vector<std::string> noted;
+    bool has_trials = false;
+    for (const Finding& finding : findings) {
+        if (finding.grade == Grade::failed) failed.push_back(finding.name);
+        if (finding.grade == Grade::falls_short) short_of.push_back(finding.name);
+        if (finding.grade == Grade::note) noted.push_back(finding.name);
+        has_trials = has_trials || finding.name == detail::trials_name;
+    }
+    if (!failed.empty()) return fmt::format("{} cannot be run: {}.", scenario, core::listed(failed));
+    if (short_of.empty() && noted.empty()) return scenario + " is fit for a study.";
+    if (short_of.empty() && std::ranges::find(noted, detail::locks_name) != noted.end() && !has_trials)
+        return fmt::format(
+            "{} may be fit for a study: its one run locks, and others may more; --lock-trials 6 "
+            "tells. Noted: {}.",
+            scenario, core::listed(noted));
+    if (short_of.empty())
+        return fmt::format("{} is fit for a study, with what is noted: {}.", scenario, core::listed(noted));
+    return fmt::format("{} is not fit for a study as it is: {}.", scenario, core::listed(short_of));
+}
 
 const char* word_of(Grade grade) {
     switch (grade) {
@@ -242,12 +266,11 @@ RoadUse road_use(const metrics::RunMetrics& run, const scenario::Times& time, do
 constexpr double finest_step_s = 0.1;
 
 Finding collisions_finding(const metrics::RunMetrics& run, double step_length_s, const std::string& less) {
-    constexpr std::uint64_t many = 100;  // one to so many vehicles
     const std::string count =
         fmt::format("{} with {} in the baseline, {} of them at junctions", run.collisions,
                     core::counted(run.vehicle_count, "vehicle"), run.junction_collisions);
     if (run.collisions == 0) return {"collisions", Grade::ok, count};
-    if (many * run.collisions > run.vehicle_count)
+    if (report::collide_by_model(run.collisions, run.vehicle_count))
         return {"collisions", Grade::note, count,
                 "many: this scenario says nothing about safety; less traffic makes fewer: " + less};
     const std::string compare = "compare conditions, not counts";
@@ -265,7 +288,7 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
     const auto trips = detail::emergency_trips_in(core::read_file(checked.demand / "emergency.csv"));
     std::vector<Finding> findings = {{"loads", Grade::ok, "SUMO loads the network and the demand"},
                                      insertion_finding(run, less),
-                                     emergency_finding(record, less),
+                                     emergency_finding(record, checked, less),
                                      detail::sites_finding(checked.config),
                                      routes_finding(checked.demand, trips),
                                      jams_finding(run, use, checked),
@@ -304,9 +327,9 @@ Finding error_finding(const results::RunError& error, const std::filesystem::pat
 
 namespace {
 
-/// Makes the runs of LockTrials in a folder of their own, which it removes.
-LockTrials try_locks(const scenario::ScenarioConfig& scenario, std::uint64_t seed, std::uint32_t count,
-                     RunOptions options) {
+/// Makes the runs of detail::LockTrials in a folder of their own, which it removes.
+detail::LockTrials try_locks(const scenario::ScenarioConfig& scenario, std::uint64_t seed,
+                             std::uint32_t count, RunOptions options) {
     scenario::ScenarioConfig with = scenario;
     scenario::ScenarioConfig without = scenario;
     std::optional<double>& after_s = with.time.ignore_junction_blocker_s;
@@ -314,7 +337,7 @@ LockTrials try_locks(const scenario::ScenarioConfig& scenario, std::uint64_t see
     without.time.ignore_junction_blocker_s.reset();
     without.name += "-off";
     const bool ignores = scenario.time.ignore_junction_blocker_s.value_or(-1.0) >= 0.0;
-    LockTrials trials{
+    detail::LockTrials trials{
         .trials = count, .ignored_after_s = *after_s, .ignores = ignores, .with = {}, .without = {}};
     study::StudyConfig config =
         study_of(with, {experiment::built_in_condition("baseline", "check")}, seed, count);
@@ -375,7 +398,12 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double a
         if (lock_trials > 0) {
             fmt::print(stderr, "clearway: {} more to look for locks\n",
                        core::counted(2 * std::size_t{lock_trials}, "run"));
-            findings.push_back(lock_finding(try_locks(scenario, seed, lock_trials, options)));
+            try {
+                findings.push_back(detail::trials_finding(try_locks(scenario, seed, lock_trials, options)));
+            } catch (const core::Error&) {
+                print(printout_of(scenario.name, findings), options.publish.printing);
+                throw;
+            }
         }
     } else {
         findings = {error_finding(store.read_error(key).value_or(results::RunError{}), options.folder)};

@@ -57,29 +57,15 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
 /// vehicles.
 Finding collisions_finding(const metrics::RunMetrics& run, double step_length_s, const std::string& less);
 
+/// What findings come to, in a sentence.
+std::string conclusion_of(const std::string& scenario, const std::vector<Finding>& findings);
+
 /// What a run that failed says about it. Its inputs are kept in `folder`.
 Finding error_finding(const results::RunError& error, const std::filesystem::path& folder);
 
-/// What locks do in runs of the baseline with one choice about `time.ignore_junction_blocker_s`.
-struct LockTrial {
-    std::size_t locked = 0;   ///< Runs with a lock.
-    std::size_t held_up = 0;  ///< Of them: an EV or more than one vehicle in a hundred stood in one.
-    double stood_s = 0.0;     ///< In locks, mean over all vehicles.
-    double collisions = 0.0;  ///< Mean over the runs.
-};
-/// The same seeds with the choice of the scenario and with the other one.
-struct LockTrials {
-    std::uint32_t trials = 0;
-    double ignored_after_s = 0.0;  ///< `time.ignore_junction_blocker_s` where vehicles are ignored.
-    bool ignores = false;          ///< Whether the scenario has it.
-    LockTrial with;
-    LockTrial without;
-};
-/// Falls short where locks hold up runs of the scenario as it is.
-Finding lock_finding(const LockTrials& trials);
-
 /// Makes one run of the baseline in `runs/check-SCENARIO`, which is kept only if the run fails, judges it and
-/// prints the findings. With `lock_trials` above 0 it makes as many runs more with each choice of LockTrials.
+/// prints the findings. With `lock_trials` above 0 it makes as many runs more with each choice about
+/// `time.ignore_junction_blocker_s`.
 /// `asked_density` is that of the options by which the scenario was loaded. Returns ok,
 /// fell_short or runs_failed, or how the run was interrupted.
 core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double asked_density,

@@ -121,12 +121,17 @@ struct Reach {
     double condition_m(const RoadMap& map, double within_s) const;
 };
 
-/// Trips by whether they pass a signal, and by how much later than in the baseline they end.
+/// Trips of the pairs of runs, and by how much later than in the baseline they end.
+struct LaterArrivals {
+    std::uint64_t trips = 0;
+    std::vector<double>
+        means_s;  ///< A pair with such trips each, because trips of one run are not independent.
+};
+
+/// Trips by whether they pass a signal.
 struct SignalTrips {
-    std::uint64_t passing = 0;
-    std::uint64_t others = 0;
-    double passing_s = 0.0;  ///< Mean change of those that pass one.
-    double others_s = 0.0;   ///< Likewise of the others.
+    LaterArrivals passing;
+    LaterArrivals others;
 };
 
 /// What the maps of a scenario show of one condition.

@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiment/related_conditions.hpp"
 #include "report/controls.hpp"
 #include "report/locks.hpp"
+#include "report/safety.hpp"
 #include "report/shared_sentences.hpp"
 
 namespace clearway::report {
@@ -41,6 +43,11 @@ std::string percent_words(const ScenarioFacts& scenario, const ConditionFacts& c
     return percent ? fmt::format(" ({} %)", number(std::abs(*percent), {0, script})) : std::string();
 }
 
+std::string joined(std::string words, const std::string& more) {
+    if (more.empty()) return words;
+    return words.empty() ? more : words + "; " + more;
+}
+
 std::string emergency_clause(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     const std::string name = condition.title;
     const std::string& noun = scenario.emergency_noun;
@@ -51,9 +58,11 @@ std::string emergency_clause(const ScenarioFacts& scenario, const ConditionFacts
     const std::string share = percent_words(scenario, condition, script);
     switch (effect_of(condition, primary)) {
         case Effect::better:
-            return fmt::format("{} saves {} {} a trip{}", name, noun, seconds(mean, script), share);
+            return fmt::format("{} saves {} {} a trip{}{}", name, noun, seconds(mean, script), share,
+                               doubt_clause(condition, primary, script));
         case Effect::worse:
-            return fmt::format("{} costs {} {} a trip{}", name, noun, seconds(mean, script), share);
+            return fmt::format("{} costs {} {} a trip{}{}", name, noun, seconds(mean, script), share,
+                               doubt_clause(condition, primary, script));
         case Effect::negligible:
             return fmt::format("{} makes no relevant difference to {} ({} a trip)", name, noun,
                                signed_seconds(mean, script));
@@ -74,11 +83,12 @@ std::string emergency_clause(const ScenarioFacts& scenario, const ConditionFacts
 
 std::string others_clause(const ConditionFacts& condition, Script script) {
     const double mean = mean_of(condition.difference(Measure::other_time_loss)).value_or(0.0);
+    const std::string doubts = doubt_clause(condition, Measure::other_time_loss, script);
     switch (effect_of(condition, Measure::other_time_loss)) {
         case Effect::better:
-            return fmt::format("other drivers save {} each", seconds(mean, script));
+            return fmt::format("other drivers save {} each{}", seconds(mean, script), doubts);
         case Effect::worse:
-            return fmt::format("other drivers lose {} each", seconds(mean, script));
+            return fmt::format("other drivers lose {} each{}", seconds(mean, script), doubts);
         case Effect::negligible:
         case Effect::none_shown:
             return fmt::format("no effect on other drivers is shown ({} each)", signed_seconds(mean, script));
@@ -91,20 +101,19 @@ std::string others_clause(const ConditionFacts& condition, Script script) {
     return {};
 }
 
-/// Whether the baseline collides so often that its model of drivers, not a policy, makes the collisions.
-bool collides_by_itself(const ConditionFacts& baseline) {
-    constexpr double many = 0.01;  // collisions a vehicle, as `scenario check` has it
-    const double vehicles = baseline.total("vehicle_count");
-    return vehicles > 0.0 && baseline.total("collisions") > many * vehicles;
+bool collides_by_model(const ConditionFacts* baseline) {
+    return baseline != nullptr &&
+           collide_by_model(baseline->count("collisions"), baseline->count("vehicle_count"));
 }
 
 std::string collisions_clause(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     if (condition.complete_runs == 0) return {};
-    const ConditionFacts* const baseline = scenario.baseline_of(condition);
-    if (baseline != nullptr && collides_by_itself(*baseline)) return {};  // the tile says what they are worth
     if (condition.count("collisions") == 0)
         return fmt::format("no collision in {}", counted(condition.complete_runs, "run"));
     const Effect effect = effect_of(condition, Measure::collisions);
+    const bool shown = effect == Effect::worse || effect == Effect::better;
+    // What the tile says of such counts would not fit here.
+    if (!shown && collides_by_model(scenario.baseline_of(condition))) return {};
     const char* const more = effect == Effect::worse    ? "more collisions than the baseline"
                              : effect == Effect::better ? "fewer collisions than the baseline"
                                                         : "collisions";
@@ -147,11 +156,6 @@ const char* words_of(Effect effect, const char* better, const char* worse) {
     return "no verdict";
 }
 
-std::string joined(std::string words, const std::string& more) {
-    if (more.empty()) return words;
-    return words.empty() ? more : words + "; " + more;
-}
-
 /// How a tile describes its figure.
 struct TileWords {
     const char* subject;
@@ -165,6 +169,10 @@ Tile time_tile(const TileWords& words, const ConditionFacts& condition, Measure 
     Tile tile{words.subject, difference ? signed_seconds(difference->mean, script) : missing(script),
               words_of(effect, words.better, words.worse), tone_of(effect)};
     tile.meaning = joined(std::move(tile.meaning), interval_words(difference, script));
+    if (const std::string doubts = doubts_of(condition, measure, script); !doubts.empty()) {
+        tile.meaning += "; doubtful: " + doubts;
+        tile.tone = Tile::Tone::neutral;
+    }
     return tile;
 }
 
@@ -172,12 +180,13 @@ std::string asked_words(std::size_t replications) {
     return (replications > most_replications_asked ? "" : "about ") + replications_words(replications);
 }
 
-/// `about 24 would show the 5.2 s seen, `; empty where these are less than what counts.
+/// `about 24 would likely (80 %) show the 5.2 s seen, `; empty where these are less than what counts.
 std::string what_shows_the_seen(const analysis::Estimate& difference, double counts_s, Script script) {
     const double seen_s = std::abs(difference.mean);
     if (seen_s <= (counts_s > 0.0 ? counts_s : usual_least_relevant_s)) return "";
-    return fmt::format("{} would show the {} s seen, ",
-                       asked_words(analysis::advised_replications(difference.deviation, seen_s)),
+    const std::size_t pairs =
+        std::max(analysis::fewest_replications, analysis::replications_to_show(difference.deviation, seen_s));
+    return fmt::format("{} would likely (80 %) show the {} s seen, ", asked_words(pairs),
                        number(seen_s, {1, script}));
 }
 
@@ -315,6 +324,16 @@ std::string incidents_sentence(const ScenarioFacts& scenario, Script script) {
     return fmt::format("Blocked: {}.", fmt::join(words, "; "));
 }
 
+/// `-26.5 s while nothing fails`, beside a condition in which something does; else empty.
+std::string working_words(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+    const std::string name = experiment::without_failure(condition.condition).name;
+    const auto working = std::ranges::find(scenario.conditions, name, &ConditionFacts::name);
+    if (name == condition.name() || working == scenario.conditions.end()) return {};
+    const MaybeEstimate& difference = working->difference(primary);
+    if (!difference) return {};
+    return estimate(difference, {1, script, Sign::always}) + " s while nothing fails";
+}
+
 Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     Tile tile = time_tile({"Emergency vehicles: travel time", "faster trips", "slower trips"}, condition,
                           primary, script);
@@ -337,6 +356,7 @@ Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& conditi
     } else {
         tile.meaning = joined(std::move(tile.meaning), survivors);
     }
+    tile.meaning = joined(std::move(tile.meaning), working_words(scenario, condition, script));
     tile.meaning = joined(std::move(tile.meaning), trip_changes_words(condition, script));
     tile.meaning = joined(std::move(tile.meaning), signal_trips_words(scenario, condition, script));
     return tile;
@@ -382,16 +402,20 @@ Tile safety_tile(const ScenarioFacts& scenario, const ConditionFacts& condition,
     const std::uint64_t count = condition.count("collisions");
     tile.figure = count == 0 ? "no collision" : counted(count, "collision");
     tile.meaning = "in " + counted(condition.complete_runs, "run");
-    if (const ConditionFacts* const baseline = scenario.baseline_of(condition))
+    const ConditionFacts* const baseline = scenario.baseline_of(condition);
+    if (baseline != nullptr)
         tile.meaning += fmt::format(
             "; baseline: {} in {}{}", grouped(baseline->count("collisions")), baseline->complete_runs,
-            collides_by_itself(*baseline) ? ", so many that they say nothing about safety" : "");
+            collides_by_model(baseline) ? ", so many that they say nothing about safety" : "");
     const Effect effect = effect_of(condition, Measure::collisions);
     tile.tone = tone_of(effect);
     if (effect == Effect::better) tile.meaning += "; fewer";
     if (effect == Effect::worse) tile.meaning += "; more";
-    if (const std::uint64_t hit = condition.count("emergency_collisions"); hit > 0)
-        tile.meaning += fmt::format("; {} with an emergency vehicle", grouped(hit));
+    const std::uint64_t hit = condition.count("emergency_collisions");
+    const std::uint64_t hit_before = baseline == nullptr ? 0 : baseline->count("emergency_collisions");
+    if (hit + hit_before > 0)
+        tile.meaning += fmt::format("; {} with an emergency vehicle{}", grouped(hit),
+                                    baseline == nullptr ? "" : ", baseline: " + grouped(hit_before));
     if (condition.objections.collisions) tile.tone = Tile::Tone::worse;
     if (condition.is_unchecked()) {
         tile.tone = Tile::Tone::worse;
@@ -431,10 +455,11 @@ Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, S
             const std::string least = number(counts_s > 0.0 ? counts_s : usual_least_relevant_s, {1, script});
             if (needed <= count)
                 return {Badge::Runs::enough,
-                        fmt::format("Enough runs: {} would have shown {} s", pairs, least)};
-            return {Badge::Runs::too_few, fmt::format("Not enough runs: {}; {}{} would show {} s", pairs,
-                                                      what_shows_the_seen(*difference, counts_s, script),
-                                                      asked_words(needed), least)};
+                        fmt::format("Enough runs: {} tell the mean to within {} s", pairs, least)};
+            return {
+                Badge::Runs::too_few,
+                fmt::format("Not enough runs: {}; {}{} tell the mean to within {} s", pairs,
+                            what_shows_the_seen(*difference, counts_s, script), asked_words(needed), least)};
         }
         case Effect::too_few:
             return {Badge::Runs::too_few, fmt::format("Not enough runs: {}, at least {} for any verdict",

@@ -51,6 +51,11 @@ constexpr std::array pedestrian_rows = {
 
 }  // namespace
 
+bool collide_by_model(std::uint64_t collisions, std::uint64_t vehicles) {
+    constexpr std::uint64_t many = 100;
+    return vehicles > 0 && many * collisions > vehicles;
+}
+
 std::vector<SafetyRow> safety_rows(const analysis::ConditionSummary& summary) {
     std::vector<SafetyRow> facts;
     if (summary.complete_runs == 0) return facts;

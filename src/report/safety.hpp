@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,10 @@ struct SafetyRow {
         return metric->comparison ? metric->comparison->difference : std::nullopt;
     }
 };
+
+/// Whether collisions are so many for so many vehicles that the model of drivers makes them, not a policy:
+/// more than one to a hundred.
+bool collide_by_model(std::uint64_t collisions, std::uint64_t vehicles);
 
 /// Safety, comfort and flow of a condition, which outlives the rows; more of them if signals were asked for
 /// green, and if there are pedestrians. Empty without a complete run.

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "report/verdict.hpp"
+
 namespace clearway::report {
 namespace {
 
@@ -16,7 +18,30 @@ bool blocks_the_way(const RoadMap& roads) {
     });
 }
 
+void add(std::string& words, const std::string& more) {
+    words += (words.empty() ? "" : "; ") + more;
+}
+
 }  // namespace
+
+std::string doubts_of(const ConditionFacts& condition, Measure measure, Script script) {
+    const Effect effect = effect_of(condition, measure);
+    const auto& comparison = condition.outcome(measure).comparison;
+    if (!comparison || (effect != Effect::better && effect != Effect::worse)) return {};
+    std::string words;
+    if (comparison->locked_pairs > 0 && comparison->locked_pairs == comparison->complete_pairs)
+        add(words, "vehicles locked each other in every pair of runs");
+    if (const std::uint64_t pairs = comparison->difference->n; pairs < fewest_to_trust)
+        add(words, fmt::format("{} pairs are few", pairs));
+    if (comparison->holm_p && *comparison->holm_p > 1.0 - analysis::usual_level)
+        add(words, fmt::format("p {} among so many comparisons", p_words(comparison->holm_p, script)));
+    return words;
+}
+
+std::string doubt_clause(const ConditionFacts& condition, Measure measure, Script script) {
+    const std::string doubts = doubts_of(condition, measure, script);
+    return doubts.empty() ? "" : " (doubtful: " + doubts + ")";
+}
 
 std::string survivors_words(const ConditionFacts& condition, Script script) {
     const auto& of_all = condition.outcome(primary).comparison;
@@ -62,12 +87,16 @@ std::string signal_trips_words(const ScenarioFacts& scenario, const ConditionFac
         scenario.roads->signals.empty())
         return {};
     const SignalTrips& trips = scenario.map->signal_trips;
-    if (trips.others == 0) return {};
+    if (trips.others.trips == 0) return {};
     const NumberStyle style{1, script, Sign::always};
-    const std::uint64_t all = trips.passing + trips.others;
-    if (trips.passing == 0) return fmt::format("none of {} passes a signal", counted(all, "trip"));
-    return fmt::format("{} of {} pass signals: {} s in the mean, the others {} s", grouped(trips.passing),
-                       counted(all, "trip"), number(trips.passing_s, style), number(trips.others_s, style));
+    const auto mean = [&](const LaterArrivals& changes) {
+        return estimate(analysis::estimate_mean(changes.means_s), style);
+    };
+    const std::uint64_t all = trips.passing.trips + trips.others.trips;
+    if (trips.passing.trips == 0) return fmt::format("none of {} passes a signal", counted(all, "trip"));
+    return fmt::format("{} of {} pass signals: {} s in the mean of {} with such, the others {} s",
+                       grouped(trips.passing.trips), counted(all, "trip"), mean(trips.passing),
+                       counted(trips.passing.means_s.size(), "pair"), mean(trips.others));
 }
 
 std::string cross_street_words(const ConditionFacts& condition, Script script) {

@@ -11,6 +11,12 @@ namespace clearway::report {
 // What a report's first screen (report/overview.hpp) and its verdicts (report/verdict.hpp) both say of a
 // condition. Plain text.
 
+/// `5 pairs are few; p 0.072 among so many comparisons`: why chance or locks could be all of an effect that
+/// its interval shows. Empty where nothing speaks for that.
+std::string doubts_of(const ConditionFacts& condition, Measure measure, Script script);
+/// ` (doubtful: 5 pairs are few)`, or nothing.
+std::string doubt_clause(const ConditionFacts& condition, Measure measure, Script script);
+
 /// `EVs that arrived in both: -10.3 s [-30.1, 9.5], all but 1; median of the pairs -4.7 s`: the travel time
 /// without the horizon that stands for an EV that did not arrive. Empty where all arrived in both.
 std::string survivors_words(const ConditionFacts& condition, Script script);

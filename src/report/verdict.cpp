@@ -54,9 +54,9 @@ Verdict lead(const ScenarioFacts& scenario, const ConditionFacts& condition, Scr
                 difference ? amount : "no complete pair of runs to compare"};
     switch (effect) {
         case Effect::better:
-            return {"helped", amount};
+            return {"helped", amount + doubt_clause(condition, primary, script)};
         case Effect::worse:
-            return {"harmed", amount};
+            return {"harmed", amount + doubt_clause(condition, primary, script)};
         case Effect::negligible:
             return {"no relevant effect",
                     fmt::format("{}, where {} s would count{}", amount, number(least, {1, script}),
@@ -104,7 +104,8 @@ std::vector<std::string> costs(const ScenarioFacts& scenario, const ConditionFac
         const char* const words = effect == Effect::better ? better : effect == Effect::worse ? worse : none;
         if (*words == '\0') return;
         facts.push_back(
-            sentence(fmt::format("{} ({})", words, difference_text(scenario, condition, measure, script))));
+            sentence(fmt::format("{} ({}){}", words, difference_text(scenario, condition, measure, script),
+                                 doubt_clause(condition, measure, script))));
     };
     add(Measure::other_time_loss, "the others lose less time", "the others lose more time",
         "no effect shown on the others' time loss");

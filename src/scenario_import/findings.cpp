@@ -23,11 +23,13 @@ std::string counts_text(const std::map<std::string, int>& counts) {
 std::string sites_text(const std::map<std::string, int>& sites) {
     const bool has_stations = sites.contains("ambulance_station") || sites.contains("fire_station");
     std::string text = counts_text(sites);
+    if (!sites.contains("ambulance_station"))
+        text += fmt::format("; no ambulance_station: ambulances start at {}",
+                            has_stations ? "fire stations" : "hospitals");
+    text += ". All EVs are ambulances: --emergency-kinds ambulance=1,fire_engine=1 asks for fire engines too";
     if (!sites.contains("fire_station"))
-        text += fmt::format("; no fire_station: fire engines would start at {}",
+        text += fmt::format(", which start at {}: the map has no fire_station",
                             has_stations ? "stations" : "hospitals");
-    else if (!sites.contains("ambulance_station"))
-        text += "; no ambulance_station: ambulances start at fire stations";
     return text;
 }
 

@@ -70,33 +70,34 @@ TEST(RoadUse, where_vehicles_do_not_get_in_is_too_full) {
 }
 
 TEST(LockFinding, weighs_what_stands_in_locks_and_not_how_many_runs_lock) {
-    LockTrials trials{.trials = 6,
-                      .ignored_after_s = 10.0,
-                      .ignores = true,
-                      .with = {.locked = 5, .held_up = 0, .stood_s = 0.15, .collisions = 43.0},
-                      .without = {.locked = 3, .held_up = 2, .stood_s = 8.8, .collisions = 11.0}};
+    detail::LockTrials trials{.trials = 6,
+                              .ignored_after_s = 10.0,
+                              .ignores = true,
+                              .with = {.locked = 5, .held_up = 0, .stood_s = 0.15, .collisions = 43.0},
+                              .without = {.locked = 3, .held_up = 2, .stood_s = 8.8, .collisions = 11.0}};
     EXPECT_EQ(
-        lock_finding(trials).text,
+        detail::trials_finding(trials).text,
         "with time.ignore_junction_blocker_s = 10, as here, 5 of 6 runs lock, none held up by it; 0.15 s "
         "in locks a vehicle; 43 collisions a run. Without, 3 of 6 runs lock, 2 held up by it; 8.8 s in "
         "locks a vehicle; 11 collisions a run");
-    EXPECT_EQ(lock_finding(trials).grade, Grade::note);
-    EXPECT_EQ(lock_finding(trials).advice, "") << "what the scenario has is the better choice";
+    EXPECT_EQ(detail::trials_finding(trials).grade, Grade::note);
+    EXPECT_EQ(detail::trials_finding(trials).advice, "") << "what the scenario has is the better choice";
 
     trials.ignores = false;
-    EXPECT_EQ(lock_finding(trials).grade, Grade::falls_short);
-    EXPECT_THAT(lock_finding(trials).advice,
+    EXPECT_EQ(detail::trials_finding(trials).grade, Grade::falls_short);
+    EXPECT_THAT(detail::trials_finding(trials).advice,
                 AllOf(StartsWith("time.ignore_junction_blocker_s = 10 in scenario.toml; "),
                       HasSubstr("less traffic")));
 
     trials.ignores = true;
     trials.with.stood_s = 9.0;
-    EXPECT_EQ(lock_finding(trials).advice, "take time.ignore_junction_blocker_s = 10 out of scenario.toml");
+    EXPECT_EQ(detail::trials_finding(trials).advice,
+              "take time.ignore_junction_blocker_s = 10 out of scenario.toml");
 }
 
 TEST(LockFinding, is_ok_where_no_run_locks) {
-    const Finding finding =
-        lock_finding({.trials = 6, .ignored_after_s = 10.0, .ignores = false, .with = {}, .without = {}});
+    const Finding finding = detail::trials_finding(
+        {.trials = 6, .ignored_after_s = 10.0, .ignores = false, .with = {}, .without = {}});
     EXPECT_EQ(
         finding.text,
         "without time.ignore_junction_blocker_s = 10, as here, none of 6 runs locks; 0 collisions a run. "
@@ -106,7 +107,7 @@ TEST(LockFinding, is_ok_where_no_run_locks) {
 
 TEST(LockFinding, counts_a_run_that_holds_up_an_emergency_vehicle_or_many_others) {
     metrics::RunMetrics run = busy_run();
-    LockTrial trial;
+    detail::LockTrial trial;
     detail::count_trial(run, 2, trial);
     EXPECT_EQ(trial.locked, 0U);
     run.locks = 1;
@@ -119,6 +120,19 @@ TEST(LockFinding, counts_a_run_that_holds_up_an_emergency_vehicle_or_many_others
     run.locked_emergency_vehicles = 1;
     detail::count_trial(run, 2, trial);
     EXPECT_EQ(trial.held_up, 1U);
+}
+
+TEST(Conclusion, knows_nothing_of_a_scenario_whose_one_run_locks) {
+    std::vector<Finding> findings = {{detail::locks_name, Grade::note, "1 lock in this run"},
+                                     {"collisions", Grade::note, "2"}};
+    EXPECT_EQ(conclusion_of("town", findings),
+              "town may be fit for a study: its one run locks, and others may more; --lock-trials 6 tells. "
+              "Noted: locks, collisions.");
+    findings.push_back({detail::trials_name, Grade::ok, "none of 6 runs locks"});
+    EXPECT_EQ(conclusion_of("town", findings),
+              "town is fit for a study, with what is noted: locks, collisions.");
+    findings.back().grade = Grade::falls_short;
+    EXPECT_EQ(conclusion_of("town", findings), "town is not fit for a study as it is: trials.");
 }
 
 TEST(CollisionsFinding, tells_many_from_few) {

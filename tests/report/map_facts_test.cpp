@@ -64,8 +64,8 @@ TEST_F(MapFacts, CountLocksWhereTheyHappened) {
 
 TEST_F(MapFacts, TellTripsThatPassSignalsFromOthers) {
     const ScenarioFacts before = crossing();
-    EXPECT_EQ(before.map->signal_trips.others, 0U);
-    EXPECT_EQ(before.map->signal_trips.passing, 6U);
+    EXPECT_EQ(before.map->signal_trips.others.trips, 0U);
+    EXPECT_EQ(before.map->signal_trips.passing.trips, 6U);
     const ConditionFacts& helps = before.conditions[before.map->condition];
     EXPECT_EQ(signal_trips_words(before, helps, Script::plain), "") << "all pass one";
     const results::Store store = results::Store::open(folder_.path() / "study");
@@ -77,11 +77,12 @@ TEST_F(MapFacts, TellTripsThatPassSignalsFromOthers) {
         store.write(run, {});
     }
     const ScenarioFacts after = crossing();
-    EXPECT_EQ(after.map->signal_trips.others, 1U);
-    EXPECT_EQ(after.map->signal_trips.passing, 5U);
+    EXPECT_EQ(after.map->signal_trips.others.trips, 1U);
+    EXPECT_EQ(after.map->signal_trips.passing.trips, 5U);
     EXPECT_THAT(
         signal_trips_words(after, after.conditions[after.map->condition], Script::plain),
-        testing::MatchesRegex("5 of 6 trips pass signals: -[0-9.]+ s in the mean, the others -[0-9.]+ s"));
+        testing::MatchesRegex("5 of 6 trips pass signals: -[0-9.]+ .-[0-9.]+, -[0-9.]+. s in the mean of 5 "
+                              "pairs with such, the others -[0-9.]+ s"));
     EXPECT_EQ(signal_trips_words(after, after.conditions[0], Script::plain), "") << "the map is not about it";
 }
 

@@ -127,7 +127,7 @@ TEST_F(Overview, LeadsWithTheLostVehiclesAndNotWithTheHorizonThatTheyCountWith) 
               EndsWith("mean of all +96 s, +96 %, where one that did not arrive counts with 3600 s")));
     EXPECT_EQ(verdict(scenario_, corridor(), Script::plain).facts.front(),
               survivors + "; one that did not arrive counts with 3600 s.");
-    EXPECT_THAT(badge().words, Not(HasSubstr("would show")));
+    EXPECT_THAT(badge().words, Not(HasSubstr("tell the mean")));
     // Lost by the baseline alone: a gain that is no saved time.
     std::swap(corridor().objections.emergency, corridor().objections.baseline_emergency);
     EXPECT_THAT(emergency().meaning, HasSubstr(survivors));
@@ -148,6 +148,28 @@ TEST_F(Overview, GivesTheOthersATileOfTheirOwnColour) {
     EXPECT_THAT(others().meaning, HasSubstr("lose more time each; 95 % interval 3.6 to 5.6 s"));
 }
 
+TEST_F(Overview, doubts_effects_of_locked_pairs_few_pairs_and_many_comparisons) {
+    EXPECT_THAT(headline(), Not(HasSubstr("doubtful")));
+    analysis::Comparison& others = tests::comparison(corridor(), Measure::other_time_loss);
+    others.holm_p = 0.072;
+    EXPECT_THAT(headline(),
+                HasSubstr("other drivers lose 4.6 s each (doubtful: p 0.072 among so many comparisons)"));
+    others.locked_pairs = others.complete_pairs = 20;
+    EXPECT_THAT(headline(),
+                HasSubstr("(doubtful: vehicles locked each other in every pair of runs; p 0.072"));
+    others.difference->n = 5;
+    EXPECT_THAT(headline(), HasSubstr("every pair of runs; 5 pairs are few; p 0.072"));
+    EXPECT_EQ(this->others().tone, Tile::Tone::neutral);
+    EXPECT_THAT(this->others().meaning, HasSubstr("; doubtful: vehicles locked"));
+    EXPECT_THAT(headline(), StartsWith("corridor saves")) << "that of EVs stands";
+    EXPECT_THAT(
+        verdict(scenario_, corridor(), Script::plain).facts,
+        testing::Contains(HasSubstr("(doubtful: vehicles locked each other in every pair of runs; 5")));
+    others.locked_pairs = 4;
+    others.holm_p = 0.04;
+    EXPECT_THAT(headline(), HasSubstr("(doubtful: 5 pairs are few)"));
+}
+
 TEST_F(Overview, CountsCollisionsAgainstTheBaseline) {
     tests::set_total(corridor(), "collisions", 7);
     tests::set_total(corridor(), "emergency_collisions", 2);
@@ -155,13 +177,12 @@ TEST_F(Overview, CountsCollisionsAgainstTheBaseline) {
     EXPECT_THAT(headline(), HasSubstr("collisions (7 in 20 runs; baseline 5 in 20)"));
     EXPECT_EQ(safety().figure, "7 collisions");
     EXPECT_EQ(safety().tone, Tile::Tone::neutral);  // no difference is shown
-    EXPECT_THAT(safety().meaning, HasSubstr("2 with an emergency vehicle"));
+    EXPECT_THAT(safety().meaning, HasSubstr("2 with an emergency vehicle, baseline: 0"));
     tests::set_total(scenario_.conditions[0], "vehicle_count", 500);
     EXPECT_THAT(safety().meaning, Not(HasSubstr("say nothing about safety")));
     tests::set_total(scenario_.conditions[0], "vehicle_count", 499);
     EXPECT_THAT(safety().meaning, HasSubstr("baseline: 5 in 20, so many that they say nothing about safety"));
     EXPECT_THAT(headline(), Not(HasSubstr("collision"))) << "the tile alone tells them";
-    tests::set_total(scenario_.conditions[0], "vehicle_count", 501);
     tests::difference(corridor(), Measure::collisions) = around(0.4, 0.2);
     EXPECT_EQ(safety().tone, Tile::Tone::worse);
     EXPECT_THAT(headline(), HasSubstr("more collisions than the baseline"));
@@ -188,7 +209,7 @@ TEST_F(Overview, says_before_all_else_that_no_one_met_the_incident) {
     const std::string unmet =
         "No EV met the block (0 of 60 in the baseline): these runs say nothing about it.";
     EXPECT_THAT(headline(), StartsWith(unmet + " No effect of corridor"));
-    EXPECT_THAT(badge().words, AllOf(StartsWith(unmet), Not(HasSubstr("would show"))));
+    EXPECT_THAT(badge().words, AllOf(StartsWith(unmet), Not(HasSubstr("tell the mean"))));
     const Tile tile = incident_tile(scenario_, corridor(), Script::plain);
     EXPECT_EQ(tile.figure, "0");
     EXPECT_EQ(tile.meaning, unmet);
@@ -269,6 +290,8 @@ TEST_F(Controls, say_what_a_failure_costs_and_where_it_changes_nothing) {
     EXPECT_THAT(sentence(),
                 HasSubstr("s: nothing fails (deaf): -0.8 [-2.2, 0.6], no difference shown, the same "
                           "EV times in 3 of 5 runs; blind"));
+    tests::compare(scenario_.conditions[2], around(-24.0, 3.0), around(0.0, 1.0));
+    EXPECT_THAT(emergency().meaning, HasSubstr("; -24.0 [-27.0, -21.0] s while nothing fails"));
     corridor().same_as = "corridor_perfect";
     EXPECT_THAT(
         sentence(),
@@ -298,13 +321,14 @@ TEST_F(Overview, SaysWhetherThereAreEnoughRuns) {
     tests::difference(corridor(), primary)->deviation = 6.4;
     corridor().precision = Precision{{}, 6.4, 160};
     EXPECT_EQ(badge().runs, Badge::Runs::too_few);
-    EXPECT_EQ(
-        badge().words,
-        "Not enough runs: 20 pairs of runs; about 42 would show the 2.0 s seen, about 160 would show 1.0 s");
+    EXPECT_EQ(badge().words,
+              "Not enough runs: 20 pairs of runs; about 83 would likely (80 %) show the 2.0 s seen, about "
+              "160 tell the "
+              "mean to within 1.0 s");
     tests::difference(corridor(), primary)->mean = -0.9;
-    EXPECT_EQ(badge().words, "Not enough runs: 20 pairs of runs; about 160 would show 1.0 s");
+    EXPECT_EQ(badge().words, "Not enough runs: 20 pairs of runs; about 160 tell the mean to within 1.0 s");
     corridor().precision->needed = 20;
-    EXPECT_EQ(badge().words, "Enough runs: 20 pairs of runs would have shown 1.0 s");
+    EXPECT_EQ(badge().words, "Enough runs: 20 pairs of runs tell the mean to within 1.0 s");
     tests::compare(corridor(), around(-2.0, 3.0, 3), around(0.4, 1.0, 3));
     EXPECT_EQ(badge().words, "Not enough runs: 3 pairs of runs, at least 5 for any verdict");
     EXPECT_THAT(headline(), StartsWith("No verdict on corridor yet: 3 of at least 5 runs"));

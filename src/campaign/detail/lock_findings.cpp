@@ -11,7 +11,7 @@
 #include "core/counted.hpp"
 #include "report/locks.hpp"
 
-namespace clearway::campaign {
+namespace clearway::campaign::detail {
 namespace {
 
 /// Whether locks say more about a run than its policy.
@@ -20,7 +20,7 @@ bool is_held_up(const metrics::RunMetrics& run) {
     return run.locked_emergency_vehicles > 0 || many * run.locked_vehicles > run.vehicle_count;
 }
 
-/// `3 of 6 runs lock, 2 of them held up; vehicles stand 8.8 s in locks in the mean; 11 collisions a run`.
+/// `3 of 6 runs lock, 2 held up by it; 8.8 s in locks a vehicle; 11 collisions a run`.
 std::string words_of(const LockTrial& trial, std::uint32_t trials) {
     if (trial.locked == 0)
         return fmt::format("none of {} runs locks; {:.0f} collisions a run", trials, trial.collisions);
@@ -29,29 +29,6 @@ std::string words_of(const LockTrial& trial, std::uint32_t trials) {
         trial.locked, trials, trial.held_up == 0 ? "none" : std::to_string(trial.held_up), trial.stood_s,
         trial.collisions);
 }
-
-}  // namespace
-
-Finding lock_finding(const LockTrials& trials) {
-    const std::string setting = fmt::format("time.ignore_junction_blocker_s = {:g}", trials.ignored_after_s);
-    const LockTrial& own = trials.ignores ? trials.with : trials.without;
-    const LockTrial& other = trials.ignores ? trials.without : trials.with;
-    const std::string text = fmt::format(
-        "{} {}, as here, {}. {}, {}", trials.ignores ? "with" : "without", setting,
-        words_of(own, trials.trials), trials.ignores ? "Without" : "With it", words_of(other, trials.trials));
-    std::vector<std::string> advice;
-    if (other.stood_s < own.stood_s)
-        advice.push_back(trials.ignores ? "take " + setting + " out of scenario.toml"
-                                        : setting + " in scenario.toml");
-    if (own.held_up > 0)
-        advice.emplace_back(
-            "less traffic, or a look at the junctions that traffic.locks of a run's run.json names");
-    const Grade grade = own.held_up > 0 ? Grade::falls_short : own.locked > 0 ? Grade::note : Grade::ok;
-    return {"trials", grade, text, fmt::format("{}", fmt::join(advice, "; "))};
-}
-
-namespace detail {
-namespace {
 
 constexpr std::size_t most_places = 3;
 
@@ -79,11 +56,29 @@ std::string places_of(const std::vector<metrics::LockRow>& locks, const roads::N
 
 }  // namespace
 
+Finding trials_finding(const LockTrials& trials) {
+    const std::string setting = fmt::format("time.ignore_junction_blocker_s = {:g}", trials.ignored_after_s);
+    const LockTrial& own = trials.ignores ? trials.with : trials.without;
+    const LockTrial& other = trials.ignores ? trials.without : trials.with;
+    const std::string text = fmt::format(
+        "{} {}, as here, {}. {}, {}", trials.ignores ? "with" : "without", setting,
+        words_of(own, trials.trials), trials.ignores ? "Without" : "With it", words_of(other, trials.trials));
+    std::vector<std::string> advice;
+    if (other.stood_s < own.stood_s)
+        advice.push_back(trials.ignores ? "take " + setting + " out of scenario.toml"
+                                        : setting + " in scenario.toml");
+    if (own.held_up > 0)
+        advice.emplace_back(
+            "less traffic, or a look at the junctions that traffic.locks of a run's run.json names");
+    const Grade grade = own.held_up > 0 ? Grade::falls_short : own.locked > 0 ? Grade::note : Grade::ok;
+    return {trials_name, grade, text, fmt::format("{}", fmt::join(advice, "; "))};
+}
+
 Finding locks_finding(const results::RunRecord& record, const std::vector<metrics::LockRow>& locks,
                       const Checked& checked, const std::string& less) {
     const metrics::RunMetrics& run = record.metrics;
     if (run.locks == 0)
-        return {"locks", Grade::ok,
+        return {locks_name, Grade::ok,
                 fmt::format("none in this run of seed {}, {:.0f} s; other seeds may lock: --lock-trials 6 "
                             "looks, with 12 more runs",
                             record.provenance.study_seed, run.simulated_s)};
@@ -91,7 +86,7 @@ Finding locks_finding(const results::RunRecord& record, const std::vector<metric
                                       ? ""
                                       : fmt::format(", {} of them EV", run.locked_emergency_vehicles);
     const bool ignored = checked.config.time.ignore_junction_blocker_s.value_or(-1.0) >= 0.0;
-    return {"locks", is_held_up(run) ? Grade::falls_short : Grade::note,
+    return {locks_name, is_held_up(run) ? Grade::falls_short : Grade::note,
             fmt::format("{} in this run of seed {}, the longest {:.0f} s; {} stood in them{}: {}",
                         core::counted(run.locks, "lock"), record.provenance.study_seed, run.longest_lock_s,
                         core::counted(run.locked_vehicles, "vehicle"), emergency,
@@ -108,5 +103,4 @@ void count_trial(const metrics::RunMetrics& run, std::uint32_t trials, LockTrial
     trial.collisions += static_cast<double>(run.collisions) / trials;
 }
 
-}  // namespace detail
-}  // namespace clearway::campaign
+}  // namespace clearway::campaign::detail

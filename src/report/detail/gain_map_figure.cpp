@@ -121,8 +121,20 @@ void draw_calls(MapCanvas& canvas, const RoadMap& roads) {
     }
 }
 
-DataTable data_of(const RoadMap& roads, const ScenarioMap& map, const WayCounts& counts,
+/// After the ids of edges, their streets.
+void add_streets(const ScenarioFacts& scenario, DataTable& table) {
+    constexpr std::ptrdiff_t column = 2;
+    table.head.insert(table.head.begin() + column, "street");
+    for (std::vector<std::string>& row : table.rows) {
+        const auto street = scenario.streets.find(row[1]);
+        row.insert(row.begin() + column, street == scenario.streets.end() ? "" : street->second);
+    }
+}
+
+DataTable data_of(const ScenarioFacts& scenario, const WayCounts& counts,
                   const std::vector<const analysis::ApproachCost*>& losing) {
+    const RoadMap& roads = *scenario.roads;
+    const ScenarioMap& map = *scenario.map;
     DataTable table{{"What", "id", "passages or holds", "baseline, s", "condition, s", "gain, s"}, {}};
     for (const EdgeTimes& one : map.times)
         table.rows.push_back({"edge", roads.edges[one.edge].id, grouped(one.passages),
@@ -147,6 +159,7 @@ DataTable data_of(const RoadMap& roads, const ScenarioMap& map, const WayCounts&
         table.rows.push_back({"others lose, s per run", approach->edge, "",
                               number_or_dash(approach->baseline_s, typeset(0)), "",
                               number(-approach->difference->mean, typeset(0, Sign::always))});
+    if (!scenario.streets.empty()) add_streets(scenario, table);
     return table;
 }
 
@@ -213,7 +226,7 @@ Figure gain_map_figure(const ScenarioFacts& scenario) {
             " Of {} approaches on which others lose time, the {} with the largest losses are marked.",
             losing.size(), drawn_losses);
     return {"map-" + scenario.name, "Where time is gained and lost against the baseline", canvas.finish(),
-            note, data_of(roads, map, counts, losing)};
+            note, data_of(scenario, counts, losing)};
 }
 
 }  // namespace clearway::report::detail

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "report/detail/changed_ways.hpp"
 #include "report/overview.hpp"
@@ -84,22 +85,29 @@ std::map<std::string, TripEnd> ends_of(const metrics::TrafficTables& tables, con
     return ends;
 }
 
-/// Adds the trips that end on the same edge in both runs; sums, not means.
+void add_mean(const std::vector<double>& changes_s, LaterArrivals& to) {
+    if (changes_s.empty()) return;
+    to.trips += changes_s.size();
+    to.means_s.push_back(std::reduce(changes_s.begin(), changes_s.end()) /
+                         static_cast<double>(changes_s.size()));
+}
+
+/// Adds the trips of a pair of runs that end on the same edge in both.
 void add_trips(const std::map<std::string, TripEnd>& without, const std::map<std::string, TripEnd>& with,
                SignalTrips& trips) {
+    std::vector<double> passing_s;
+    std::vector<double> others_s;
     for (const auto& [vehicle, end] : with) {
         const auto before = without.find(vehicle);
         if (before == without.end() || before->second.edge != end.edge) continue;
         const bool passes = end.passes_signal || before->second.passes_signal;
-        ++(passes ? trips.passing : trips.others);
-        (passes ? trips.passing_s : trips.others_s) += end.at_s - before->second.at_s;
+        (passes ? passing_s : others_s).push_back(end.at_s - before->second.at_s);
     }
+    add_mean(passing_s, trips.passing);
+    add_mean(others_s, trips.others);
 }
 
 void fill(const Sums& sums, const RoadMap& roads, ScenarioMap& map) {
-    SignalTrips& trips = map.signal_trips;
-    trips.passing_s /= static_cast<double>(std::max<std::uint64_t>(trips.passing, 1));
-    trips.others_s /= static_cast<double>(std::max<std::uint64_t>(trips.others, 1));
     for (auto [edge, times] : sums.times) {
         const auto passages = static_cast<double>(times.passages);
         times.baseline_s /= passages;

@@ -59,7 +59,7 @@ text-decoration-color:var(--muted)}
 .glance{border-top:1px solid var(--rule);margin:1.2rem 0 2.2rem;padding-top:.2rem}
 .glance h3{margin:.8rem 0 .2rem;font-size:1rem;font-weight:600}.glance h3 small{font-weight:400;margin-left:.5em}
 .headline{font-size:clamp(1.3rem,1.1rem + 1.1vw,1.75rem);line-height:1.3;font-weight:600;max-width:62rem;margin:.2rem 0 .5rem}
-.badge{display:inline-block;border:1px solid var(--muted);border-radius:99px;padding:.1rem .8rem;font-size:.85rem;margin:.3rem 0}
+.badge{display:inline-block;border:1px solid var(--muted);border-radius:1rem;padding:.15rem .8rem;font-size:.85rem;margin:.3rem 0}
 .badge.few{border-style:dashed;border-width:2px;font-weight:600}
 .tiles{display:grid;grid-template-columns:repeat(3,1fr);gap:14px;margin:.8rem 0}
 .tile{background:var(--panel);border-radius:8px;padding:.7rem 1rem;border-left:6px solid var(--rule);min-width:0}

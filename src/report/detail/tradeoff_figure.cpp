@@ -135,17 +135,22 @@ void draw_mark(Plot& plot, const Point& point, const Place& at) {
         mark_of(point.series, at.first, at.second, mark_radius, point.objection().empty() ? "" : hollow));
 }
 
-/// Intervals first. Then marks at their points, or numbers, none of which hides another, with dots and what
-/// leads to them. Returns whether some numbers do not stand at their points.
-bool draw(Plot& plot, const std::vector<Point>& points) {
+std::vector<Place> places_of(const Plot& plot, const std::vector<Point>& points) {
     std::vector<Place> places;
-    for (const Point& point : points) {
+    for (const Point& point : points)
         places.emplace_back(plot.x().place(point.lost()->mean), plot.y().place(point.gained()->mean));
-        if (point.turned_alone)
-            plot.circle(places.back().first, places.back().second, 3.0,
-                        "dot small " + colour_of(point.series));
+    return places;
+}
+
+/// Intervals first. Then marks at the places of points, or numbers, none of which hides another, with dots
+/// and what leads to them. Returns whether some numbers do not stand at their points.
+bool draw(Plot& plot, const std::vector<Point>& points, const std::vector<Place>& places) {
+    for (std::size_t at = 0; at < points.size(); ++at) {
+        if (points[at].turned_alone)
+            plot.circle(places[at].first, places[at].second, 3.0,
+                        "dot small " + colour_of(points[at].series));
         else
-            draw_intervals(plot, point, places.back());
+            draw_intervals(plot, points[at], places[at]);
     }
     if (points.front().series.levels) {
         for (std::size_t at = 0; at < points.size(); ++at)
@@ -169,11 +174,8 @@ bool draw(Plot& plot, const std::vector<Point>& points) {
 }
 
 /// ` 8 marks touch others; the data have each.`, where marks are left at their values.
-std::string touching_words(const Plot& plot, const std::vector<Point>& points) {
+std::string touching_words(const std::vector<Point>& points, const std::vector<Place>& places) {
     if (!points.front().series.levels) return "";
-    std::vector<Place> places;
-    for (const Point& point : points)
-        places.emplace_back(plot.x().place(point.lost()->mean), plot.y().place(point.gained()->mean));
     const auto touching = std::ranges::count_if(places, [&](const Place& place) {
         return 1 < std::ranges::count_if(
                        places, [&](const Place& other) { return distance(place, other) < mark_radius; });
@@ -285,7 +287,8 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
                    "uncounted");
     plot.horizontal(0.0);
     plot.vertical(0.0);
-    const bool is_moved = draw(plot, points);
+    const std::vector<Place> places = places_of(plot, points);
+    const bool is_moved = draw(plot, points, places);
     const std::optional<Crossing> crossing = crossing_of(study, scenario);
     if (crossing)
         add_legends(plot, *crossing, points);
@@ -302,7 +305,7 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
         "Up is better for emergency vehicles, left is better for the others. Bars are 95 % intervals. In the "
         "grey band a gain or loss is below {} s and does not count.",
         number(scenario.least_relevant_s, typeset(1)));
-    note += touching_words(plot, points);
+    note += touching_words(points, places);
     if (is_moved) note += " A number that would hide another has a line to its dot.";
     if (merged > 0)
         note += fmt::format(" Without a mark: {} whose every run is one of another (see the verdicts).",
