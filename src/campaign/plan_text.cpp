@@ -23,6 +23,7 @@
 #include "scenario/network.hpp"
 #include "scenario/site.hpp"
 #include "study/reuse.hpp"
+#include "study/side_files.hpp"
 
 namespace clearway::campaign {
 namespace {
@@ -126,6 +127,22 @@ std::string precision_text(const results::PrecisionTarget& target) {
         target.metric, target.half_width, target.at_most);
 }
 
+/// What the study sets out to show, a line for each comparison.
+std::string analysis_plan_text(const results::AnalysisPlan& plan, const core::Settings& titles) {
+    std::string text =
+        core::wrapped(fmt::format("plan: {}, paired; {}, all true with probability {:g} (Holm)", plan.metric,
+                                  core::counted(plan.comparisons.size(), "claim"), 1.0 - plan.alpha),
+                      4) +
+        "\n";
+    for (const results::PlannedComparison& one : plan.comparisons)
+        text += core::wrapped(fmt::format("  {}: {} against {}{}, {}", one.name, titles.at(one.condition),
+                                          titles.at(one.against),
+                                          one.scenario.empty() ? "" : " in " + one.scenario, name(one.claim)),
+                              4) +
+                "\n";
+    return text;
+}
+
 std::string policy_of(const experiment::ConditionSpec& condition) {
     std::vector<std::string> means;
     for (const std::string& word : condition.policies)
@@ -198,6 +215,8 @@ Printout plan_printout(const study::Plan& plan, const RunOptions& options) {
     text += fmt::format(", about {} on the disk ({})", size_text(rest.disk_bytes), words(rest.basis));
     text = "\n" + core::wrapped(head, 4) + "\n" + core::wrapped(text, 4) + "\n";
     if (plan.manifest.precision) text += core::wrapped(precision_text(*plan.manifest.precision), 4) + "\n";
+    const core::Settings titles = report::titles_of(plan.manifest.conditions, plan.titles);
+    if (plan.manifest.plan) text += analysis_plan_text(*plan.manifest.plan, titles);
     return {{{"study", plan.manifest.study},
              {"folder", folder.string()},
              {"study_hash", results::study_hash(plan.manifest)},
@@ -208,20 +227,23 @@ Printout plan_printout(const study::Plan& plan, const RunOptions& options) {
              {"reused_runs", rest.reused},
              {"estimated_time_left_s", core::to_json_value(rest.wall_s)},
              {"estimated_disk_left_bytes", rest.disk_bytes}},
-            {table_of(cells, report::titles_of(plan.manifest.conditions, plan.titles))},
+            {table_of(cells, titles)},
             text};
 }
 
 namespace {
 
-/// Sites stand on roads, which a plan does not read otherwise. Variants of a scenario share them.
-void check_sites(const study::StudyConfig& config) {
+/// Sites and counts lie on roads, which a plan does not read otherwise. Variants of a scenario share them.
+void check_places(const study::StudyConfig& config) {
     std::set<std::filesystem::path> checked;
     std::vector<core::Problem> problems;
     for (const scenario::ScenarioConfig& scenario : config.scenarios) {
-        if (scenario.emergency_sites.empty() || !checked.insert(scenario.folder).second) continue;
+        const bool has_places = !scenario.emergency_sites.empty() || !scenario.demand.counts.empty();
+        if (!has_places || !checked.insert(scenario.folder).second) continue;
         const core::TemporaryFolder folder;
-        scenario::site_edges(scenario, scenario::build_network(scenario, folder.path()).network, problems);
+        const scenario::BuiltNetwork built = scenario::build_network(scenario, folder.path());
+        scenario::site_edges(scenario, built.network, problems);
+        study::check_counts(scenario, built.network);
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }
@@ -234,7 +256,7 @@ core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, 
     study::Plan plan = plan_for(config, options);
     study::require_own_shard(options.folder, shard);
     study::require_ready(plan, options.folder);
-    check_sites(config);
+    check_places(config);
     std::optional<core::InputError> refusal;
     try {
         results::Store::require_fits(options.folder, plan.manifest);

@@ -16,6 +16,7 @@
 #include "core/leftovers.hpp"
 #include "core/machine_failure.hpp"
 #include "core/process.hpp"
+#include "core/progress.hpp"
 #include "core/temporary_folder.hpp"
 #include "report/figure_files.hpp"
 #include "report/read_facts.hpp"
@@ -42,7 +43,10 @@ constexpr const char* scale = "3";  // 1200 pixels across: enough for a column o
 /// fails.
 void convert(const std::vector<std::filesystem::path>& drawings, const std::string& format) {
     const core::TemporaryFolder folder;
+    core::Progress progress(format + " files", drawings.size(), core::Progress::style_for_stderr());
+    std::size_t done = 0;
     for (const std::filesystem::path& drawing : drawings) {
+        progress.update(done++, 0);
         const std::filesystem::path source =
             std::filesystem::absolute(drawing);  // no option, as `-x/` may be
         std::filesystem::path picture = source;
@@ -62,6 +66,7 @@ void convert(const std::vector<std::filesystem::path>& drawings, const std::stri
         throw core::EnvironmentError(fmt::format("{}: {} ended with {}: {}", drawing.string(), rasteriser,
                                                  exit.describe(), core::tail(log, 3)));
     }
+    progress.finish();
 }
 
 /// Of a folder of clearway equip, which is no run folder.

@@ -167,7 +167,7 @@ struct Demand {
                           "dissertation TABLE I"},
               core::Field{"emergency", "1", &S::emergency, 0.0, 1000.0, "Emergency vehicles.",
                           "dissertation TABLE I"},
-              core::Field{"density", "1", &S::density, 0.0, 100.0,
+              core::Field{"density", "1", &S::density, 0.0, 20.0,
                           "Factor on the human and automated vehicles; at most 1 for measured demand.",
                           "1: as counted"},
               core::Field{"counts", "", &S::counts, 0, 0,

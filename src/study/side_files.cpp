@@ -32,20 +32,13 @@ std::string streets_json(const roads::Network& network) {
     return names.dump(1, ' ', false, core::Json::error_handler_t::replace) + "\n";
 }
 
-/// Writes the counted flows of a scenario, if it has any, as read_facts expects them. Throws core::InputError
-/// for edges that the network does not have.
+/// Writes the counted flows of a scenario, if it has any, as read_facts expects them. Throws as check_counts
+/// does.
 void write_counts(const scenario::ScenarioConfig& config, const roads::Network& network,
                   const std::filesystem::path& file) {
     if (config.demand.counts.empty()) return;
-    const std::filesystem::path source = scenario::resolve(config, config.demand.counts);
-    std::vector<core::Problem> problems;
-    for (const metrics::EdgeCount& count : metrics::read_counts(source)) {
-        if (network.find_edge(count.edge)) continue;
-        problems.push_back({source.string(), fmt::format("the network has no edge {}", count.edge),
-                            "edges of the scenario's network", ""});
-    }
-    if (!problems.empty()) throw core::InputError(std::move(problems));
-    core::write_atomically(file, core::read_file(source));
+    check_counts(config, network);
+    core::write_atomically(file, core::read_file(scenario::resolve(config, config.demand.counts)));
 }
 
 /// Without texts there is no such file.
@@ -78,6 +71,18 @@ void complete_scenario(const scenario::ScenarioConfig& config, const experiment:
 }
 
 }  // namespace
+
+void check_counts(const scenario::ScenarioConfig& config, const roads::Network& network) {
+    if (config.demand.counts.empty()) return;
+    const std::filesystem::path source = scenario::resolve(config, config.demand.counts);
+    std::vector<core::Problem> problems;
+    for (const metrics::EdgeCount& count : metrics::read_counts(source)) {
+        if (network.find_edge(count.edge)) continue;
+        problems.push_back({source.string(), fmt::format("the network has no edge {}", count.edge),
+                            "edges of the scenario's network", ""});
+    }
+    if (!problems.empty()) throw core::InputError(std::move(problems));
+}
 
 void complete_scenarios(const Plan& plan, const results::Store& store) {
     std::vector<core::Problem> problems;

@@ -5,9 +5,15 @@
 #include <string>
 
 #include "results/store.hpp"
+#include "roads/network.hpp"
+#include "scenario/config.hpp"
 #include "study/plan.hpp"
 
 namespace clearway::study {
+
+/// Throws core::InputError for counted flows of a scenario that cannot be read or lie on edges that the
+/// network does not have.
+void check_counts(const scenario::ScenarioConfig& config, const roads::Network& network);
 
 /// Writes what a report needs of each scenario besides its network: wide edges, counted flows, street names
 /// and a picture. Also makes a first demand, which finds unknown edges and unreachable destinations before

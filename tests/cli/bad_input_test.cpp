@@ -366,6 +366,18 @@ TEST_F(BadInputTest, a_dry_run_refuses_a_site_beside_the_roads) {
     EXPECT_EQ(dry.err, real.err);
 }
 
+TEST_F(BadInputTest, a_dry_run_refuses_counts_that_a_run_refuses) {
+    for (const char* const row : {"third,200", "first,some"}) {
+        write("line/counts.csv", std::string("edge,vehicles_per_hour\n") + row + "\n");
+        const Ended real = run_changed("human = 5", "counts = \"counts.csv\"\nhuman = 5");
+        EXPECT_EQ(real.code, 3) << real.err;
+        const Ended dry = clearway({"run", "line", "--seeds", "1", "--out", "out", "--dry-run"});
+        EXPECT_EQ(dry.code, 3) << dry.out;
+        EXPECT_EQ(dry.err, real.err);
+        EXPECT_EQ(dry.out, "");
+    }
+}
+
 TEST_F(BadInputTest, a_dry_run_refuses_what_a_run_refuses) {
     write_line_scenario();
     write("my.toml", "name = \"mine\"\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n");

@@ -348,11 +348,11 @@ TEST_F(Config, kinds_of_emergency_vehicles_are_refused_where_all_are_trips_of_th
 TEST_F(Config, dense_times_density_stays_readable) {
     Options options;
     options.set("variant", "dense");
-    options.set("density", "50");
+    options.set("density", "20");
     const auto problems = problems_of([&] { load("merge", options); });
     ASSERT_EQ(problems.size(), 1U);
     EXPECT_EQ(problems[0].where, "--density");
-    EXPECT_THAT(problems[0].what, HasSubstr("500"));
+    EXPECT_THAT(problems[0].what, HasSubstr("200"));
 }
 
 TEST_F(Config, privileges_and_slow_vehicles_enter_the_effective_configuration_where_there_are_any) {
