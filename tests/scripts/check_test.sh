@@ -58,6 +58,13 @@ says '^      check-tidy --changed$'
 says '^pass  check-alone '
 says '^check: 2 failed$'
 
+# A slow one tells how far it is while it runs; tail looks once a second.
+printf '#!/bin/sh\necho "check-alone: 3 of 5" >&2\nsleep 2\n' >"$work/scripts/check-alone"
+expect 1
+says '^check-alone: 3 of 5$'
+says '^pass  check-alone '
+does check-alone 0
+
 expect 1 --quick
 says '^FAIL  check-format '
 says_not 'check-tidy|check-alone'
