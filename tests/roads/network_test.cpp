@@ -43,6 +43,12 @@ class NetworkTest : public ::testing::Test {
     support::TemporaryFolder folder_;
 };
 
+TEST_F(NetworkTest, street_names_that_netconvert_escapes_twice_are_as_the_map_has_them) {
+    EXPECT_EQ(crossing().edge(*crossing().find_edge("west")).name, "High & Low Street");
+    const Network network = read(altered("High &amp; Low Street", "Avenue d&amp;apos;Ostende &amp;amp; Co"));
+    EXPECT_EQ(network.edge(*network.find_edge("west")).name, "Avenue d'Ostende & Co");
+}
+
 TEST(Crossings, JoinSidewalksAndKnowTheirSignal) {
     const Network network = Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/footway.net.xml");
     const std::vector<Crossing> found = crossings(network);

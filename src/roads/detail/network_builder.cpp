@@ -1,8 +1,11 @@
 #include "roads/detail/network_builder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -32,6 +35,18 @@ std::vector<std::string> words_of(std::string_view text) {
     std::vector<std::string> words;
     detail::for_each_word(text, ' ', [&](std::string_view word) { words.emplace_back(word); });
     return words;
+}
+
+/// netconvert escapes names that are escaped already: `d&apos;Ostende` becomes `d&amp;apos;Ostende`.
+std::string street_name(std::string_view read) {
+    constexpr std::array<std::pair<std::string_view, const char*>, 3> letters = {
+        {{"&apos;", "'"}, {"&quot;", "\""}, {"&amp;", "&"}}};
+    std::string name(read);
+    for (const auto& [escaped, letter] : letters) {
+        for (std::size_t at = name.find(escaped); at != std::string::npos; at = name.find(escaped, at + 1))
+            name.replace(at, escaped.size(), letter);
+    }
+    return name;
 }
 
 }  // namespace
@@ -156,7 +171,7 @@ void NetworkBuilder::read_location(const core::XmlAttributes& attributes) {
 void NetworkBuilder::read_edge(const core::XmlAttributes& attributes) {
     Edge edge;
     edge.id = text(attributes, "id");
-    edge.name = attributes.find("name").value_or("");
+    edge.name = street_name(attributes.find("name").value_or(""));
     edge.type = attributes.find("type").value_or("");
     const std::string_view function = attributes.find("function").value_or("");
     edge.internal = is_inside_junction(function);
