@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,6 +13,7 @@
 #include "campaign/printout.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "core/supervisor.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
 #include "experiment/related_conditions.hpp"
@@ -43,10 +43,6 @@ RunCost cost_of(const Search& search, const EquipRequest& request) {
     return cost;
 }
 
-unsigned processes_of(const EquipRequest& request) {
-    return request.run.workers > 0 ? request.run.workers : std::max(1U, std::thread::hardware_concurrency());
-}
-
 /// As many seeds as the time allows by the forecast of the fewest, to which runs are in proportion.
 std::uint32_t seeds_within(EquipRequest request, const scenario::BuiltNetwork& built) {
     request.replications = analysis::fewest_for_interval;
@@ -55,12 +51,13 @@ std::uint32_t seeds_within(EquipRequest request, const scenario::BuiltNetwork& b
     if (!cost.wall_s)
         throw core::InputError({"--within", "the time of a run is unknown: its route files cannot be read",
                                 "a scenario whose files can be read", "Give --seeds instead"});
-    const double least_s =
-        static_cast<double>(search.rounds.forecast().likely()) * *cost.wall_s / processes_of(request);
+    const double least_s = static_cast<double>(search.rounds.forecast().likely()) * *cost.wall_s /
+                           static_cast<double>(core::process_count(request.run.workers));
     if (least_s > request.within_s)
         core::print_message(fmt::format(
-            "clearway: the least, {} seeds, takes about {}, more than the {} given ({}); a smaller --budget "
-            "or fewer --candidates take less\n",
+            "clearway: the least, {} seeds, takes about {} from nothing, more than the {} given ({}), and is "
+            "made "
+            "all the same; a smaller --budget or fewer --candidates take less\n",
             request.replications, clock_words(least_s), clock_words(request.within_s), words(cost.basis)));
     return static_cast<std::uint32_t>(std::clamp<double>(request.replications * request.within_s / least_s,
                                                          request.replications,
@@ -97,8 +94,9 @@ std::string short_plan(const EquipRounds& rounds, const EquipRequest& request, s
 EquipRequest detail::fitted(EquipRequest request, const scenario::BuiltNetwork& built) {
     if (request.within_s <= 0.0) return request;
     request.replications = seeds_within(request, built);
-    core::print_message(fmt::format("clearway: {} allow about --seeds {}\n", clock_words(request.within_s),
-                                    request.replications));
+    if (request.replications > analysis::fewest_for_interval)
+        core::print_message(fmt::format("clearway: {} allow about --seeds {}\n",
+                                        clock_words(request.within_s), request.replications));
     return request;
 }
 
@@ -110,10 +108,11 @@ core::ExitCode equip_dry_run(EquipRequest request) {
     search.rounds.require_fits();
     const EquipForecast runs = search.rounds.forecast();
     const RunCost cost = cost_of(search, request);
-    const unsigned processes = processes_of(request);
+    const std::size_t processes = core::process_count(request.run.workers);
+    const double run_s = cost.wall_s.value_or(0.0) / static_cast<double>(processes);
     const auto seconds = [&](std::size_t count) -> core::Json {
         if (!cost.wall_s) return nullptr;
-        return static_cast<double>(count) * *cost.wall_s / processes;
+        return static_cast<double>(count) * run_s;
     };
     const auto clock = [&](std::size_t count) {
         const core::Json left_s = seconds(count);
@@ -156,8 +155,7 @@ core::ExitCode equip_dry_run(EquipRequest request) {
                                 ? fmt::format(" The budget is {}, and {} could gain.", request.budget,
                                               report::counted(candidates, "signal"))
                                 : "";
-    const std::string shorter =
-        cost.wall_s ? short_plan(search.rounds, request, candidates, *cost.wall_s / processes) : "";
+    const std::string shorter = cost.wall_s ? short_plan(search.rounds, request, candidates, run_s) : "";
     const report::SignalsMet& met = search.signals.candidates.met;
     print({{{"folder", request.run.folder.string()},
             {"share_of_trips_with_signals", core::to_json_value(met.share())},

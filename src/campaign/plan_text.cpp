@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <map>
 #include <set>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -14,9 +13,11 @@
 #include "campaign/detail/run_cost.hpp"
 #include "core/counted.hpp"
 #include "core/error.hpp"
+#include "core/supervisor.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
 #include "experiment/code_parts.hpp"
+#include "experiment/condition_titles.hpp"
 #include "experiment/settings.hpp"
 #include "report/read_facts.hpp"
 #include "results/store.hpp"
@@ -96,7 +97,7 @@ struct Rest {
 
 Rest rest_of(const std::vector<Cell>& cells, unsigned workers) {
     Rest rest;
-    const unsigned processes = workers > 0 ? workers : std::max(1U, std::thread::hardware_concurrency());
+    const auto processes = static_cast<double>(core::process_count(workers));
     for (const Cell& cell : cells) {
         rest.complete += cell.complete;
         rest.reused += cell.reused;
@@ -201,21 +202,24 @@ Printout plan_printout(const study::Plan& plan, const RunOptions& options) {
     const std::filesystem::path& folder = options.folder;
     const std::vector<Cell> cells = cells_of(plan, folder, options.reused);
     const Rest rest = rest_of(cells, options.workers);
-    const std::string head =
-        fmt::format("{}, {} in {}, {} complete in {}{}", core::counted(cells.size(), "cell"),
-                    core::counted(plan.run_count(), "run"),
-                    plan.units.size() == 1 ? "1 process" : fmt::format("{} processes", plan.units.size()),
-                    rest.complete, folder.string(),
-                    options.reused.empty()
-                        ? ""
-                        : fmt::format(", {} taken over from {}", rest.reused, options.reused.string()));
+    const std::string head = fmt::format(
+        "{}, {} in {}, {} complete in {}{}", core::counted(cells.size(), "cell"),
+        core::counted(plan.run_count(), "run"),
+        plan.units.size() == 1
+            ? "1 process"
+            : fmt::format("{} processes, {} at a time", plan.units.size(),
+                          std::min<std::size_t>(plan.units.size(), core::process_count(options.workers))),
+        rest.complete, folder.string(),
+        options.reused.empty()
+            ? ""
+            : fmt::format(", {} taken over from {}", rest.reused, options.reused.string()));
     std::string text = "the rest: ";
     text += rest.wall_s ? fmt::format("about {}", clock_words(*rest.wall_s))
                         : "time unknown: the route files of measured demand cannot be read";
     text += fmt::format(", about {} on the disk ({})", size_text(rest.disk_bytes), words(rest.basis));
     text = "\n" + core::wrapped(head, 4) + "\n" + core::wrapped(text, 4) + "\n";
     if (plan.manifest.precision) text += core::wrapped(precision_text(*plan.manifest.precision), 4) + "\n";
-    const core::Settings titles = report::titles_of(plan.manifest.conditions, plan.titles);
+    const core::Settings titles = experiment::ConditionTitles(plan.titles).of(plan.manifest.conditions);
     if (plan.manifest.plan) text += analysis_plan_text(*plan.manifest.plan, titles);
     return {{{"study", plan.manifest.study},
              {"folder", folder.string()},

@@ -265,6 +265,7 @@ results::Store prepare_run_folder(const study::Plan& plan, const RunOptions& opt
                             growth.empty() ? study::Growth::none : study::Growth::more);
         study::keep_titles(store, plan.titles);
         study::keep_controls(store, plan.controls);
+        study::keep_study_file(store, plan.text);
         experiment::keep_code(plan.manifest.conditions, store.folder());
         if (!growth.empty() && !plan.manifest.precision)
             fmt::print(

@@ -13,6 +13,15 @@
 #include "policy/policy.hpp"
 
 namespace clearway::experiment {
+namespace {
+
+bool all_requests_arrive(const std::string& name) {
+    const failures::FailureConfig failure = failures::failure_from(name);
+    return static_cast<const failures::RequestChannel&>(failure) == failures::RequestChannel{} &&
+           static_cast<const failures::SignalRequestChannel&>(failure) == failures::SignalRequestChannel{};
+}
+
+}  // namespace
 
 std::string policy_words(const ConditionSpec& condition) {
     std::vector<std::string> words;
@@ -36,6 +45,8 @@ std::string failure_words(const ConditionSpec& condition) {
         const auto preset = std::ranges::find(presets, item, &failures::FailurePreset::name);
         words.push_back(preset == presets.end() ? item : preset->summary);
     }
+    if (!words.empty() && !condition.policies.empty() && all_requests_arrive(condition.failure))
+        words.emplace_back("all requests of EVs to vehicles and signals arrive (Q50: half)");
     return fmt::format("{}", fmt::join(words, "; "));
 }
 

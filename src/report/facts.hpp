@@ -167,7 +167,7 @@ using analysis::shown_interval;
 
 /// What is known of a condition, and how a report presents it. Its metrics hold those of every `Measure`.
 struct ConditionFacts : analysis::ConditionSummary {
-    std::string title;            ///< In words: detail::ConditionTitles.
+    std::string title;            ///< In words: experiment::ConditionTitles.
     std::string base_title = {};  ///< Of what factors made it from.
     std::string recipe;           ///< Failure, predictor and policies, in words.
     /// The condition of which a part is off in this one (StudyConfig::controls); empty for no control.
@@ -277,7 +277,8 @@ struct StudyFacts {
     std::vector<Sensitivity> sensitivities;
     std::vector<LossCurve> curves;
     std::vector<Provenance> provenance;
-    std::string command;  ///< Repeats the study.
+    std::string command;     ///< Repeats the study.
+    std::string study_file;  ///< Its text; empty where it has none.
     /// With what conditions are compared instead of their baselines; empty otherwise.
     std::string reference = {};
 };

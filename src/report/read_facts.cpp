@@ -14,7 +14,7 @@
 #include "core/files.hpp"
 #include "experiment/settings.hpp"
 #include "prediction/predictor.hpp"
-#include "report/detail/condition_titles.hpp"
+#include "report/detail/aspects.hpp"
 #include "report/detail/configuration.hpp"
 #include "report/detail/map_facts.hpp"
 #include "report/detail/side_files.hpp"
@@ -251,13 +251,13 @@ std::string titled(analysis::Reference reference, const std::vector<ConditionFac
 
 Titles titles_of(const results::Store& store, const analysis::Summary& summary,
                  const analysis::Reference& reference) {
-    const detail::ConditionTitles titles(detail::titles_in(store.folder() / "titles.json"));
+    const experiment::ConditionTitles titles(detail::titles_in(store.folder() / "titles.json"));
     Titles found;
     for (const analysis::ScenarioSummary& scenario : summary.scenarios) {
         std::vector<ConditionFacts> conditions;
         for (const analysis::ConditionSummary& condition : scenario.conditions)
             conditions.emplace_back().condition = condition.condition;
-        titles.give(conditions);
+        detail::give_titles(titles, conditions);
         for (const ConditionFacts& condition : conditions)
             found.conditions[{scenario.scenario, condition.name()}] = condition.title;
         found.reference = titled(reference, conditions);
@@ -265,20 +265,9 @@ Titles titles_of(const results::Store& store, const analysis::Summary& summary,
     return found;
 }
 
-core::Settings titles_of(const std::vector<experiment::ConditionSpec>& conditions,
-                         const core::Settings& given) {
-    std::vector<ConditionFacts> titled;
-    for (const experiment::ConditionSpec& condition : conditions)
-        titled.emplace_back().condition = condition;
-    detail::ConditionTitles(given).give(titled);
-    core::Settings titles;
-    for (const ConditionFacts& condition : titled)
-        titles[condition.name()] = condition.title;
-    return titles;
-}
-
 core::Settings titles_of(const results::Store& store) {
-    return titles_of(store.manifest().conditions, detail::titles_in(store.folder() / "titles.json"));
+    return experiment::ConditionTitles(detail::titles_in(store.folder() / "titles.json"))
+        .of(store.manifest().conditions);
 }
 
 StudyFacts facts_of(const results::Store& store, const results::Results& results,
@@ -288,9 +277,9 @@ StudyFacts facts_of(const results::Store& store, const results::Results& results
     for (const analysis::ScenarioSummary& scenario : summary.scenarios)
         study.scenarios.push_back(scenario_facts(scenario, summary, least_relevant_s));
     Conditions conditions;
-    const detail::ConditionTitles titles(detail::titles_in(store.folder() / "titles.json"));
+    const experiment::ConditionTitles titles(detail::titles_in(store.folder() / "titles.json"));
     for (ScenarioFacts& scenario : study.scenarios) {
-        titles.give(scenario.conditions);
+        detail::give_titles(titles, scenario.conditions);
         for (ConditionFacts& condition : scenario.conditions)
             conditions[{scenario.name, condition.name()}] = &condition;
     }
@@ -315,6 +304,8 @@ StudyFacts facts_of(const results::Store& store, const results::Results& results
     study.curves = curves_in(store.folder() / "training");
     const fs::path command = store.folder() / "command.txt";
     if (fs::exists(command)) study.command = core::read_file(command);
+    const fs::path file = store.folder() / "study.toml";
+    if (fs::exists(file)) study.study_file = core::read_file(file);
     study.provenance = provenance_of(results);
     return study;
 }

@@ -43,10 +43,7 @@ struct Titles {
 Titles titles_of(const results::Store& store, const analysis::Summary& summary,
                  const analysis::Reference& reference);
 
-/// What conditions are called, by name, with titles that a study file gave (study::StudyConfig::titles).
-core::Settings titles_of(const std::vector<experiment::ConditionSpec>& conditions,
-                         const core::Settings& given);
-/// The same of a run folder.
+/// What the conditions of a run folder are called, by name, with titles that the study file gave.
 core::Settings titles_of(const results::Store& store);
 
 /// Whether an SVG file may go into the page as it is: one <svg> element without scripts, event handlers,

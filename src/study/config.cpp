@@ -461,10 +461,11 @@ StudyConfig read_study(const std::filesystem::path& name, Extent extent, std::ui
     const std::filesystem::path file = study_file(name);
     require_study_file(file);
     TomlReading reading{file.string(), {}, {}};
-    const toml::table table = core::parse_toml(core::read_file(file), reading.file);
+    StudyConfig config;
+    config.text = core::read_file(file);
+    const toml::table table = core::parse_toml(config.text, reading.file);
     if (table.contains("network") || table.contains("base")) refuse_scenario(file);
     StrictTable root(table, "", reading);
-    StudyConfig config;
     config.most_runs = most_runs;
     config.name = file.stem().string();
     root.text("name", config.name);

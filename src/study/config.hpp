@@ -28,6 +28,7 @@ struct StudyConfig {
     /// misspelt, so who plans the study checks its parts first.
     std::vector<core::Problem> doubtful_titles = {};
     core::Settings controls = {};  ///< For reports: a condition -> the one of which a part is off in it.
+    std::string text = {};         ///< Of the study file; empty for a study that has none.
     /// Instead of a fixed number of replications; `replications` is then the number of the first round.
     std::optional<results::PrecisionTarget> precision;
     /// What it sets out to show; its seed must not have been used before (fresh_seeds.hpp).

@@ -24,8 +24,9 @@ constexpr std::size_t named_missing = 10;
 
 /// Everything that a merge reads of a run folder is a file or a folder.
 void require_plain(const fs::path& folder) {
-    for (const char* const part : {"manifest.json", ".shard", "command.txt", "titles.json", "controls.json",
-                                   "scenarios", "training", "code", "runs", "errors", "recordings"})
+    for (const char* const part :
+         {"manifest.json", ".shard", "command.txt", "study.toml", "titles.json", "controls.json", "scenarios",
+          "training", "code", "runs", "errors", "recordings"})
         core::require_plain_files(folder / part);
 }
 
@@ -94,7 +95,7 @@ void copy_surroundings(const std::vector<fs::path>& folders, const results::Stor
         copy_scenario(folders, entry, target, result);
     for (const char* const name : {"training", "code"})
         core::copy_folder(first_of(folders, name), target.folder() / name);
-    for (const char* const name : {"command.txt", "titles.json", "controls.json"}) {
+    for (const char* const name : {"command.txt", "study.toml", "titles.json", "controls.json"}) {
         const fs::path file = first_of(folders, name);
         if (!file.empty() && !fs::exists(target.folder() / name))
             core::write_atomically(target.folder() / name, core::read_file(file));

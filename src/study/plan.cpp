@@ -143,6 +143,7 @@ Plan make_plan(const StudyConfig& config, const Versions& versions, const fs::pa
     plan.scenarios = config.scenarios;
     plan.titles = config.titles;
     plan.controls = config.controls;
+    plan.text = config.text;
     const fs::path output = fs::absolute(folder);
     for (const UnitPlace& place : units_of(plan.manifest)) {
         experiment::RunJob unit;

@@ -35,6 +35,7 @@ struct Plan {
     std::vector<scenario::ScenarioConfig> scenarios;
     core::Settings titles = {};      ///< StudyConfig::titles; they change no run.
     core::Settings controls = {};    ///< StudyConfig::controls; likewise.
+    std::string text = {};           ///< StudyConfig::text; likewise.
     std::vector<PlannedUnit> units;  ///< In the order of `units_of`; all, or those of a shard.
 
     /// Number of runs in `units`.

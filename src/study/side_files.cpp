@@ -113,6 +113,14 @@ void keep_controls(const results::Store& store, const core::Settings& controls) 
     keep_texts(store.folder() / "controls.json", controls);
 }
 
+void keep_study_file(const results::Store& store, const std::string& text) {
+    const std::filesystem::path file = store.folder() / "study.toml";
+    if (text.empty())
+        std::filesystem::remove(file);
+    else
+        core::write_atomically(file, text);
+}
+
 void copy_trainings(const std::filesystem::path& source, const results::Store& store) {
     for (const auto& training : std::filesystem::directory_iterator(source)) {
         std::error_code unknown;

@@ -31,6 +31,9 @@ void keep_titles(const results::Store& store, const core::Settings& titles);
 /// The same for the conditions that are controls: `controls.json`.
 void keep_controls(const results::Store& store, const core::Settings& controls);
 
+/// Stores the text of the study file in place of an earlier one: `study.toml`. Without a text there is none.
+void keep_study_file(const results::Store& store, const std::string& text);
+
 /// Copies the outputs of trainings, `NAME/{losses.csv,summary.json}` in `source`, for the report's train-test
 /// curves. Throws core::EnvironmentError when it cannot write.
 void copy_trainings(const std::filesystem::path& source, const results::Store& store);

@@ -45,6 +45,12 @@ TEST(FailureWords, TellPresetsInWordsAndFieldsAsTheyStand) {
               "sight");
     condition.failure = "B10,dark_share=0.5";
     EXPECT_EQ(failure_words(condition), "outages of 10 s on average, dark 30 % of the time; dark_share=0.5");
+    condition.policies = {"preempt_signals"};
+    condition.failure = "B10";
+    EXPECT_THAT(failure_words(condition),
+                testing::HasSubstr("; all requests of EVs to vehicles and signals arrive"));
+    condition.failure = "Q50";
+    EXPECT_THAT(failure_words(condition), testing::Not(testing::HasSubstr("arrive")));
 }
 
 TEST(BuiltInConditions, AreNotTheirPartsWhoseOptionIsNamed) {

@@ -8,7 +8,7 @@
 #include "core/files.hpp"
 #include "experiment/conditions.hpp"
 #include "report/console.hpp"
-#include "report/detail/condition_titles.hpp"
+#include "report/detail/aspects.hpp"
 #include "report/figure_files.hpp"
 #include "report/page.hpp"
 #include "results/synthetic.hpp"
@@ -139,7 +139,7 @@ TEST(Titles, of_conditions_made_by_factors_are_words_or_those_of_the_study_file)
             made("graph_graphsage+dark_share=0.1", {"corridor"}, {{"failure.dark_share", "0.1"}}),
             made("one+policy=corridor", {"corridor"}, {{"condition.policy", "corridor"}}),
             made("two+policy=corridor", {"corridor"}, {{"condition.policy", "corridor"}})};
-        detail::ConditionTitles(given).give(conditions);
+        detail::give_titles(experiment::ConditionTitles(given), conditions);
         const std::string of_part = given.empty() ? "Green" : "Ours";
         EXPECT_EQ(conditions[1].factor_titles, (core::Settings{{"condition.policy", of_part}}));
         EXPECT_EQ(conditions[1].aspects.at("policy"), of_part);
@@ -166,11 +166,12 @@ TEST(Titles, of_conditions_made_by_factors_are_words_or_those_of_the_study_file)
     std::vector<ConditionFacts> alike = {
         made("one+policy=corridor", {"corridor"}, {{"condition.policy", "corridor"}}),
         made("two+policy=corridor", {"corridor"}, {{"condition.policy", "corridor"}})};
-    detail::ConditionTitles({{"one", "Both"}, {"two", "Both"}}).give(alike);
+    detail::give_titles(experiment::ConditionTitles({{"one", "Both"}, {"two", "Both"}}), alike);
     EXPECT_THAT(core::texts_of(alike, &ConditionFacts::title),
                 ::testing::ElementsAre("one+policy=corridor", "two+policy=corridor"));
     EXPECT_EQ(alike[0].base_title, "Both");
-    detail::ConditionTitles({}).give(alike = {alike[0]});
+    alike = {alike[0]};
+    detail::give_titles(experiment::ConditionTitles({}), alike);
     EXPECT_EQ(alike[0].title, "corridor") << "alone, the policy says enough";
 }
 

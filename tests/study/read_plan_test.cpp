@@ -139,9 +139,11 @@ TEST_F(PlannedStudy, NamesConditionsByFactorsInAnyOrder) {
 TEST_F(PlannedStudy, NeedsTheTimeAloneOnTheRoadForItsMargin) {
     std::string without_solo = std::string(study_text) + plan_text;
     without_solo.replace(without_solo.find(", \"solo\""), 8, "");
+    EXPECT_EQ(problems(without_solo), "none") << "margin_s alone counts then";
+    without_solo.replace(without_solo.find("margin_s = 2"), 12, "margin_s = 2\nmargin_share = 0.1");
     EXPECT_THAT(problems(without_solo),
                 AllOf(HasSubstr("plan.margin_share"), HasSubstr("Add solo to the conditions")));
-    without_solo.replace(without_solo.find("margin_s = 2"), 12, "margin_s = 2\nmargin_share = 0");
+    without_solo.replace(without_solo.find("margin_share = 0.1"), 18, "margin_share = 0");
     EXPECT_EQ(problems(without_solo), "none");
 }
 
@@ -232,6 +234,8 @@ name = "x"
 against = "Nothing"
 condition = )";
     EXPECT_EQ(read(text + "\"Ours, worn\"").plan->comparisons[0].condition, "a+failure=B10");
+    EXPECT_EQ(read(text + "\"Ours, one in twenty\"").plan->comparisons[0].condition, "a+failure=B5")
+        << "as reports call it";
     const StudyConfig config = read(text + "\"Ours+failure=one in twenty\"");
     EXPECT_EQ(config.plan->comparisons[0].condition, "a+failure=B5");
     EXPECT_EQ(config.plan->comparisons[0].against, "baseline");

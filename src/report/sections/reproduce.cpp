@@ -7,6 +7,11 @@ namespace clearway::report::detail {
 void reproduce_section(const StudyFacts& study, Writer& writer) {
     std::string html;
     if (!study.command.empty()) html += fmt::format("<pre><code>{}</code></pre>\n", escaped(study.command));
+    if (!study.study_file.empty())
+        html += fmt::format(
+            "<p>The study file, which the run folder keeps as <code>study.toml</code>:</p>\n"
+            "<pre><code>{}</code></pre>\n",
+            escaped(study.study_file));
     html += "<dl class=\"facts\">\n";
     for (const auto& [name, value] : study.provenance) {
         html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(value));

@@ -12,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/folder_name.hpp"
+#include "experiment/condition_titles.hpp"
 #include "metrics/run_metrics.hpp"
 
 namespace clearway::study::detail {
@@ -62,14 +63,17 @@ std::vector<std::string> parts_of(const std::string& name, const core::Settings&
 /// Checks names; of several problems the first alone lists what is allowed.
 class Names {
   public:
-    explicit Names(std::vector<std::string> known, core::Settings titles = {})
-        : known_(std::move(known)), titles_(std::move(titles)) {}
+    /// `made`: the titles that reports give, by name.
+    explicit Names(std::vector<std::string> known, core::Settings titles = {}, core::Settings made = {})
+        : known_(std::move(known)), titles_(std::move(titles)), made_(std::move(made)) {}
 
     /// The name in the study of its title, or of `linked+policy=mine.py:Green+failure=B10`, whose factors may
     /// have any order, and values as they stand in the file or their titles; the same text where there is
     /// none.
     std::string full(const std::string& text) const {
         if (std::ranges::find(known_, text) != known_.end()) return text;
+        const std::string made = untitled(text, made_);
+        if (made != text) return made;
         const std::vector<std::string> parts = parts_of(untitled(text, titles_), titles_);
         const auto found = std::ranges::find(
             known_, parts, [](const std::string& name) { return parts_of(name, core::Settings()); });
@@ -85,7 +89,7 @@ class Names {
 
   private:
     std::vector<std::string> known_;
-    core::Settings titles_;
+    core::Settings titles_, made_;
     bool is_listed_ = false;
 };
 
@@ -153,7 +157,7 @@ void check_repeated(std::vector<StrictTable>& rows,
 
 /// A margin of 0 holds no difference. A margin that is a share of the delay needs the time of an emergency
 /// vehicle alone.
-void check_margin(StrictTable& reader, const results::AnalysisPlan& plan, const StudyConfig& config) {
+void check_margin(StrictTable& reader, const results::AnalysisPlan& plan, bool has_solo) {
     const bool claims_equivalence = std::ranges::any_of(
         plan.comparisons,
         [](const results::PlannedComparison& one) { return one.claim == results::Claim::equivalence; });
@@ -161,9 +165,6 @@ void check_margin(StrictTable& reader, const results::AnalysisPlan& plan, const 
     if (plan.margin_s == 0.0 && plan.margin_share == 0.0)
         reader.problem("margin_s", "is 0, and so is margin_share: equivalence cannot be shown",
                        "one of them above 0", "Give the least difference that would matter, in seconds");
-    const bool has_solo = std::ranges::any_of(config.conditions, [](const experiment::ConditionSpec& one) {
-        return one.traffic_model == experiment::TrafficModel::free_flow;
-    });
     if (plan.margin_share > 0.0 && !has_solo)
         reader.problem("margin_share", "is a share of the delay, which needs the condition solo",
                        "0, or a study with solo", "Add solo to the conditions");
@@ -175,6 +176,10 @@ void read_plan(StrictTable& root, Extent extent, StudyConfig& config) {
     auto reader = root.below("plan");
     if (!reader) return;
     results::AnalysisPlan plan;
+    const bool has_solo = std::ranges::any_of(config.conditions, [](const experiment::ConditionSpec& one) {
+        return one.traffic_model == experiment::TrafficModel::free_flow;
+    });
+    if (!has_solo) plan.margin_share = 0.0;
     reader->text("metric", plan.metric);
     reader->read(plan);
     std::vector<StrictTable> rows = reader->rows("comparison");
@@ -197,7 +202,9 @@ void read_plan(StrictTable& root, Extent extent, StudyConfig& config) {
     if (config.replications < 2)
         root.problem("replications", fmt::format("{} cannot show what [plan] claims", config.replications),
                      "2 or more", "Give as many as the claims need, or remove [plan]");
-    Known known{Names(names_of(config.conditions), config.titles), Names(names_of(config.scenarios))};
+    Known known{Names(names_of(config.conditions), config.titles,
+                      experiment::ConditionTitles(config.titles).of(config.conditions)),
+                Names(names_of(config.scenarios))};
     for (results::PlannedComparison& comparison : plan.comparisons) {
         comparison.condition = known.conditions.full(comparison.condition);
         comparison.against = known.conditions.full(comparison.against);
@@ -205,7 +212,7 @@ void read_plan(StrictTable& root, Extent extent, StudyConfig& config) {
     for (std::size_t at = 0; at < rows.size(); ++at)
         check_comparison(rows[at], plan.comparisons[at], known);
     check_repeated(rows, plan.comparisons);
-    check_margin(*reader, plan, config);
+    check_margin(*reader, plan, has_solo);
     config.plan = std::move(plan);
 }
 
