@@ -402,11 +402,14 @@ class Rule:
     says: str
     problems: Callable[[Judgement], Iterator[str]]
     cure: str
+    judges_leases: bool = True  #: says nothing of a policy that asked for nothing
 
 
-ANSWERS_RULE = Rule("answers", "answers in every scene", does_not_answer, "the belief may lack everything: vehicles, links, lanes, letters of signals")
+ANSWERS_RULE = Rule("answers", "answers in every scene", does_not_answer,
+                    "the belief may lack everything: vehicles, links, lanes, letters of signals", judges_leases=False)
 SAME_RULE = Rule("same", "answers the same to the same", answers_otherwise,
-                 "no clock or address, chance only from a generator with a fixed seed, state only from what it was shown")
+                 "no clock or address, chance only from a generator with a fixed seed, state only from what it was shown",
+                 judges_leases=False)
 RULES = {
     "policy": [
         ANSWERS_RULE,
@@ -414,14 +417,16 @@ RULES = {
         Rule("humans", "asks no human driver", asks_humans, "belief.vehicles.is_automated tells who takes leases"),
         Rule("no_ev", "asks for nothing while no EV is there", asks_without_emergency, "act for each of belief.emergency_vehicles"),
         Rule("no_need", "asks for nothing where nothing is in an EV's way", asks_without_need, "look at ev.ahead() and ev.approaches"),
-        Rule("acts", "acts in a scene made for policies", never_asks, "print what it is shown, or leave this rule out and try a run"),
+        Rule("acts", "acts in a scene made for policies", never_asks, "print what it is shown, or leave this rule out and try a run",
+             judges_leases=False),
         Rule("lost", "serves an EV whose reports are lost", forgets_the_unreported,
              "find EVs by belief.emergency_vehicles: belief.vehicles lacks those whose reports are lost"),
         Rule("two", "serves an EV that another one crosses", forgets_one_of_two, "serve each of belief.emergency_vehicles"),
         SAME_RULE],
     "predictor": [
         ANSWERS_RULE,
-        Rule("links", "takes some pairs for links (0.5 or more) and others for none", tells_no_pair, "run it, and look at links evaluate"),
+        Rule("links", "takes some pairs for links (0.5 or more) and others for none", tells_no_pair, "run it, and look at links evaluate",
+             judges_leases=False),
         SAME_RULE],
 }
 
@@ -447,9 +452,9 @@ def report(part: dict[str, Any], judgement: Judgement, left_out: list[str], most
           f"{sum(len(told.answers) for told in judgement.first)} decisions")
     broken = 0
     for rule in RULES[part["kind"]]:
-        problems = [] if rule.name in left_out else list(rule.problems(judgement))
-        print(f"  {'-' if rule.name in left_out else 'FAIL' if problems else 'pass':6}{rule.name:10}{rule.says}"
-              f"{' (left out)' if rule.name in left_out else ''}")
+        silent = "left out" if rule.name in left_out else "not judged" if rule.judges_leases and not judgement.asks() else ""
+        problems = [] if silent else list(rule.problems(judgement))
+        print(f"  {'-' if silent else 'FAIL' if problems else 'pass':6}{rule.name:10}{rule.says}{f' ({silent})' if silent else ''}")
         for problem in problems[:most_told]:
             print("          " + problem.replace("\n", "\n          "))
         if most_told is not None and len(problems) > most_told:

@@ -345,7 +345,7 @@ class Lease(Told, metaclass=_Actions):
     @_action
     def pull_aside(vehicle: Any, side: str = "right", *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0,
                    reason: str = "") -> "Lease":
-        """Keep to one edge of the lane, ``right`` or ``left`` (sublane model only)."""
+        """Drive at one edge of the lane, ``right`` or ``left``; without the sublane model, stop beside the road while it lasts."""
         if side not in ("right", "left"):
             raise ValueError(f"side is {side!r} (allowed: right, left)")
         return Lease._make("pull_aside", {"vehicle": _key("vehicle", vehicle)}, serves, lasting_s, priority, reason, side=side)

@@ -37,7 +37,8 @@ class Difference(_program.Told):
     * ``interval_95``: its 95 % interval by Student's t; ``bca_95``: by the bias-corrected and accelerated bootstrap; None with too
       few seeds;
     * ``relative_1``: difference divided by the baseline's mean; ``median``, ``median_95``: of the differences;
-    * ``effect_size_dz``, ``t_p``, ``wilcoxon_p``; ``holm_p``: p of the t test, corrected for ``holm_over`` comparisons of the scenario (Holm);
+    * ``effect_size_dz``, ``t_p``, ``wilcoxon_p``; ``holm_p``: p of the t test, for counts of Wilcoxon's test, corrected (Holm) for
+      ``holm_over`` comparisons of the scenario;
     * ``complete_pairs``, ``incomplete_pairs``, ``vehicles_left_out``: how many;
     * ``locked_pairs``: in which vehicles locked each other in either run; where there are any, ``difference_without_locks`` and
       ``interval_95_without_locks`` are those of the other pairs, else None;

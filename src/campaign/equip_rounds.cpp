@@ -16,6 +16,7 @@
 #include <fmt/ranges.h>
 
 #include "campaign/detail/emergency_trips.hpp"
+#include "campaign/detail/lock_findings.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/temporary_folder.hpp"
@@ -81,6 +82,7 @@ report::UnsoundRuns unsound_runs(const results::Results& results, const std::str
         if (run.key.condition == alone) continue;
         ++unsound.runs;
         unsound.locked += run.metrics.locks > 0 ? 1 : 0;
+        unsound.held_up += detail::is_held_up(run.metrics) ? 1 : 0;
         unsound.lost_vehicles += run.metrics.emergency_count - run.metrics.emergency_arrived;
     }
     return unsound;

@@ -76,8 +76,8 @@ bool is_exactly_none(const analysis::MaybeEstimate& gain) {
     return gain && gain->mean == 0.0 && gain->deviation == 0.0;
 }
 
-bool most_runs_lock(const UnsoundRuns& unsound) {
-    return 2 * unsound.locked > unsound.runs;
+bool most_are_held_up(const UnsoundRuns& unsound) {
+    return 2 * unsound.held_up > unsound.runs;
 }
 
 std::size_t rank_of(const EquipmentFacts& facts, std::size_t number) {
@@ -151,17 +151,20 @@ std::string seeds_sentence(const EquipmentFacts& facts) {
                        seeds);
 }
 
-/// `Vehicles locked each other in 4 of 30 fresh runs, and 1 EV did not arrive: ...`, or empty.
+/// `On the fresh seeds vehicles locked each other in 4 of 30 runs, 2 held up by it, and 1 EV did not arrive:
+/// ...`, or empty.
 std::string unsound_sentence(const UnsoundRuns& unsound) {
     std::vector<std::string> words;
     if (unsound.locked > 0)
-        words.push_back(fmt::format("vehicles locked each other in {} of {}", unsound.locked,
-                                    counted(unsound.runs, "run")));
+        words.push_back(fmt::format("vehicles locked each other in {} of {}, {} held up by it",
+                                    unsound.locked, counted(unsound.runs, "run"),
+                                    unsound.held_up == 0 ? "none" : std::to_string(unsound.held_up)));
     if (unsound.lost_vehicles > 0)
         words.push_back(fmt::format("{} did not arrive", counted(unsound.lost_vehicles, "EV")));
     if (words.empty()) return "";
-    return fmt::format("On the fresh seeds {}: such runs say little of signals. Less traffic: {}.",
-                       fmt::join(words, ", and "), less_traffic);
+    const std::string text = fmt::format("On the fresh seeds {}", fmt::join(words, ", and "));
+    if (unsound.held_up + unsound.lost_vehicles == 0) return text + ".";
+    return fmt::format("{}: such runs say little of signals. Less traffic: {}.", text, less_traffic);
 }
 
 /// A rank that few trips pass rests on them alone.
@@ -241,7 +244,7 @@ std::string share_sentence(const EquipmentFacts& facts) {
 
 /// What comes before the names of those that were chosen.
 const char* answer_of(const EquipmentFacts& facts) {
-    if (most_runs_lock(facts.unsound)) return "Most fresh runs lock, so the order means little";
+    if (most_are_held_up(facts.unsound)) return "Locks hold up most fresh runs, so the order means little";
     if (shows_any(facts)) return "Equip first";
     return is_chance(facts, facts.ranked.front())
                ? "No gain is shown, and the first changed no trip, so no order"

@@ -66,6 +66,7 @@ struct SignalsMet {
 struct UnsoundRuns {
     std::size_t runs = 0;           ///< All in traffic.
     std::size_t locked = 0;         ///< Of them, vehicles locked each other in them.
+    std::size_t held_up = 0;        ///< Of these, locks held up an EV or one vehicle in a hundred.
     std::size_t lost_vehicles = 0;  ///< Emergency vehicles that did not arrive, in all.
 };
 

@@ -240,7 +240,8 @@ std::string entry_markup(const FigureEntry& entry, const std::vector<std::string
             "<details><summary>LaTeX</summary><pre>{3}</pre></details>\n",
             entry.name, escaped(entry.caption), escaped(entry.note),
             escaped(fmt::format(
-                "\\begin{{figure}}\n\\centering\n\\includegraphics[width=\\linewidth]{{{0}{1}}}\n"
+                "\\begin{{figure}}\n\\centering\n\\includegraphics[width=\\linewidth,"
+                "height=.8\\textheight,keepaspectratio]{{{0}{1}}}\n"
                 "\\caption{{{2}}}\n\\label{{fig:{3}}}\n\\end{{figure}}",
                 entry.name, has_pdf ? ".pdf" : "",
                 detail::latex_escaped(entry.caption + "." + (entry.note.empty() ? "" : " " + entry.note)),

@@ -264,9 +264,10 @@ std::string json_tables(const StudyFacts& study) {
                              {"conditions", std::move(conditions)}});
         if (scenario.wide_edges) scenarios.back()["wide_edges"] = to_json(*scenario.wide_edges);
     }
-    Json result = {
-        {"title", study.title}, {"headline", headline(study)}, {"scenarios", std::move(scenarios)}};
+    Json result = {{"title", study.title}};
     if (study.plan) result["plan"] = plan_json(study);
+    result["headline"] = headline(study);
+    result["scenarios"] = std::move(scenarios);
     for (const FailureCurve& curve : study.failure_curves) {
         result["failure_curves"].push_back(to_json(curve));
     }

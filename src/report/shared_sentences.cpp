@@ -29,8 +29,9 @@ std::string doubts_of(const ConditionFacts& condition, Measure measure, Script s
     const auto& comparison = condition.outcome(measure).comparison;
     if (!comparison || (effect != Effect::better && effect != Effect::worse)) return {};
     std::string words;
-    if (comparison->locked_pairs > 0 && comparison->locked_pairs == comparison->complete_pairs)
-        add(words, "vehicles locked each other in every pair of runs");
+    if (2 * comparison->locked_pairs > comparison->complete_pairs)
+        add(words, fmt::format("vehicles locked each other in {} of {} of runs", comparison->locked_pairs,
+                               counted(comparison->complete_pairs, "pair")));
     if (const std::uint64_t pairs = comparison->difference->n; pairs < fewest_to_trust)
         add(words, fmt::format("{} pairs are few", pairs));
     if (comparison->holm_p && *comparison->holm_p > 1.0 - analysis::usual_level)

@@ -14,6 +14,7 @@
 #include "report/controls.hpp"
 #include "report/lease_words.hpp"
 #include "report/locks.hpp"
+#include "report/safety.hpp"
 #include "report/shared_sentences.hpp"
 #include "traffic/step_length.hpp"
 
@@ -90,8 +91,13 @@ std::string collisions_of(const ScenarioFacts& scenario, const ConditionFacts& c
         count * baseline->complete_runs <= baseline->count("collisions") * condition.complete_runs)
         return {};
     const std::uint64_t hit = condition.count("emergency_collisions");
-    return fmt::format("Collisions: {}{}.", collision_counts(scenario, condition),
-                       hit == 0 ? "" : fmt::format("; {} with an EV", grouped(hit)));
+    const std::uint64_t hit_before = baseline->count("emergency_collisions");
+    const bool by_model = collide_by_model(baseline->count("collisions"), baseline->count("vehicle_count"));
+    return fmt::format("Collisions: {}{}{}.", collision_counts(scenario, condition),
+                       hit + hit_before == 0
+                           ? ""
+                           : fmt::format("; {} with an EV, baseline {}", grouped(hit), grouped(hit_before)),
+                       by_model ? "; so many that they say nothing about safety" : "");
 }
 
 /// Certain changes of other measures; for the others' time loss also that no effect is shown.

@@ -18,7 +18,7 @@ class House(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
-        for script in ("count-house", "size_limits.py"):
+        for script in ("count-house", "size_limits.py", "source_tree.py"):
             self.write(f"scripts/{script}", (ROOT / "scripts" / script).read_text())
         self.write("src/core/a.cpp", "int a() {\n    return 1;  // no blank lines\n\n    // comments alone\n}\n")
         self.write("src/core/CMakeLists.txt", "clearway_module(core)\n")
@@ -142,6 +142,16 @@ class House(unittest.TestCase):
         self.refused("tests/core/page_test.py")
         self.write("tests/core/CMakeLists.txt", "clearway_test(core_test SOURCES a_test.cpp USES core)\nadd(${name}_test)\nadd(page)\n")
         self.assertEqual(self.check(), (0, ""))
+
+    def test_lines_that_were_too_many_before_are_told_from_those_of_a_change(self):
+        git = shutil.which("git")
+        if git is None:
+            self.skipTest("git is not installed")
+        self.write(LIMIT, "2\n")
+        for words in (["init", "-q"], ["add", "."], ["commit", "-qm", "begin"], ["commit", "-q", "--allow-empty", "-m", "go on"]):
+            subprocess.run([git, "-c", "user.name=test", "-c", "user.email=test@invalid", *words], cwd=self.root, check=True)
+        self.write("src/core/b.cpp", "int b() {\n    return 2;\n}\n")
+        self.assertRegex(self.refused("src has 6 lines of code"), r"\+4 .*REASON\nYour change begins at \w{12} with 3 lines, of at most 2 there\.")
 
     def test_merges_keep_the_lines_of_both(self):
         git = shutil.which("git")

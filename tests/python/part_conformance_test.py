@@ -105,6 +105,7 @@ class ConformanceTest(FolderCase):
         self.assertEqual(found, [{"possible", "humans", "lost", "same"}, {"answers", "no_ev", "no_need"}, {"two"}, {"acts"}])
         self.assertEqual(set.union(*found), {rule.name for rule in RULES["policy"]})
         self.assertIn("it asked for nothing in any scene", self.said)
+        self.assertRegex(self.said, r"- +lost +serves an EV whose reports are lost \(not judged\)")
 
     def test_what_cannot_be_is_told_with_its_value_and_what_is_allowed(self) -> None:
         self.assertEqual(self.broken("parts.py:Careless", "--leave-out", "humans", "lost", "same"), {"possible"})

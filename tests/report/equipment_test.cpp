@@ -141,16 +141,22 @@ TEST(Equipment, SaysWhatItsFreshRunsAreWorthAndHowFewTripsDecided) {
     EXPECT_THAT(flat_text(facts),
                 AllOf(Not(HasSubstr("locked each other")),
                       HasSubstr("Few of the 8 trips that decided pass them (rank 1: 4, rank 2: 2)")));
-    facts.unsound = {30, 4, 1};
-    EXPECT_THAT(flat_text(facts),
-                HasSubstr("On the fresh seeds vehicles locked each other in 4 of 30 runs, and 1 EV did "
-                          "not arrive: such runs say little of signals. Less traffic: 0.8 times"));
+    facts.unsound = {30, 4, 2, 1};
+    EXPECT_THAT(
+        flat_text(facts),
+        HasSubstr(
+            "On the fresh seeds vehicles locked each other in 4 of 30 runs, 2 held up by it, and 1 EV did "
+            "not arrive: such runs say little of signals. Less traffic: 0.8 times"));
     EXPECT_EQ(nlohmann::json::parse(equipment_json(facts)).at("fresh_runs_with_locks"), 4);
+    facts.unsound = {30, 4, 0, 0};
+    EXPECT_THAT(flat_text(facts), AllOf(HasSubstr("locked each other in 4 of 30 runs, none held up by it."),
+                                        Not(HasSubstr("say little of signals"))));
     facts.met.trips = 80;
     EXPECT_THAT(flat_text(facts), AllOf(Not(HasSubstr("Few of the")), HasSubstr("Equip first: 1)")));
-    facts.unsound.locked = 16;
-    EXPECT_THAT(flat_text(facts), AllOf(HasSubstr("Most fresh runs lock, so the order means little: 1) Gate"),
-                                        Not(HasSubstr("Equip first"))));
+    facts.unsound.held_up = 16;
+    EXPECT_THAT(flat_text(facts),
+                AllOf(HasSubstr("Locks hold up most fresh runs, so the order means little: 1) Gate"),
+                      Not(HasSubstr("Equip first"))));
 }
 
 TEST(Equipment, SaysWhichRanksChangedNothingAndWhosePrograms) {

@@ -156,15 +156,15 @@ TEST_F(Overview, doubts_effects_of_locked_pairs_few_pairs_and_many_comparisons) 
                 HasSubstr("other drivers lose 4.6 s each (doubtful: p 0.072 among so many comparisons)"));
     others.locked_pairs = others.complete_pairs = 20;
     EXPECT_THAT(headline(),
-                HasSubstr("(doubtful: vehicles locked each other in every pair of runs; p 0.072"));
+                HasSubstr("(doubtful: vehicles locked each other in 20 of 20 pairs of runs; p 0.072"));
     others.difference->n = 5;
-    EXPECT_THAT(headline(), HasSubstr("every pair of runs; 5 pairs are few; p 0.072"));
+    EXPECT_THAT(headline(), HasSubstr("20 of 20 pairs of runs; 5 pairs are few; p 0.072"));
     EXPECT_EQ(this->others().tone, Tile::Tone::neutral);
     EXPECT_THAT(this->others().meaning, HasSubstr("; doubtful: vehicles locked"));
     EXPECT_THAT(headline(), StartsWith("corridor saves")) << "that of EVs stands";
     EXPECT_THAT(
         verdict(scenario_, corridor(), Script::plain).facts,
-        testing::Contains(HasSubstr("(doubtful: vehicles locked each other in every pair of runs; 5")));
+        testing::Contains(HasSubstr("(doubtful: vehicles locked each other in 20 of 20 pairs of runs; 5")));
     others.locked_pairs = 4;
     others.holm_p = 0.04;
     EXPECT_THAT(headline(), HasSubstr("(doubtful: 5 pairs are few)"));

@@ -41,7 +41,7 @@ class Harm(unittest.TestCase):
         harm = self.start()
         printed, said = harm.communicate(timeout=60)
         self.assertEqual(harm.returncode, 0, said)
-        self.assertIn("study 1 of 3: rescue_lane, 2 conditions on grid_right, grid_left, intersection", said)
+        self.assertIn("study 2 of 4: rescue_lane, 2 conditions on grid_right, grid_left, intersection", said)
         self.assertIn("runs 1 of 9", said)
         self.assertIn("roads: no harm", said)
         self.assertIn("no harm shown on ", printed)
@@ -57,11 +57,11 @@ class Harm(unittest.TestCase):
         harm = self.start("--policy", "corridor", "--out", out)
         printed, said = harm.communicate(timeout=60)
         self.assertEqual(harm.returncode, 0, said)
-        self.assertIn("study 1 of 1: roads, 1 conditions on", said)
+        self.assertIn("study 2 of 2: roads, 1 conditions on", said)
         self.assertRegex(printed, r"corridor: no harm shown on .*\nnot run: .*city.* \(--full\)")
         self.assertEqual((out / "corridor/studies/roads.toml").read_text().count("policy = ["), 1)
         _, said = self.start("--out", out).communicate(timeout=60)
-        self.assertIn("study 1 of 3: rescue_lane", said)  # all policies in the same folder: none is left out
+        self.assertIn("study 2 of 4: rescue_lane", said)  # all policies in the same folder: none is left out
         _, said = self.start("--policy", "corider").communicate(timeout=60)
         self.assertIn("no condition of studies/harm has the policy `corider`", said)
         self.assertIn("Did you mean `corridor`?", said)

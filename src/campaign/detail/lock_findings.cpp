@@ -14,12 +14,6 @@
 namespace clearway::campaign::detail {
 namespace {
 
-/// Whether locks say more about a run than its policy.
-bool is_held_up(const metrics::RunMetrics& run) {
-    constexpr std::uint64_t many = 100;  // one vehicle in so many
-    return run.locked_emergency_vehicles > 0 || many * run.locked_vehicles > run.vehicle_count;
-}
-
 /// `3 of 6 runs lock, 2 held up by it; 8.8 s in locks a vehicle; 11 collisions a run`.
 std::string words_of(const LockTrial& trial, std::uint32_t trials) {
     if (trial.locked == 0)
@@ -55,6 +49,11 @@ std::string places_of(const std::vector<metrics::LockRow>& locks, const roads::N
 }
 
 }  // namespace
+
+bool is_held_up(const metrics::RunMetrics& run) {
+    constexpr std::uint64_t many = 100;  // one vehicle in so many
+    return run.locked_emergency_vehicles > 0 || many * run.locked_vehicles > run.vehicle_count;
+}
 
 Finding trials_finding(const LockTrials& trials) {
     const std::string setting = fmt::format("time.ignore_junction_blocker_s = {:g}", trials.ignored_after_s);

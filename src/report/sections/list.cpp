@@ -60,8 +60,8 @@ bool has_plan(const StudyFacts& study) {
 }
 
 constexpr std::array<Section, 18> all_sections = {{
-    {"overview", "At a glance", open, has_comparison, overview_section},
     {"plan", "What the plan set out to show", open, has_plan, plan_section},
+    {"overview", "At a glance", open, has_comparison, overview_section},
     {"verdict", "Verdict", folded, always, verdict_section},
     {"sensitivity", "Sensitivity to each setting", folded, has<&StudyFacts::sensitivities>,
      sensitivity_section},

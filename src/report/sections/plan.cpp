@@ -19,7 +19,7 @@ void plan_section(const StudyFacts& study, Writer& writer) {
     }
     writer.markup(fmt::format("<p>{} Everything else on this page is exploratory.</p>\n",
                               escaped(plan_sentence(study))));
-    writer.table({"plan", "Findings of the plan", std::move(table)});
+    writer.table({"plan", "Findings of the plan: " + study.plan->metric, std::move(table)});
 }
 
 }  // namespace clearway::report::detail
