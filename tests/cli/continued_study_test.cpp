@@ -120,7 +120,8 @@ TEST_F(ContinuedStudyTest, a_study_with_a_changed_condition_takes_over_the_runs_
     EXPECT_FALSE(std::filesystem::exists(folder() / "runs/new/manifest.json"));
     const Ended dry =
         clearway({"study", "my.toml", "--out", "runs/new", "--reuse", "runs/mine", "--dry-run"});
-    EXPECT_THAT(dry.out, testing::ContainsRegex("0 complete in runs/new, 2 taken over from[ \n]+runs/mine"));
+    EXPECT_THAT(dry.out,
+                testing::ContainsRegex("0 complete in runs/new, 2 taken[ \n]+over from[ \n]+runs/mine"));
     const nlohmann::json plan = nlohmann::json::parse(
         clearway({"study", "my.toml", "--out", "runs/new", "--reuse", "runs/mine", "--dry-run", "--json"})
             .out);
