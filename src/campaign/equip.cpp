@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -13,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "campaign/detail/equip_forecast.hpp"
+#include "campaign/detail/equip_look.hpp"
 #include "campaign/detail/equip_search.hpp"
 #include "core/error.hpp"
 #include "core/leftovers.hpp"
@@ -23,16 +23,14 @@
 
 namespace clearway::campaign {
 
+using detail::interim_words;
+using detail::less_time;
+using detail::Look;
 using detail::Search;
 using detail::search_of;
 using detail::Signals;
 
 namespace {
-
-analysis::MaybeEstimate less(const analysis::Values& before, const analysis::Values& after,
-                             double level = analysis::usual_level) {
-    return analysis::estimate_paired(before, after, analysis::MetricKind::quantity, level);
-}
 
 analysis::MaybeEstimate mean(const EquipOutcome& outcome) {
     return analysis::estimate_values(outcome.emergency_s, analysis::MetricKind::quantity);
@@ -52,9 +50,11 @@ void add_candidates(const analysis::EquipPlan& plan, const Signals& signals, rep
 void add_outcomes(const analysis::EquipPlan& plan, const Signals& signals, const FreshOutcomes& fresh,
                   report::EquipmentFacts& facts) {
     const auto gain = [&](const EquipOutcome& after) {
-        return less(fresh.none.emergency_s, after.emergency_s);
+        return less_time(fresh.none.emergency_s, after.emergency_s);
     };
-    const auto loss = [&](const EquipOutcome& after) { return less(after.others_s, fresh.none.others_s); };
+    const auto loss = [&](const EquipOutcome& after) {
+        return less_time(after.others_s, fresh.none.others_s);
+    };
     facts.baseline_s = mean(fresh.baseline);
     facts.none_s = mean(fresh.none);
     facts.all_s = mean(fresh.all);
@@ -67,9 +67,10 @@ void add_outcomes(const analysis::EquipPlan& plan, const Signals& signals, const
         const analysis::EquipStep& step = plan.steps[rank];
         const EquipOutcome& before = rank == 0 ? fresh.none : fresh.chosen[rank - 1];
         const EquipOutcome& after = fresh.chosen.at(rank);
-        facts.ranked.push_back(
-            {signals.number(step.candidate), signals.id(step.candidate), signals.streets(step.candidate),
-             less(before.emergency_s, after.emergency_s, together), gain(after), loss(after), step.gain});
+        facts.ranked.push_back({signals.number(step.candidate), signals.id(step.candidate),
+                                signals.streets(step.candidate),
+                                less_time(before.emergency_s, after.emergency_s, together), gain(after),
+                                loss(after), step.gain});
     }
 }
 
@@ -87,8 +88,8 @@ void add_pairs(const analysis::EquipPlan& plan, const Signals& signals, const Fr
         if (chosen == plan.steps.end()) continue;
         pair.chosen = true;
         const auto rank = static_cast<std::size_t>(chosen - plan.steps.begin());
-        pair.both_gain = less((rank == 0 ? fresh.none : fresh.chosen.at(rank - 1)).emergency_s,
-                              fresh.chosen.at(rank + 1).emergency_s);
+        pair.both_gain = less_time((rank == 0 ? fresh.none : fresh.chosen.at(rank - 1)).emergency_s,
+                                   fresh.chosen.at(rank + 1).emergency_s);
     }
 }
 
@@ -125,43 +126,6 @@ void write_files(const report::EquipmentFacts& facts, const std::filesystem::pat
     core::write_output(folder / "equip.json", report::equipment_json(facts));
     core::write_output(folder / "curve.svg", report::equipment_curve(facts));
     core::write_output(folder / "map.svg", report::equipment_map(facts));
-}
-
-/// What a race knew when it was interrupted.
-struct Look {
-    analysis::Values none;  ///< With none equipped, on as many seeds as the first place needed.
-    std::vector<analysis::SignalSet> sets;  ///< The first has those that are chosen.
-    std::vector<analysis::Values> values;
-    std::size_t replications = 0;
-};
-
-/// The candidates that gained most in a look, a line each.
-std::string interim_words(const Look& look, const Signals& signals) {
-    constexpr std::size_t most_told = 5;
-    if (look.sets.size() < 2) return "clearway: no look is complete: no gain can be told yet\n";
-    std::vector<std::pair<analysis::MaybeEstimate, std::size_t>> gains;
-    for (std::size_t set = 1; set < look.sets.size(); ++set)
-        if (look.sets[set].size() == look.sets.front().size() + 1)
-            gains.emplace_back(less(look.values.front(), look.values[set]), look.sets[set].back());
-    std::ranges::stable_sort(gains, std::greater{},
-                             [](const auto& one) { return analysis::mean_of(one.first).value_or(-1e30); });
-    gains.resize(std::min(gains.size(), most_told));
-    const auto name = [&](std::size_t candidate) {
-        const std::string& streets = signals.streets(candidate);
-        return fmt::format(
-            "No. {} {}", signals.number(candidate),
-            streets.empty() ? report::short_signal_name(signals.id(candidate)) : report::printable(streets));
-    };
-    std::string text =
-        fmt::format("clearway: no ranking yet; the last complete look, {} seeds", look.replications);
-    if (!look.sets.front().empty())
-        text += fmt::format(", beside those chosen so far, {}, which gain {} s",
-                            core::listed(core::texts_of(look.sets.front(), name)),
-                            report::estimate(less(look.none, look.values.front()), {}));
-    text += ". Gains, s, of which the largest flatters itself:\n";
-    for (const auto& [gain, candidate] : gains)
-        text += core::wrapped(fmt::format("  {}: {}", name(candidate), report::estimate(gain, {})), 4) + "\n";
-    return text;
 }
 
 /// The plan, as EquipRounds finds it; `look` has what the race knows, also when it is interrupted.

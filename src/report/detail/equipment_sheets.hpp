@@ -8,6 +8,9 @@
 
 namespace clearway::report::detail {
 
+/// Of the gain of all signals: how many signals bring it is said.
+inline constexpr double great_share = 0.8;
+
 /// Ranks, with a row for `all` at the end if it is wanted.
 enum class LastRow : std::uint8_t { ranked, all };
 Sheet ranked_sheet(const EquipmentFacts& facts, LastRow last);

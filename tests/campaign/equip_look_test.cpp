@@ -1,0 +1,51 @@
+#include "campaign/detail/equip_look.hpp"
+
+#include <gmock/gmock.h>
+
+namespace clearway::campaign::detail {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Two signals, numbers 4 and 9, on roads that are not asked.
+class EquipLook : public testing::Test {
+  protected:
+    EquipLook()
+        : built_{{}, roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/footway.net.xml"), ""},
+          signals_{built_, {}, std::vector<std::string>(9), {}} {
+        signals_.candidates.signals = {core::SignalIndex{3}, core::SignalIndex{8}};
+        signals_.all_streets[3] = "High Street";
+        signals_.all_streets[8] = "Low Road";
+    }
+
+    scenario::BuiltNetwork built_;
+    Signals signals_;
+};
+
+TEST_F(EquipLook, tells_the_candidates_that_gained_most) {
+    const Look look{.none = {90.0, 92.0},
+                    .sets = {{}, {0}, {1}, {0, 1}},
+                    .values = {{90.0, 92.0}, {88.0, 90.0}, {80.0, 82.0}, {70.0, 70.0}},
+                    .replications = 2};
+    const std::string words = interim_words(look, signals_);
+    EXPECT_THAT(words, AllOf(HasSubstr("no ranking yet; the last complete look, 2 seeds. Gains, s"),
+                             HasSubstr("  No. 4 High Street: 2.0"), HasSubstr("  No. 9 Low Road: 10.0"),
+                             Not(HasSubstr("chosen so far"))));
+    EXPECT_LT(words.find("No. 9"), words.find("No. 4")) << "the greatest gain first, pairs left out";
+    EXPECT_THAT(interim_words({}, signals_), HasSubstr("no gain can be told yet"));
+}
+
+TEST_F(EquipLook, tells_what_those_gain_that_are_chosen) {
+    const Look look{.none = {90.0, 92.0, 91.0},
+                    .sets = {{1}, {1, 0}},
+                    .values = {{80.0, 82.0}, {79.0, 81.0}},
+                    .replications = 2};
+    EXPECT_THAT(interim_words(look, signals_),
+                AllOf(HasSubstr("beside those chosen so far, No. 9 Low Road, which gain 10.0"),
+                      HasSubstr("  No. 4 High Street: 1.0")));
+}
+
+}  // namespace
+}  // namespace clearway::campaign::detail
