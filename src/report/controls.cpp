@@ -29,10 +29,15 @@ const char* words_of(Effect effect) {
     return ", no verdict";
 }
 
+/// Whether it is the condition while nothing fails.
+bool is_working(const ConditionFacts& other, const ConditionFacts& condition) {
+    return other.name() != condition.name() &&
+           other.name() == experiment::without_failure(condition.condition).name;
+}
+
 /// `nothing fails (corridor)`, or the title.
 std::string title_of(const ConditionFacts& condition, const ConditionFacts& control) {
-    const bool is_perfect = control.condition.name == experiment::without_failure(condition.condition).name;
-    return is_perfect ? fmt::format("nothing fails ({})", control.title) : control.title;
+    return is_working(control, condition) ? fmt::format("nothing fails ({})", control.title) : control.title;
 }
 
 /// `, the same EV times in 9 of 10 runs`, or empty where none has.
@@ -72,6 +77,13 @@ std::vector<Control> controls_of(const ScenarioFacts& scenario, const ConditionF
                                                               analysis::MetricKind::quantity)});
     }
     return controls;
+}
+
+std::string working_words(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+    const auto working = std::ranges::find_if(
+        scenario.conditions, [&](const ConditionFacts& other) { return is_working(other, condition); });
+    if (working == scenario.conditions.end() || !working->difference(primary)) return {};
+    return estimate(working->difference(primary), {1, script, Sign::always}) + " s while nothing fails";
 }
 
 std::string controls_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {

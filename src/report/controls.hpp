@@ -17,6 +17,10 @@ struct Control {
 /// The controls of a condition, in the order of the study. They point into the scenario.
 std::vector<Control> controls_of(const ScenarioFacts& scenario, const ConditionFacts& condition);
 
+/// `-26.5 s while nothing fails`: EV travel time against the baseline, beside a condition in which something
+/// fails and where the study runs both; else empty.
+std::string working_words(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
+
 /// `Controls, each with a part of it off; EV travel time minus its own, s: deaf: +12.0 [10.0, 14.0]; blind:
 /// +0.7 [-0.6, 2.1], no difference shown.` Empty without controls. Plain text.
 std::string controls_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);

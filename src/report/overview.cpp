@@ -9,10 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiment/related_conditions.hpp"
 #include "report/controls.hpp"
 #include "report/locks.hpp"
-#include "report/safety.hpp"
 #include "report/shared_sentences.hpp"
 
 namespace clearway::report {
@@ -101,11 +99,6 @@ std::string others_clause(const ConditionFacts& condition, Script script) {
     return {};
 }
 
-bool collides_by_model(const ConditionFacts* baseline) {
-    return baseline != nullptr &&
-           collide_by_model(baseline->count("collisions"), baseline->count("vehicle_count"));
-}
-
 std::string collisions_clause(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     if (condition.complete_runs == 0) return {};
     if (condition.count("collisions") == 0)
@@ -113,7 +106,7 @@ std::string collisions_clause(const ScenarioFacts& scenario, const ConditionFact
     const Effect effect = effect_of(condition, Measure::collisions);
     const bool shown = effect == Effect::worse || effect == Effect::better;
     // What the tile says of such counts would not fit here.
-    if (!shown && collides_by_model(scenario.baseline_of(condition))) return {};
+    if (!shown && baseline_collides_by_model(scenario, condition)) return {};
     const char* const more = effect == Effect::worse    ? "more collisions than the baseline"
                              : effect == Effect::better ? "fewer collisions than the baseline"
                                                         : "collisions";
@@ -324,16 +317,6 @@ std::string incidents_sentence(const ScenarioFacts& scenario, Script script) {
     return fmt::format("Blocked: {}.", fmt::join(words, "; "));
 }
 
-/// `-26.5 s while nothing fails`, beside a condition in which something does; else empty.
-std::string working_words(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
-    const std::string name = experiment::without_failure(condition.condition).name;
-    const auto working = std::ranges::find(scenario.conditions, name, &ConditionFacts::name);
-    if (name == condition.name() || working == scenario.conditions.end()) return {};
-    const MaybeEstimate& difference = working->difference(primary);
-    if (!difference) return {};
-    return estimate(difference, {1, script, Sign::always}) + " s while nothing fails";
-}
-
 Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     Tile tile = time_tile({"Emergency vehicles: travel time", "faster trips", "slower trips"}, condition,
                           primary, script);
@@ -402,20 +385,14 @@ Tile safety_tile(const ScenarioFacts& scenario, const ConditionFacts& condition,
     const std::uint64_t count = condition.count("collisions");
     tile.figure = count == 0 ? "no collision" : counted(count, "collision");
     tile.meaning = "in " + counted(condition.complete_runs, "run");
-    const ConditionFacts* const baseline = scenario.baseline_of(condition);
-    if (baseline != nullptr)
-        tile.meaning += fmt::format(
-            "; baseline: {} in {}{}", grouped(baseline->count("collisions")), baseline->complete_runs,
-            collides_by_model(baseline) ? ", so many that they say nothing about safety" : "");
+    if (const ConditionFacts* const baseline = scenario.baseline_of(condition))
+        tile.meaning += fmt::format("; baseline: {} in {}", grouped(baseline->count("collisions")),
+                                    baseline->complete_runs);
     const Effect effect = effect_of(condition, Measure::collisions);
     tile.tone = tone_of(effect);
     if (effect == Effect::better) tile.meaning += "; fewer";
     if (effect == Effect::worse) tile.meaning += "; more";
-    const std::uint64_t hit = condition.count("emergency_collisions");
-    const std::uint64_t hit_before = baseline == nullptr ? 0 : baseline->count("emergency_collisions");
-    if (hit + hit_before > 0)
-        tile.meaning += fmt::format("; {} with an emergency vehicle{}", grouped(hit),
-                                    baseline == nullptr ? "" : ", baseline: " + grouped(hit_before));
+    tile.meaning = joined(std::move(tile.meaning), collision_notes(scenario, condition));
     if (condition.objections.collisions) tile.tone = Tile::Tone::worse;
     if (condition.is_unchecked()) {
         tile.tone = Tile::Tone::worse;

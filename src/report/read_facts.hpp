@@ -24,6 +24,7 @@ namespace clearway::report {
 ///     scenarios/SCENARIO/streets.json                street names by edge; optional
 ///     training/NAME/losses.csv, summary.json         trainings, by NAME; optional
 ///     command.txt                                    the command that made the study; optional
+///     study.toml                                     its file; optional
 ///
 /// Reads only. Smaller differences of EV times than `least_relevant_s` do not count. Throws core::InputError
 /// for a folder that is not a run folder and for damaged files.

@@ -4,7 +4,9 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "report/safety.hpp"
 #include "report/verdict.hpp"
 
 namespace clearway::report {
@@ -18,25 +20,21 @@ bool blocks_the_way(const RoadMap& roads) {
     });
 }
 
-void add(std::string& words, const std::string& more) {
-    words += (words.empty() ? "" : "; ") + more;
-}
-
 }  // namespace
 
 std::string doubts_of(const ConditionFacts& condition, Measure measure, Script script) {
     const Effect effect = effect_of(condition, measure);
     const auto& comparison = condition.outcome(measure).comparison;
     if (!comparison || (effect != Effect::better && effect != Effect::worse)) return {};
-    std::string words;
+    std::vector<std::string> words;
     if (2 * comparison->locked_pairs > comparison->complete_pairs)
-        add(words, fmt::format("vehicles locked each other in {} of {} of runs", comparison->locked_pairs,
-                               counted(comparison->complete_pairs, "pair")));
+        words.push_back(fmt::format("vehicles locked each other in {} of {} of runs",
+                                    comparison->locked_pairs, counted(comparison->complete_pairs, "pair")));
     if (const std::uint64_t pairs = comparison->difference->n; pairs < fewest_to_trust)
-        add(words, fmt::format("{} pairs are few", pairs));
+        words.push_back(fmt::format("{} pairs are few", pairs));
     if (comparison->holm_p && *comparison->holm_p > 1.0 - analysis::usual_level)
-        add(words, fmt::format("p {} among so many comparisons", p_words(comparison->holm_p, script)));
-    return words;
+        words.push_back(fmt::format("p {} among so many comparisons", p_words(comparison->holm_p, script)));
+    return fmt::format("{}", fmt::join(words, "; "));
 }
 
 std::string doubt_clause(const ConditionFacts& condition, Measure measure, Script script) {
@@ -69,6 +67,25 @@ std::string collision_counts(const ScenarioFacts& scenario, const ConditionFacts
         words += fmt::format("; baseline {} in {}", grouped(baseline->count("collisions")),
                              baseline->complete_runs);
     return words;
+}
+
+bool baseline_collides_by_model(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    const ConditionFacts* const baseline = scenario.baseline_of(condition);
+    return baseline != nullptr &&
+           collide_by_model(baseline->count("collisions"), baseline->count("vehicle_count"));
+}
+
+std::string collision_notes(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    const ConditionFacts* const baseline = scenario.baseline_of(condition);
+    const std::uint64_t hit = condition.count("emergency_collisions");
+    const std::uint64_t hit_before = baseline == nullptr ? 0 : baseline->count("emergency_collisions");
+    std::vector<std::string> notes;
+    if (hit + hit_before > 0)
+        notes.push_back(fmt::format("{} with an EV{}", grouped(hit),
+                                    baseline == nullptr ? "" : ", baseline " + grouped(hit_before)));
+    if (baseline_collides_by_model(scenario, condition))
+        notes.emplace_back("so many in the baseline that they say nothing about safety");
+    return fmt::format("{}", fmt::join(notes, "; "));
 }
 
 std::string trip_changes_words(const ConditionFacts& condition, Script script) {

@@ -40,6 +40,12 @@ std::string privilege_sentence(const ScenarioFacts& scenario, const ConditionFac
 /// `5 in 8 runs; baseline 0 in 8`: collisions of a condition with a complete run.
 std::string collision_counts(const ScenarioFacts& scenario, const ConditionFacts& condition);
 
+/// Whether the baseline collides so often that its model of drivers makes the collisions (collide_by_model).
+bool baseline_collides_by_model(const ScenarioFacts& scenario, const ConditionFacts& condition);
+/// `2 with an EV, baseline 0; so many in the baseline that they say nothing about safety`: what such counts
+/// hide.
+std::string collision_notes(const ScenarioFacts& scenario, const ConditionFacts& condition);
+
 /// `0 of 30 in the baseline`: EVs that met an incident which blocks their way; empty where one did.
 std::string unmet_incident_words(const ScenarioFacts& scenario, const ConditionFacts& condition);
 

@@ -14,7 +14,6 @@
 #include "report/controls.hpp"
 #include "report/lease_words.hpp"
 #include "report/locks.hpp"
-#include "report/safety.hpp"
 #include "report/shared_sentences.hpp"
 #include "traffic/step_length.hpp"
 
@@ -90,14 +89,9 @@ std::string collisions_of(const ScenarioFacts& scenario, const ConditionFacts& c
     if (baseline == nullptr || effect == Effect::better || effect == Effect::worse ||
         count * baseline->complete_runs <= baseline->count("collisions") * condition.complete_runs)
         return {};
-    const std::uint64_t hit = condition.count("emergency_collisions");
-    const std::uint64_t hit_before = baseline->count("emergency_collisions");
-    const bool by_model = collide_by_model(baseline->count("collisions"), baseline->count("vehicle_count"));
-    return fmt::format("Collisions: {}{}{}.", collision_counts(scenario, condition),
-                       hit + hit_before == 0
-                           ? ""
-                           : fmt::format("; {} with an EV, baseline {}", grouped(hit), grouped(hit_before)),
-                       by_model ? "; so many that they say nothing about safety" : "");
+    const std::string notes = collision_notes(scenario, condition);
+    return fmt::format("Collisions: {}{}.", collision_counts(scenario, condition),
+                       notes.empty() ? "" : "; " + notes);
 }
 
 /// Certain changes of other measures; for the others' time loss also that no effect is shown.

@@ -67,7 +67,16 @@ TEST(ConsoleTables, print_what_a_plan_confirms_before_all_else) {
     EXPECT_THAT(console_tables(tests::study({"merge"})), Not(HasSubstr("Exploratory")));
 }
 
+TEST(Page, begins_with_what_a_plan_confirms) {
+    std::ostringstream page;
+    write_html(planned_study(), page);
+    EXPECT_LT(page.str().find("<section id=\"plan\">"), page.str().find("<section id=\"overview\">"));
+    EXPECT_THAT(page.str(), HasSubstr("Findings of the plan: emergency_restricted_travel_time_s"));
+}
+
 TEST(JsonTables, hold_the_findings_of_a_plan) {
+    EXPECT_LT(json_tables(planned_study()).find("\"plan\""),
+              json_tables(planned_study()).find("\"headline\""));
     const auto json = nlohmann::json::parse(json_tables(planned_study()));
     ASSERT_EQ(json["plan"]["confirmatory"].size(), 2u);
     EXPECT_EQ(json["plan"]["confirmatory"][0]["shown"], "better");

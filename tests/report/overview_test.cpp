@@ -177,11 +177,11 @@ TEST_F(Overview, CountsCollisionsAgainstTheBaseline) {
     EXPECT_THAT(headline(), HasSubstr("collisions (7 in 20 runs; baseline 5 in 20)"));
     EXPECT_EQ(safety().figure, "7 collisions");
     EXPECT_EQ(safety().tone, Tile::Tone::neutral);  // no difference is shown
-    EXPECT_THAT(safety().meaning, HasSubstr("2 with an emergency vehicle, baseline: 0"));
+    EXPECT_THAT(safety().meaning, HasSubstr("2 with an EV, baseline 0"));
     tests::set_total(scenario_.conditions[0], "vehicle_count", 500);
     EXPECT_THAT(safety().meaning, Not(HasSubstr("say nothing about safety")));
     tests::set_total(scenario_.conditions[0], "vehicle_count", 499);
-    EXPECT_THAT(safety().meaning, HasSubstr("baseline: 5 in 20, so many that they say nothing about safety"));
+    EXPECT_THAT(safety().meaning, HasSubstr("so many in the baseline that they say nothing about safety"));
     EXPECT_THAT(headline(), Not(HasSubstr("collision"))) << "the tile alone tells them";
     tests::difference(corridor(), Measure::collisions) = around(0.4, 0.2);
     EXPECT_EQ(safety().tone, Tile::Tone::worse);

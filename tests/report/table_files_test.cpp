@@ -270,6 +270,31 @@ TEST(FigureFiles, HaveAPanelForEachLevelOfAThirdFactorInTheOrderOfTheStudy) {
     EXPECT_THAT(grid, HasSubstr("as repaired,mine,-5.0"));
 }
 
+TEST(FigureFiles, SayOverHowManyComparisonsAndOfWhichTestPIsCorrected) {
+    const core::TemporaryFolder folder;
+    StudyFacts study = tests::study({"merge"});
+    for (ConditionFacts& one : study.scenarios[0].conditions) {
+        for (const Measure measure : {Measure::emergency_restricted_time, Measure::collisions})
+            if (one.outcome(measure).comparison) {
+                tests::comparison(one, measure).holm_p.reset();
+                if (measure == Measure::collisions) tests::comparison(one, measure).t_p.reset();
+            }
+    }
+    ConditionFacts& condition = study.scenarios[0].conditions[1];
+    analysis::Comparison& times = tests::comparison(condition, Measure::emergency_restricted_time);
+    times.t_p = times.holm_p = 0.03;
+    analysis::Comparison& collisions = tests::comparison(condition, Measure::collisions);
+    collisions.wilcoxon_p = collisions.holm_p = 0.25;
+    const FigureFiles files = write_figures(study, folder.path());
+    const auto caption = [&](const char* measure) {
+        return text_of(folder.path() / fmt::format("statistics-merge-{}.tex", measure));
+    };
+    EXPECT_THAT(caption("emergency-restricted-travel-time-s"),
+                HasSubstr("p (Holm): of t, over 1 comparison"));
+    EXPECT_THAT(caption("collisions"),
+                testing::ContainsRegex("p .Holm.: of Wilcoxon.+s test, over 1 comparison"));
+}
+
 TEST(FigureFiles, AreAllOnOnePage) {
     const core::TemporaryFolder folder;
     const FigureFiles files = write_figures(tests::study({"merge", "<b>City</b>/../x"}), folder.path());
@@ -281,6 +306,7 @@ TEST(FigureFiles, AreAllOnOnePage) {
     }
     EXPECT_THAT(index, HasSubstr("href=\"tradeoff-merge.pdf\""));
     EXPECT_THAT(index, HasSubstr("\\label{fig:tradeoff-merge}"));
+    EXPECT_THAT(index, HasSubstr("height=.8\\textheight,keepaspectratio]{tradeoff-merge.pdf}"));
     EXPECT_THAT(index, Not(HasSubstr("<b>")));
 }
 
