@@ -31,6 +31,20 @@ std::vector<double> differences(std::span<const double> condition, std::span<con
     return result;
 }
 
+/// The least count of at least 2 that suffices, where every greater one does.
+template <class Suffices>
+std::size_t least_count(const Suffices& suffices) {
+    std::size_t enough = 2;
+    while (!suffices(enough))
+        enough *= 2;
+    std::size_t too_few = enough / 2;
+    while (enough - too_few > 1 && enough > 2) {
+        const std::size_t middle = too_few + (enough - too_few) / 2;
+        (suffices(middle) ? enough : too_few) = middle;
+    }
+    return enough;
+}
+
 }  // namespace
 
 double half_width(double deviation, std::size_t n, double level) {
@@ -108,24 +122,6 @@ std::optional<double> paired_equivalence_p(std::span<const double> condition,
     const double t = inside / difference->deviation * std::sqrt(static_cast<double>(difference->n));
     return boost::math::cdf(boost::math::complement(distribution, t));
 }
-
-namespace {
-
-/// The least count of at least 2 that suffices, where every greater one does.
-template <class Suffices>
-std::size_t least_count(const Suffices& suffices) {
-    std::size_t enough = 2;
-    while (!suffices(enough))
-        enough *= 2;
-    std::size_t too_few = enough / 2;
-    while (enough - too_few > 1 && enough > 2) {
-        const std::size_t middle = too_few + (enough - too_few) / 2;
-        (suffices(middle) ? enough : too_few) = middle;
-    }
-    return enough;
-}
-
-}  // namespace
 
 std::size_t required_replications(double deviation, double half_width, double level) {
     assert(half_width > 0.0);

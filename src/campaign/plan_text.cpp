@@ -247,7 +247,7 @@ void check_places(const study::StudyConfig& config) {
         const core::TemporaryFolder folder;
         const scenario::BuiltNetwork built = scenario::build_network(scenario, folder.path());
         scenario::site_edges(scenario, built.network, problems);
-        study::check_counts(scenario, built.network);
+        if (problems.empty()) study::check_counts(scenario, built.network);
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }

@@ -1,6 +1,7 @@
 #include "study/merge.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 #include <span>
@@ -22,12 +23,16 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t named_missing = 10;
 
+/// What a study keeps beside its runs, as study/side_files.hpp does.
+constexpr std::array side_files = {"command.txt", "study.toml", "titles.json", "controls.json"};
+
 /// Everything that a merge reads of a run folder is a file or a folder.
 void require_plain(const fs::path& folder) {
     for (const char* const part :
-         {"manifest.json", ".shard", "command.txt", "study.toml", "titles.json", "controls.json", "scenarios",
-          "training", "code", "runs", "errors", "recordings"})
+         {"manifest.json", ".shard", "scenarios", "training", "code", "runs", "errors", "recordings"})
         core::require_plain_files(folder / part);
+    for (const char* const name : side_files)
+        core::require_plain_files(folder / name);
 }
 
 bool is_run_folder(const fs::path& folder) {
@@ -95,7 +100,7 @@ void copy_surroundings(const std::vector<fs::path>& folders, const results::Stor
         copy_scenario(folders, entry, target, result);
     for (const char* const name : {"training", "code"})
         core::copy_folder(first_of(folders, name), target.folder() / name);
-    for (const char* const name : {"command.txt", "study.toml", "titles.json", "controls.json"}) {
+    for (const char* const name : side_files) {
         const fs::path file = first_of(folders, name);
         if (!file.empty() && !fs::exists(target.folder() / name))
             core::write_atomically(target.folder() / name, core::read_file(file));

@@ -41,13 +41,16 @@ void write_counts(const scenario::ScenarioConfig& config, const roads::Network& 
     core::write_atomically(file, core::read_file(scenario::resolve(config, config.demand.counts)));
 }
 
-/// Without texts there is no such file.
-void keep_texts(const std::filesystem::path& file, const core::Settings& texts) {
-    if (texts.empty()) {
+/// Without a text there is no such file.
+void keep_text(const std::filesystem::path& file, const std::string& text) {
+    if (text.empty())
         std::filesystem::remove(file);
-    } else {
-        core::write_atomically(file, core::to_text(core::Json(texts)));
-    }
+    else
+        core::write_atomically(file, text);
+}
+
+void keep_texts(const std::filesystem::path& file, const core::Settings& texts) {
+    keep_text(file, texts.empty() ? "" : core::to_text(core::Json(texts)));
 }
 
 /// Makes what a scenario needs besides its network: a first demand, which finds unknown edges and unreachable
@@ -114,11 +117,7 @@ void keep_controls(const results::Store& store, const core::Settings& controls) 
 }
 
 void keep_study_file(const results::Store& store, const std::string& text) {
-    const std::filesystem::path file = store.folder() / "study.toml";
-    if (text.empty())
-        std::filesystem::remove(file);
-    else
-        core::write_atomically(file, text);
+    keep_text(store.folder() / "study.toml", text);
 }
 
 void copy_trainings(const std::filesystem::path& source, const results::Store& store) {

@@ -74,7 +74,7 @@ class Names {
         if (std::ranges::find(known_, text) != known_.end()) return text;
         const std::string made = untitled(text, made_);
         if (made != text) return made;
-        const std::vector<std::string> parts = parts_of(untitled(text, titles_), titles_);
+        const std::vector<std::string> parts = parts_of(text, titles_);
         const auto found = std::ranges::find(
             known_, parts, [](const std::string& name) { return parts_of(name, core::Settings()); });
         return found == known_.end() ? text : *found;
