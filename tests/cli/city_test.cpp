@@ -18,6 +18,7 @@ TEST_F(CityTest, an_imported_town_is_checked_run_and_written_as_geojson) {
     write("town.osm", scenario_import::town_map());
     const Ended import = clearway({"scenario", "import", "town.osm", "--name", "town"});
     ASSERT_EQ(import.code, 0) << import.err;
+    EXPECT_THAT(import.out, testing::ContainsRegex("All EVs are ambulances:\\s+--emergency-kinds"));
     EXPECT_THAT(import.out, AllOf(HasSubstr("76 open to cars"), HasSubstr("1 fire_station, 1 hospital"),
                                   HasSubstr("town/network.svg")));
     const Ended check = clearway({"scenario", "check", "./town", "--density", "0.3", "--json"});
@@ -196,6 +197,7 @@ TEST_F(CityTest, check_says_whether_there_are_emergency_vehicles) {
     std::istringstream lines(fit.out);
     for (std::string line; std::getline(lines, line);)
         EXPECT_LE(line.size(), 80U) << line;
+    EXPECT_THAT(fit.out, testing::ContainsRegex("1 arrived;\\s+all\\s+ambulances;\\s+--emergency-kinds"));
     EXPECT_THAT(fit.out, AllOf(HasSubstr("1 EV with a route, 1 entered, 1 arrived"),
                                testing::ContainsRegex("note +signals +0 in the network: signal policies have "
                                                       "no effect here"),
@@ -215,6 +217,19 @@ TEST_F(CityTest, check_tries_whether_a_scenario_locks) {
                                "ok +trials +without time.ignore_junction_blocker_s = 10, as here, none of"));
     EXPECT_THAT(tried.out, testing::ContainsRegex("ok +locks +none in this run of seed 7, [0-9]+ s"));
     EXPECT_FALSE(std::filesystem::exists(folder() / "runs/check-line-locks"));
+}
+
+TEST_F(CityTest, check_prints_what_it_found_before_its_lock_trials_were_interrupted) {
+    write_line_scenario();
+    const core::Child child = start({"scenario", "check", "line", "--lock-trials", "500"});
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!std::filesystem::exists(folder() / "runs/check-line-locks/runs") &&
+           std::chrono::steady_clock::now() < patience)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ::kill(child.pid, SIGINT);
+    const Ended interrupted = finish(child);
+    EXPECT_EQ(interrupted.code, 130) << interrupted.err;
+    EXPECT_THAT(interrupted.out, AllOf(HasSubstr("SUMO loads the network"), Not(HasSubstr(" trials "))));
 }
 
 TEST_F(CityTest, check_says_when_vehicles_drive_one_edge_alone) {

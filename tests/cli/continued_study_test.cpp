@@ -108,6 +108,8 @@ TEST_F(ContinuedStudyTest, a_study_with_a_changed_condition_takes_over_the_runs_
     };
     write("my.toml", study("clear_lane"));
     ASSERT_EQ(clearway({"study", "my.toml"}).code, 0);
+    EXPECT_EQ(read("runs/mine/study.toml"), read("my.toml"));
+    EXPECT_THAT(read("runs/mine/report.html"), HasSubstr("policy = &quot;clear_lane&quot;"));
     write("my.toml", study("corridor"));
     EXPECT_THAT(clearway({"study", "my.toml"}).err,
                 AllOf(HasSubstr("different conditions"), HasSubstr("--reuse runs/mine")));

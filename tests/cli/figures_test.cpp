@@ -51,6 +51,7 @@ TEST_F(FiguresTest, every_drawing_becomes_svg_pdf_and_png_and_every_table_csv_an
                 HasSubstr("written to new/figures: " + std::to_string(count.at(".svg")) +
                           " figures as SVG, PDF and PNG, " + std::to_string(count.at(".csv")) +
                           " tables as CSV, " + std::to_string(count.at(".tex")) + " of them as LaTeX"));
+    EXPECT_THAT(ended.err, testing::ContainsRegex("pdf files.*\n.*png files"));
     EXPECT_TRUE(read("new/figures/tradeoff-line.png").starts_with("\x89PNG"));
     EXPECT_TRUE(read("new/figures/tradeoff-line.pdf").starts_with("%PDF-"));
     const std::string index = read("new/figures/index.html");
