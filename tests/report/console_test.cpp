@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "report/html.hpp"
 #include "report/sample.hpp"
 #include "report/verdict.hpp"
 
