@@ -1,6 +1,7 @@
 #include "core/process.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <csignal>
@@ -95,6 +96,14 @@ void take_over(int output, int stream) {
     }
 }
 
+/// Returns when the child has become its program, or has ended: `open_until_then` is closed by either.
+void await_program(int open_until_then) {
+    char none = 0;
+    while (read(open_until_then, &none, 1) < 0 && errno == EINTR) {
+    }
+    close(open_until_then);
+}
+
 [[noreturn]] void become(const Command& command, int output, pid_t parent, char** arguments,
                          char** environment) {
     // Only calls which are safe after a fork in a program with threads are allowed here.
@@ -130,18 +139,23 @@ Child start(const Command& command) {
     const std::vector<char*> arguments = pointers(words);
     const std::vector<char*> environment = pointers(entries);
 
+    std::array<int, 2> waiting = {-1, -1};
     const pid_t parent = getpid();
-    const pid_t child = fork();
+    const pid_t child = pipe2(waiting.data(), O_CLOEXEC) == 0 ? fork() : -1;
     if (child == 0) {
         become(command, output, parent, const_cast<char**>(arguments.data()),
                const_cast<char**>(environment.data()));
     }
+    const int failure = errno;
     if (output >= 0) close(output);
+    if (waiting[1] >= 0) close(waiting[1]);
     if (child < 0) {
+        if (waiting[0] >= 0) close(waiting[0]);
         throw EnvironmentError(
             fmt::format("cannot start {}: {}. The machine failed: give the same command again", words[0],
-                        std::strerror(errno)));
+                        std::strerror(failure)));
     }
+    await_program(waiting[0]);
     return {child, std::chrono::steady_clock::now()};
 }
 

@@ -40,8 +40,9 @@ struct Child {
     std::chrono::steady_clock::time_point started;
 };
 
-/// Starts a child. The child gets SIGTERM when this process dies (Linux), so that no worker outlives its
-/// study. Throws EnvironmentError when the fork fails or the output file cannot be opened.
+/// Starts a child, and returns when it is its program: until then its memory is counted as this process's.
+/// The child gets SIGTERM when this process dies (Linux), so that no worker outlives its study. Throws
+/// EnvironmentError when the fork fails or the output file cannot be opened.
 Child start(const Command& command);
 
 /// Waits for the end of `child`. Each child can be waited for once.

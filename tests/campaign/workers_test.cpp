@@ -142,13 +142,13 @@ TEST_F(Study, EndsAWorkerAtItsTimeLimit) {
 
 TEST_F(Study, EndsAWorkerThatNeedsTooMuchMemoryAndDoesNotTryItAgain) {
     plan({"baseline", "hog"}, 1);
-    options_.limits.memory_mib = 64;
+    options_.limits.memory_mib = 128;
     EXPECT_EQ(run_in("out").exit_code, ExitCode::runs_failed);
     const auto failure = store_in("out").read_error({"beta", "hog", 0});
     ASSERT_TRUE(failure);
     EXPECT_EQ(failure->cause, ErrorCause::memory);
     EXPECT_EQ(failure->attempts, 1);
-    EXPECT_THAT(failure->message, testing::HasSubstr("64 MiB"));
+    EXPECT_THAT(failure->message, testing::HasSubstr("128 MiB"));
     EXPECT_TRUE(store_in("out").complete({"beta", "baseline", 0}));
 }
 
@@ -213,7 +213,7 @@ TEST_F(Study, ThatIsContinuedTriesAgainWhatTheInputMadeFailOnlyIfAsked) {
 TEST_F(Study, ThatNeededMoreMemoryIsTheSameOnceItHasIt) {
     plan({"baseline", "large"}, 2);
     run_in("undisturbed");
-    options_.limits.memory_mib = 64;
+    options_.limits.memory_mib = 128;
     EXPECT_EQ(run_in("out").exit_code, ExitCode::runs_failed);
     options_.limits.memory_mib = 0;
     EXPECT_EQ(run_in("out").exit_code, ExitCode::ok);

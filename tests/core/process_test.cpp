@@ -124,6 +124,19 @@ char state_of(pid_t pid) {
     return state;
 }
 
+// A limit of memory counts what a child needs, never what the process that started it holds.
+TEST_F(ProcessTest, AStartedChildHoldsNoMemoryOfItsParent) {
+    const std::vector<char> held(std::size_t{256} << 20, 'x');
+    for (int attempt = 0; attempt < 20; ++attempt) {
+        const Child child = start(shell("sleep 60"));
+        const auto resident = resident_kib(child.pid);
+        ::kill(child.pid, SIGKILL);
+        wait(child);
+        ASSERT_TRUE(resident);
+        ASSERT_LT(*resident, 64 * 1024) << held.back();
+    }
+}
+
 TEST_F(ProcessTest, ChildrenEndWithTheirParent) {
     int ends[2];
     ASSERT_EQ(pipe(ends), 0);
