@@ -1,6 +1,7 @@
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "core/counted.hpp"
@@ -19,10 +20,28 @@ std::string counts_text(const std::map<std::string, int>& counts) {
     return text;
 }
 
+/// ` (St. Anna, 2 unnamed)`, or empty where the map names none.
+std::string names_text(const Findings& findings) {
+    constexpr std::size_t most = 4;
+    std::vector<std::string> words = findings.site_names;
+    if (words.empty()) return "";
+    std::size_t unnamed = 0;
+    for (const auto& [kind, count] : findings.sites)
+        unnamed += static_cast<std::size_t>(count);
+    unnamed -= words.size();
+    if (words.size() > most) {
+        words.resize(most);
+        words.emplace_back("...");
+    }
+    if (unnamed > 0) words.push_back(fmt::format("{} unnamed", unnamed));
+    return fmt::format(" ({})", fmt::join(words, ", "));
+}
+
 /// The sites, and what stands in for kinds that the map does not have.
-std::string sites_text(const std::map<std::string, int>& sites) {
+std::string sites_text(const Findings& findings) {
+    const std::map<std::string, int>& sites = findings.sites;
     const bool has_stations = sites.contains("ambulance_station") || sites.contains("fire_station");
-    std::string text = counts_text(sites);
+    std::string text = counts_text(sites) + names_text(findings);
     if (!sites.contains("ambulance_station"))
         text += fmt::format("; no ambulance_station: ambulances start at {}",
                             has_stations ? "fire stations" : "hospitals");
@@ -68,7 +87,7 @@ std::string to_text(const Findings& findings) {
         findings.name, findings.edges, findings.car_edges, findings.lanes, findings.road_km, findings.lane_km,
         findings.signals, map_signals_text(findings), 100.0 * findings.connected_share,
         findings.left_hand ? "left" : "right", findings.side_reason);
-    if (!findings.sites.empty()) text += fmt::format("  EV sites         {}\n", sites_text(findings.sites));
+    if (!findings.sites.empty()) text += fmt::format("  EV sites         {}\n", sites_text(findings));
     text += fmt::format("  demand           {:.0f} vehicles/h: {}\n                   {}\n",
                         findings.vehicles_per_hour, counts_text(findings.vehicles), findings.demand);
     if (findings.persons > 0) text += fmt::format("  persons          {} walk or ride\n", findings.persons);
@@ -99,6 +118,7 @@ std::string to_json(const Findings& findings) {
                                    {"left_hand", findings.left_hand},
                                    {"left_hand_reason", findings.side_reason},
                                    {"emergency_sites", findings.sites},
+                                   {"emergency_site_names", findings.site_names},
                                    {"vehicles_per_hour", findings.vehicles_per_hour},
                                    {"vehicles", findings.vehicles},
                                    {"routed_trips", findings.routed_trips},

@@ -250,9 +250,11 @@ void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
                         "those of your town in network.net.xml",
                         core::counted(network.signals().size(), "signal")));
     config.emergency_sites = detail::place_sites(map.sites, network, config.trips, import.left_out);
-    for (const scenario::EmergencySite& site : config.emergency_sites)
+    for (const scenario::EmergencySite& site : config.emergency_sites) {
         for (const auto& [kind, name] : scenario::spellings(scenario::SiteKind{}))
             if (kind == site.kind) ++import.findings.sites[name];
+        if (!site.name.empty()) import.findings.site_names.push_back(site.name);
+    }
     detail::add_synthetic_demand(import, config, network);
 }
 
