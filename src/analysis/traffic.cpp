@@ -77,8 +77,8 @@ std::optional<double> recovered_after(const std::vector<RecoveryPoint>& points) 
     std::optional<double> since;
     for (const RecoveryPoint& point : points) {
         if (point.offset_s < 0.0) continue;
-        const bool above =
-            point.difference && point.difference->interval && point.difference->interval->low > 0.0;
+        const Interval* const interval = shown_interval(point.difference);
+        const bool above = interval == nullptr || interval->low > 0.0;  // without one it may be anywhere
         if (above) since.reset();
         if (!above && !since) since = point.offset_s;
         if (since && point.offset_s >= *since + recovered_for_s) return since;

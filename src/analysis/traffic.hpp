@@ -35,7 +35,8 @@ inline constexpr double recovered_for_s = 30.0;
 struct Recovery {
     std::vector<RecoveryPoint> points;  ///< Ascending.
     /// The first offset >= 0 after which no interval lies above 0 for `recovered_for_s`: the queues are as
-    /// after an EV of the baseline. Nothing if that is not reached within the points.
+    /// after an EV of the baseline. Nothing if that is not reached within the points, and where points have
+    /// no interval.
     std::optional<double> recovered_after_s;
 };
 

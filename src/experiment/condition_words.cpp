@@ -36,6 +36,11 @@ std::string policy_words(const ConditionSpec& condition) {
     return fmt::format("{}", fmt::join(words, "; "));
 }
 
+bool loses_no_request(const ConditionSpec& condition) {
+    return condition.failure != ConditionSpec().failure && !condition.policies.empty() &&
+           all_requests_arrive(condition.failure);
+}
+
 std::string failure_words(const ConditionSpec& condition) {
     const auto& presets = failures::failure_presets();
     std::vector<std::string> words;
@@ -45,8 +50,8 @@ std::string failure_words(const ConditionSpec& condition) {
         const auto preset = std::ranges::find(presets, item, &failures::FailurePreset::name);
         words.push_back(preset == presets.end() ? item : preset->summary);
     }
-    if (!words.empty() && !condition.policies.empty() && all_requests_arrive(condition.failure))
-        words.emplace_back("all requests of EVs to vehicles and signals arrive (Q50: half)");
+    if (loses_no_request(condition))
+        words.emplace_back("no request of an EV to vehicles or signals is lost (Q50 loses half)");
     return fmt::format("{}", fmt::join(words, "; "));
 }
 

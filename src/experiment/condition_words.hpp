@@ -10,6 +10,9 @@ namespace clearway::experiment {
 /// combination is told by its parts. Empty without policies, and where one is in Python.
 std::string policy_words(const ConditionSpec& condition);
 
+/// Whether something fails in a condition with policies, and yet all requests of EVs arrive.
+bool loses_no_request(const ConditionSpec& condition);
+
 /// What fails in a condition: `10 % of the messages between EVs and signals lost; dark_share=0.5`. Fields
 /// that were set stand as they are. Empty where nothing fails.
 std::string failure_words(const ConditionSpec& condition);

@@ -22,6 +22,20 @@ core::Settings environment_of(const core::Settings& settings) {
     return found;
 }
 
+/// Nothing fails, and nothing is repaired.
+ConditionSpec policies_alone(ConditionSpec condition) {
+    const ConditionSpec usual;
+    condition.failure = usual.failure;
+    condition.predictor = usual.predictor;
+    condition.model_file.clear();
+    condition.model_hash.clear();
+    const std::vector<std::string> present = components_of(condition);
+    std::erase_if(condition.settings, [&](const auto& setting) {
+        return std::ranges::find(present, parted(setting.first).first) == present.end();
+    });
+    return condition;
+}
+
 }  // namespace
 
 bool same_environment(const ConditionSpec& left, const ConditionSpec& right) {
@@ -43,20 +57,22 @@ ConditionSpec baseline_for(const ConditionSpec& condition) {
 }
 
 ConditionSpec without_failure(const ConditionSpec& condition) {
-    const ConditionSpec usual;
-    if (condition.failure == usual.failure) return condition;
-    ConditionSpec perfect = condition;
-    perfect.failure = usual.failure;
-    perfect.predictor = usual.predictor;
-    perfect.model_file.clear();
-    perfect.model_hash.clear();
-    const std::vector<std::string> present = components_of(perfect);
-    std::erase_if(perfect.settings, [&](const auto& setting) {
-        return std::ranges::find(present, parted(setting.first).first) == present.end();
-    });
+    if (condition.failure == ConditionSpec().failure) return condition;
+    ConditionSpec perfect = policies_alone(condition);
     perfect.name =
         condition.name == described_name(condition) ? described_name(perfect) : condition.name + "_perfect";
     return perfect;
+}
+
+bool is_without_failure(const ConditionSpec& other, const ConditionSpec& condition) {
+    const std::string usual = ConditionSpec().failure;
+    if (other.failure != usual || condition.failure == usual) return false;
+    if (other.policies != condition.policies) return false;  // comparing all takes its time
+    ConditionSpec alike = policies_alone(other);
+    const ConditionSpec perfect = policies_alone(condition);
+    alike.name = perfect.name;
+    alike.factors = perfect.factors;
+    return alike == perfect;
 }
 
 }  // namespace clearway::experiment

@@ -16,5 +16,8 @@ ConditionSpec baseline_for(const ConditionSpec& condition);
 /// The same policies while nothing fails and nothing is repaired. Equal to the condition where nothing fails.
 /// One that is named after its content keeps that rule, another gets `_perfect` behind its name.
 ConditionSpec without_failure(const ConditionSpec& condition);
+/// Whether nothing fails in `other`, and it does the same as `condition`, in which something does. What is
+/// repaired, names and factors do not count.
+bool is_without_failure(const ConditionSpec& other, const ConditionSpec& condition);
 
 }  // namespace clearway::experiment

@@ -10,6 +10,7 @@
 #include "report/overview.hpp"
 #include "report/planned_text.hpp"
 #include "report/published.hpp"
+#include "report/shared_sentences.hpp"
 #include "report/verdict.hpp"
 
 namespace clearway::report {
@@ -309,6 +310,7 @@ void append_head(const ScenarioFacts& scenario, std::string& text) {
                    printable(scenario.name), counted(scenario.replications, "replication"),
                    counted(emergency, "emergency vehicle"));
     append_wrapped(scenario.assumptions, text);
+    append_wrapped(printable(kept_requests_sentence(scenario)), text);
     const bool has_runs = std::ranges::any_of(
         scenario.conditions, [](const auto& condition) { return condition.complete_runs > 0; });
     if (emergency == 0 && has_runs)
@@ -333,13 +335,13 @@ ScenarioFacts without_levels(const StudyFacts& study, const ScenarioFacts& scena
     return kept;
 }
 
-/// A control is told of under the condition of which a part is off in it.
+/// Of a control the answer alone: the rest is told under the condition of which a part is off in it.
 void append_verdicts(const ScenarioFacts& scenario, Tables tables, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
-        const bool is_told = tables == Tables::essential && !condition.control_of.empty();
-        if (!condition.is_compared() || is_told) continue;
+        if (!condition.is_compared()) continue;
         const Verdict words = verdict(scenario, condition, Script::plain);
         append_wrapped(fmt::format("{}: {}", label(condition), printable(words.answer())), text);
+        if (tables == Tables::essential && !condition.control_of.empty()) continue;
         for (const std::string& fact : words.facts)
             append_wrapped("  - " + printable(fact), text);
     }

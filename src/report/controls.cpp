@@ -31,8 +31,21 @@ const char* words_of(Effect effect) {
 
 /// Whether it is the condition while nothing fails.
 bool is_working(const ConditionFacts& other, const ConditionFacts& condition) {
-    return other.name() != condition.name() &&
-           other.name() == experiment::without_failure(condition.condition).name;
+    return experiment::is_without_failure(other.condition, condition.condition);
+}
+
+/// EV travel time of the first minus that of the second.
+MaybeEstimate longer_in(const ConditionFacts& first, const ConditionFacts& second) {
+    return analysis::estimate_paired(first.outcome(primary).values, second.outcome(primary).values,
+                                     analysis::MetricKind::quantity);
+}
+
+/// What failing changes, and whether it is shown.
+std::string failing_words(const ConditionFacts& condition, const ConditionFacts& working, Script script) {
+    const MaybeEstimate longer = longer_in(condition, working);
+    if (!longer) return "no complete pair of runs";
+    return estimate(longer, {1, script, Sign::always}) +
+           words_of(effect_of(longer, Better::lower, condition.least_relevant(primary)));
 }
 
 /// `nothing fails (corridor)`, or the title.
@@ -72,17 +85,43 @@ std::vector<Control> controls_of(const ScenarioFacts& scenario, const ConditionF
     std::vector<Control> controls;
     for (const ConditionFacts& other : scenario.conditions) {
         if (other.control_of != condition.name()) continue;
-        controls.push_back({&other, analysis::estimate_paired(other.outcome(primary).values,
-                                                              condition.outcome(primary).values,
-                                                              analysis::MetricKind::quantity)});
+        controls.push_back({&other, longer_in(other, condition)});
     }
     return controls;
 }
 
+const ConditionFacts* working_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    const auto working = std::ranges::find_if(scenario.conditions, [&](const ConditionFacts& other) {
+        return other.is_compared() && is_working(other, condition);
+    });
+    return working == scenario.conditions.end() ? nullptr : &*working;
+}
+
+std::string failing_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
+    const ConditionFacts* const working = working_of(scenario, condition);
+    if (working == nullptr || !working->control_of.empty()) return {};
+    return fmt::format("EV travel time against the same while nothing fails, s: {}.",
+                       failing_words(condition, *working, script));
+}
+
+std::string failing_note(const ScenarioFacts& scenario, const ConditionFacts& working, Script script) {
+    constexpr std::size_t most_told = 4;
+    std::vector<std::string> parts;
+    for (const ConditionFacts& condition : scenario.conditions)
+        if (working_of(scenario, condition) == &working && working.control_of.empty())
+            parts.push_back(condition.title + ": " + failing_words(condition, working, script));
+    if (parts.empty()) return {};
+    if (parts.size() > most_told) {
+        parts.resize(most_told);
+        parts.emplace_back("others: under Verdict");
+    }
+    return fmt::format("What failing costs, EV travel time against the same while nothing fails, s: {}.",
+                       fmt::join(parts, "; "));
+}
+
 std::string working_words(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
-    const auto working = std::ranges::find_if(
-        scenario.conditions, [&](const ConditionFacts& other) { return is_working(other, condition); });
-    if (working == scenario.conditions.end() || !working->difference(primary)) return {};
+    const ConditionFacts* const working = working_of(scenario, condition);
+    if (working == nullptr || !working->difference(primary)) return {};
     return estimate(working->difference(primary), {1, script, Sign::always}) + " s while nothing fails";
 }
 
@@ -91,7 +130,7 @@ std::string controls_sentence(const ScenarioFacts& scenario, const ConditionFact
     for (const Control& control : controls_of(scenario, condition))
         parts.push_back(words_of(condition, control, script));
     if (parts.empty()) return {};
-    return fmt::format("Controls, each with a part of it off; EV travel time minus its own, s: {}.",
+    return fmt::format("Controls: with one part of it off, EV travel time changes by, s: {}.",
                        fmt::join(parts, "; "));
 }
 

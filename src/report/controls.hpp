@@ -21,8 +21,17 @@ std::vector<Control> controls_of(const ScenarioFacts& scenario, const ConditionF
 /// fails and where the study runs both; else empty.
 std::string working_words(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
 
-/// `Controls, each with a part of it off; EV travel time minus its own, s: deaf: +12.0 [10.0, 14.0]; blind:
-/// +0.7 [-0.6, 2.1], no difference shown.` Empty without controls. Plain text.
+/// The condition that does the same while nothing fails, if the study compares both; else null. Points into
+/// the scenario.
+const ConditionFacts* working_of(const ScenarioFacts& scenario, const ConditionFacts& condition);
+/// `EV travel time against the same while nothing fails, s: -1.4 [-5.0, 2.2], no difference shown.` Empty
+/// without such a condition, and where that is a control, of which the controls tell.
+std::string failing_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
+/// The same for all in which something fails of a condition, after their titles.
+std::string failing_note(const ScenarioFacts& scenario, const ConditionFacts& working, Script script);
+
+/// `Controls: with one part of it off, EV travel time changes by, s: deaf: +12.0 [10.0, 14.0]; blind: +0.7
+/// [-0.6, 2.1], no difference shown.` Empty without controls. Plain text.
 std::string controls_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
 /// The same for the first screen of a scenario: of the condition that it is about, or, where that has none,
 /// of each that has some, after its title.

@@ -206,7 +206,8 @@ class FileWriter : public detail::Writer {
                                                                 : named(table.caption, study_.reference);
         typeset.name = label(table.name);
         files_.typeset.push_back(write(table.name, ".tex", detail::to_latex(typeset)));
-        files_.entries.push_back({section_, table.name, typeset.name, typeset.caption, "", false, true});
+        files_.entries.push_back({section_, table.name, typeset.name, typeset.caption, "", false, true,
+                                  detail::to_html(typeset.data)});
     }
 
     std::filesystem::path folder_;
@@ -247,6 +248,7 @@ std::string entry_markup(const FigureEntry& entry, const std::vector<std::string
                 detail::latex_escaped(entry.caption + "." + (entry.note.empty() ? "" : " " + entry.note)),
                 entry.label)));
     }
+    if (!entry.markup.empty()) html += "<details><summary>Table</summary>" + entry.markup + "</details>\n";
     return html + "</figure>\n";
 }
 

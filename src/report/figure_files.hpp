@@ -16,7 +16,8 @@ struct FigureEntry {
     std::string label;    ///< In LaTeX; another one where conditions are not compared with their baselines.
     std::string caption, note;
     bool is_drawing = false;
-    bool has_data = false;  ///< Whether there is a CSV file.
+    bool has_data = false;    ///< Whether there is a CSV file.
+    std::string markup = {};  ///< HTML of a table.
 };
 
 /// What `write_figures` wrote.

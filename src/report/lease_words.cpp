@@ -47,9 +47,28 @@ const char* words_of(traffic::LeaseKind action) {
     return "";
 }
 
-/// `no_room_beside 12, outranked 3`, the most frequent first.
+/// Leases of which a message was lost. What is heard is renewed, what is lost is asked anew: among those
+/// issued, lost ones weigh too much.
+std::uint64_t lost_of(const metrics::LeaseRow& row) {
+    const auto lost = row.refused.find(traffic::Refusal::unheard);
+    return lost == row.refused.end() ? 0 : lost->second;
+}
+
+std::uint64_t heard_of(const metrics::LeaseRow& row) {
+    return std::max(row.acted, row.issued - std::min(row.issued, lost_of(row)));
+}
+
+/// `, 238 of 451 messages lost`, or empty.
+std::string lost_words(const metrics::LeaseRow& row) {
+    return lost_of(row) == 0 ? ""
+                             : fmt::format(", {} of {} messages lost", grouped(lost_of(row)),
+                                           grouped(row.issued + row.renewed));
+}
+
+/// `no_room_beside 12, outranked 3`, the most frequent first, but for what was lost.
 std::string reasons_of(const metrics::LeaseRow& row) {
     std::vector<std::pair<traffic::Refusal, std::uint64_t>> reasons(row.refused.begin(), row.refused.end());
+    std::erase_if(reasons, [](const auto& entry) { return entry.first == traffic::Refusal::unheard; });
     std::ranges::stable_sort(reasons, std::greater{}, &std::pair<traffic::Refusal, std::uint64_t>::second);
     return core::listed(core::texts_of(reasons, [](const auto& entry) {
         return fmt::format("{} {}", name(entry.first), grouped(entry.second));
@@ -91,14 +110,14 @@ std::string sentence_of_parts(const char* what, const std::vector<analysis::Idle
     return text.empty() ? text : fmt::format("{}: {}.", what, text);
 }
 
-/// What a policy asked for in all runs of a condition; standing back is no request.
+/// What was heard of a policy's requests in all runs of a condition; standing back is no request.
 struct Requests {
-    std::uint64_t issued = 0;
+    std::uint64_t heard = 0;
     std::uint64_t acted = 0;
     Refused refused = {};
 
     /// From 20 on a share is more than chance, and with a quarter carried out, a policy is tried at all.
-    bool are_mostly_vain() const { return issued >= 20 && acted > 0 && 4 * acted <= issued; }
+    bool are_mostly_vain() const { return heard >= 20 && acted > 0 && 4 * acted <= heard; }
 };
 
 /// What a writer of a policy can do about a refusal; empty where its name says it.
@@ -124,10 +143,12 @@ std::string lease_sentence(const ConditionFacts& condition) {
     if (condition.condition.policies.empty()) return "has no policy that could ask for anything";
     std::vector<std::string> found;
     for (const metrics::LeaseRow& row : condition.leases) {
-        const std::string often = row.issued == 1 ? "once" : grouped(row.issued) + " times";
-        std::string text = fmt::format("{}: {} {}, {} carried out", row.policy, words_of(row.action), often,
-                                       grouped(row.acted));
-        if (row.refusals() > 0) text += fmt::format(", refused at some time: {}", reasons_of(row));
+        const std::uint64_t heard = heard_of(row);
+        const std::string often = heard == 1 ? "once" : grouped(heard) + " times";
+        std::string text = fmt::format("{}: {} {}, {} carried out{}", row.policy, words_of(row.action), often,
+                                       grouped(row.acted), lost_words(row));
+        if (const std::string reasons = reasons_of(row); !reasons.empty())
+            text += ", refused at some time: " + reasons;
         found.push_back(std::move(text));
     }
     return found.empty() ? "asked for nothing" : fmt::format("{}", fmt::join(found, "; "));
@@ -138,20 +159,20 @@ std::string refusals_sentence(const ConditionFacts& condition) {
     for (const metrics::LeaseRow& row : condition.leases) {
         if (row.action == traffic::LeaseKind::stand_back) continue;
         Requests& requests = policies[row.policy];
-        requests.issued += row.issued;
+        requests.heard += heard_of(row);
         requests.acted += row.acted;
         for (const auto& [reason, count] : row.refused)
-            requests.refused[reason] += count;
+            if (reason != traffic::Refusal::unheard) requests.refused[reason] += count;
     }
     std::vector<std::string> facts;
     for (const auto& [policy, requests] : policies) {
         const auto most = most_frequent(requests.refused);
         if (!requests.are_mostly_vain() || most == requests.refused.end()) continue;
-        const double vain = 100.0 * static_cast<double>(requests.issued - requests.acted) /
-                            static_cast<double>(requests.issued);
+        const double vain = 100.0 * static_cast<double>(requests.heard - requests.acted) /
+                            static_cast<double>(requests.heard);
         facts.push_back(fmt::format(
             "Of {}'s {} requests {:.0f} % were never carried out, mostly refused as {}{}.", policy,
-            grouped(requests.issued), std::floor(vain), name(most->first), cure_of(most->first)));
+            grouped(requests.heard), std::floor(vain), name(most->first), cure_of(most->first)));
     }
     return fmt::format("{}", fmt::join(facts, " "));
 }

@@ -42,17 +42,21 @@ std::string lock_words(const analysis::ConditionSummary& condition) {
 std::string locked_pairs_words(const analysis::Comparison& comparison, double half_width, Script script) {
     if (comparison.locked_pairs == 0 || !comparison.difference) return {};
     const NumberStyle style{.decimals = 1, .script = script, .sign = Sign::always};
-    if (comparison.locked_pairs == comparison.complete_pairs)
-        return fmt::format("mean {}, median of pairs {}; no pair is without a lock",
+    const std::uint64_t unlocked = comparison.complete_pairs - comparison.locked_pairs;
+    if (unlocked < analysis::fewest_for_interval)
+        return fmt::format("mean {}, median of pairs {}; {} without a lock",
                            number(comparison.difference->mean, style),
-                           number_or_dash(comparison.median, style));
+                           number_or_dash(comparison.median, style),
+                           unlocked == 0   ? "no pair is"
+                           : unlocked == 1 ? "1 pair alone is"
+                                           : fmt::format("{} pairs alone are", unlocked));
     return fmt::format(
         "mean {}, median of pairs {}, mean of the {} without a lock {}; replications for "
         "{}{:g}: {}, without locks {}",
         number(comparison.difference->mean, style), number_or_dash(comparison.median, style),
-        counted(comparison.complete_pairs - comparison.locked_pairs, "pair"),
-        estimate(comparison.unlocked, style), script == Script::plain ? "+-" : "\u00b1", half_width,
-        needed(comparison.difference, half_width), needed(comparison.unlocked, half_width));
+        counted(unlocked, "pair"), estimate(comparison.unlocked, style),
+        script == Script::plain ? "+-" : "\u00b1", half_width, needed(comparison.difference, half_width),
+        needed(comparison.unlocked, half_width));
 }
 
 }  // namespace clearway::report

@@ -173,22 +173,31 @@ std::string asked_words(std::size_t replications) {
     return (replications > most_replications_asked ? "" : "about ") + replications_words(replications);
 }
 
-/// `about 24 would likely (80 %) show the 5.2 s seen, `; empty where these are less than what counts.
+/// `. Likely (80 %), about 24 show the 5.2 s seen`; empty where these are less than what counts.
 std::string what_shows_the_seen(const analysis::Estimate& difference, double counts_s, Script script) {
     const double seen_s = std::abs(difference.mean);
     if (seen_s <= (counts_s > 0.0 ? counts_s : usual_least_relevant_s)) return "";
     const std::size_t pairs =
         std::max(analysis::fewest_replications, analysis::replications_to_show(difference.deviation, seen_s));
-    return fmt::format("{} would likely (80 %) show the {} s seen, ", asked_words(pairs),
+    return fmt::format(". Likely (80 %), {} show the {} s seen", asked_words(pairs),
                        number(seen_s, {1, script}));
 }
 
-/// The compared condition with the largest shown gain, else as `featured_condition` says.
+/// Whether a headline may be about it: a control is told under another condition, and one in which something
+/// fails under the one in which nothing does.
+bool can_be_featured(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    if (!condition.is_compared() || !condition.control_of.empty()) return false;
+    const ConditionFacts* const working = working_of(scenario, condition);
+    return working == nullptr || !working->control_of.empty();
+}
+
+/// Of those that a headline may be about, the one with the largest shown gain, else as `featured_condition`
+/// says.
 const ConditionFacts* largest_gain(const StudyFacts& study, const ScenarioFacts& scenario) {
     const ConditionFacts* best = nullptr;
     std::tuple<bool, int, double> best_rank;
     for (const ConditionFacts& condition : scenario.conditions) {
-        if (!condition.is_compared() || !condition.control_of.empty()) continue;
+        if (!can_be_featured(scenario, condition)) continue;
         const bool helps = effect_of(condition, primary) == Effect::better;
         const int grade = helps ? 0 : condition.objections.on_emergency() ? 2 : 1;
         const std::tuple rank(reference_of(study, scenario, condition) != nullptr, grade,
@@ -219,7 +228,7 @@ const ConditionFacts* featured_condition(const StudyFacts& study, const Scenario
     const double enough_s = leader->difference(primary)->mean + leader->least_relevant_s;
     const ConditionFacts* simplest = leader;
     for (const ConditionFacts& condition : scenario.conditions) {
-        const bool level = condition.is_compared() && condition.control_of.empty() &&
+        const bool level = can_be_featured(scenario, condition) &&
                            effect_of(condition, primary) == Effect::better &&
                            condition.difference(primary)->mean <= enough_s &&
                            (reference_of(study, scenario, condition) != nullptr) == varied;
@@ -269,11 +278,13 @@ std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scena
     std::size_t help = 0;
     std::size_t corrected = 0;
     std::size_t objected = 0;
+    bool some_fail = false;
     for (const ConditionFacts& condition : scenario.conditions) {
         if (!condition.is_compared() || !condition.control_of.empty() ||
             reference_of(study, scenario, condition) != nullptr)
             continue;
         ++compared;
+        some_fail = some_fail || !can_be_featured(scenario, condition);
         const bool helps = effect_of(condition, primary) == Effect::better;
         const auto& comparison = condition.outcome(primary).comparison;
         help += helps ? 1 : 0;
@@ -290,7 +301,10 @@ std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scena
                              corrected == 0 ? "none" : std::to_string(corrected));
     if (help > 1)
         words += featured_condition(study, scenario) == largest_gain(study, scenario)
-                     ? "; this one has the largest mean gain, which usually overstates its true gain a little"
+                     ? fmt::format(
+                           "; this one has the largest mean gain{}, which usually overstates its true "
+                           "gain a little",
+                           some_fail ? " of those in which nothing fails" : "")
                      : "; this one is the simplest of those whose mean gain is as large but for less than "
                        "what counts as a difference";
     if (objected > 0)
@@ -414,6 +428,11 @@ Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, S
     switch (effect_of(difference, Better::lower, condition.least_relevant(primary))) {
         case Effect::better:
         case Effect::worse:
+            if (is_shown_alone(condition, primary))
+                return {Badge::Runs::too_few,
+                        fmt::format("Not enough runs: {} show the direction of one comparison alone, not "
+                                    "among so many (Holm)",
+                                    pairs)};
             return {runs, fmt::format("{} runs: {} show the direction{}", quantity, pairs, few)};
         case Effect::negligible:
             return {runs, fmt::format("{} runs: {} show that the difference is too small to matter{}",
@@ -435,7 +454,7 @@ Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, S
                         fmt::format("Enough runs: {} tell the mean to within {} s", pairs, least)};
             return {
                 Badge::Runs::too_few,
-                fmt::format("Not enough runs: {}; {}{} tell the mean to within {} s", pairs,
+                fmt::format("Not enough runs: {}{}; {} tell the mean to within {} s", pairs,
                             what_shows_the_seen(*difference, counts_s, script), asked_words(needed), least)};
         }
         case Effect::too_few:

@@ -55,8 +55,9 @@ std::string finding_words(const PlannedFinding& finding, Script script) {
         case Shown::equivalent:
             return fmt::format("equivalent within {} s", margin);
         case Shown::not_shown:
-            return finding.comparison.claim == results::Claim::equivalence ? "no equivalence shown"
-                                                                           : "no difference shown";
+            return finding.comparison.claim == results::Claim::equivalence
+                       ? fmt::format("no equivalence within {} s shown", margin)
+                       : "no difference shown";
         case Shown::ruled_out:
             return "ruled out: lost EVs";
         case Shown::incomplete:

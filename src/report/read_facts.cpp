@@ -251,7 +251,7 @@ std::string titled(analysis::Reference reference, const std::vector<ConditionFac
 
 Titles titles_of(const results::Store& store, const analysis::Summary& summary,
                  const analysis::Reference& reference) {
-    const experiment::ConditionTitles titles(detail::titles_in(store.folder() / "titles.json"));
+    const experiment::ConditionTitles titles(given_titles_of(store));
     Titles found;
     for (const analysis::ScenarioSummary& scenario : summary.scenarios) {
         std::vector<ConditionFacts> conditions;
@@ -266,8 +266,11 @@ Titles titles_of(const results::Store& store, const analysis::Summary& summary,
 }
 
 core::Settings titles_of(const results::Store& store) {
-    return experiment::ConditionTitles(detail::titles_in(store.folder() / "titles.json"))
-        .of(store.manifest().conditions);
+    return experiment::ConditionTitles(given_titles_of(store)).of(store.manifest().conditions);
+}
+
+core::Settings given_titles_of(const results::Store& store) {
+    return detail::titles_in(store.folder() / "titles.json");
 }
 
 StudyFacts facts_of(const results::Store& store, const results::Results& results,
@@ -277,7 +280,7 @@ StudyFacts facts_of(const results::Store& store, const results::Results& results
     for (const analysis::ScenarioSummary& scenario : summary.scenarios)
         study.scenarios.push_back(scenario_facts(scenario, summary, least_relevant_s));
     Conditions conditions;
-    const experiment::ConditionTitles titles(detail::titles_in(store.folder() / "titles.json"));
+    const experiment::ConditionTitles titles(given_titles_of(store));
     for (ScenarioFacts& scenario : study.scenarios) {
         detail::give_titles(titles, scenario.conditions);
         for (ConditionFacts& condition : scenario.conditions)

@@ -46,6 +46,8 @@ Titles titles_of(const results::Store& store, const analysis::Summary& summary,
 
 /// What the conditions of a run folder are called, by name, with titles that the study file gave.
 core::Settings titles_of(const results::Store& store);
+/// The titles that the study itself gives names and values of factors (StudyConfig::titles).
+core::Settings given_titles_of(const results::Store& store);
 
 /// Whether an SVG file may go into the page as it is: one <svg> element without scripts, event handlers,
 /// foreign elements or external resources. Run folders may come from others, so an unsafe picture is left

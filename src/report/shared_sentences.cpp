@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiment/condition_words.hpp"
 #include "report/safety.hpp"
 #include "report/verdict.hpp"
 
@@ -22,6 +23,13 @@ bool blocks_the_way(const RoadMap& roads) {
 
 }  // namespace
 
+bool is_shown_alone(const ConditionFacts& condition, Measure measure) {
+    const Effect effect = effect_of(condition, measure);
+    const auto& comparison = condition.outcome(measure).comparison;
+    return (effect == Effect::better || effect == Effect::worse) && comparison && comparison->holm_p &&
+           *comparison->holm_p > 1.0 - analysis::usual_level;
+}
+
 std::string doubts_of(const ConditionFacts& condition, Measure measure, Script script) {
     const Effect effect = effect_of(condition, measure);
     const auto& comparison = condition.outcome(measure).comparison;
@@ -32,7 +40,7 @@ std::string doubts_of(const ConditionFacts& condition, Measure measure, Script s
                                     comparison->locked_pairs, counted(comparison->complete_pairs, "pair")));
     if (const std::uint64_t pairs = comparison->difference->n; pairs < fewest_to_trust)
         words.push_back(fmt::format("{} pairs are few", pairs));
-    if (comparison->holm_p && *comparison->holm_p > 1.0 - analysis::usual_level)
+    if (is_shown_alone(condition, measure))
         words.push_back(fmt::format("p {} among so many comparisons", p_words(comparison->holm_p, script)));
     return fmt::format("{}", fmt::join(words, "; "));
 }
@@ -40,6 +48,21 @@ std::string doubts_of(const ConditionFacts& condition, Measure measure, Script s
 std::string doubt_clause(const ConditionFacts& condition, Measure measure, Script script) {
     const std::string doubts = doubts_of(condition, measure, script);
     return doubts.empty() ? "" : " (doubtful: " + doubts + ")";
+}
+
+std::string kept_requests_sentence(const ScenarioFacts& scenario) {
+    std::vector<std::string> failures;
+    for (const ConditionFacts& one : scenario.conditions) {
+        const std::string& failure = one.condition.failure;
+        if (experiment::loses_no_request(one.condition) &&
+            std::ranges::find(failures, failure) == failures.end())
+            failures.push_back(failure);
+    }
+    return failures.empty() ? ""
+                            : fmt::format(
+                                  "No request of an EV to vehicles or signals is lost under {} (Q50 "
+                                  "loses half).",
+                                  fmt::join(failures, "; "));
 }
 
 std::string survivors_words(const ConditionFacts& condition, Script script) {
@@ -112,7 +135,7 @@ std::string signal_trips_words(const ScenarioFacts& scenario, const ConditionFac
     };
     const std::uint64_t all = trips.passing.trips + trips.others.trips;
     if (trips.passing.trips == 0) return fmt::format("none of {} passes a signal", counted(all, "trip"));
-    return fmt::format("{} of {} pass signals: {} s in the mean of {} with such, the others {} s",
+    return fmt::format("{} of {} pass a signal and change by {} s (mean of {} with such), the others by {} s",
                        grouped(trips.passing.trips), counted(all, "trip"), mean(trips.passing),
                        counted(trips.passing.means_s.size(), "pair"), mean(trips.others));
 }

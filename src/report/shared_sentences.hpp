@@ -14,8 +14,14 @@ namespace clearway::report {
 /// `5 pairs are few; p 0.072 among so many comparisons`: why chance or locks could be all of an effect that
 /// its interval shows. Empty where nothing speaks for that.
 std::string doubts_of(const ConditionFacts& condition, Measure measure, Script script);
+/// Whether an effect is shown by its own interval, and not once p is corrected for all comparisons (Holm).
+bool is_shown_alone(const ConditionFacts& condition, Measure measure);
 /// ` (doubtful: 5 pairs are few)`, or nothing.
 std::string doubt_clause(const ConditionFacts& condition, Measure measure, Script script);
+
+/// `No request of an EV to vehicles or signals is lost under B10 (Q50 loses half).` Empty where nothing else
+/// fails.
+std::string kept_requests_sentence(const ScenarioFacts& scenario);
 
 /// `EVs that arrived in both: -10.3 s [-30.1, 9.5], all but 1; median of the pairs -4.7 s`: the travel time
 /// without the horizon that stands for an EV that did not arrive. Empty where all arrived in both.

@@ -243,10 +243,11 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     if (const std::string cross = cross_street_words(condition, script); !cross.empty())
         words.facts.push_back(sentence("Lost " + cross));
     for (std::string fact :
-         {privilege_sentence(scenario, condition, script), refusals_sentence(condition),
-          controls_sentence(scenario, condition, script), incidents_of(scenario, condition, script),
-          regrets_of(condition, script), locked_pairs_of(condition, script), locks_of(scenario, condition),
-          idle_sentence(condition), own_lane_sentence(condition)})
+         {failing_sentence(scenario, condition, script), privilege_sentence(scenario, condition, script),
+          refusals_sentence(condition), controls_sentence(scenario, condition, script),
+          incidents_of(scenario, condition, script), regrets_of(condition, script),
+          locked_pairs_of(condition, script), locks_of(scenario, condition), idle_sentence(condition),
+          own_lane_sentence(condition)})
         if (!fact.empty()) words.facts.push_back(std::move(fact));
     if (const std::size_t same = scenario.place_of(condition.same_as); same < scenario.conditions.size())
         words.facts.push_back(
@@ -360,13 +361,14 @@ std::string headline(const StudyFacts& study) {
     std::vector<std::string> parts;
     for (const ScenarioFacts& scenario : study.scenarios) {
         std::size_t compared = 0;
-        std::array<std::size_t, verdict_words.size()> seen = {};
+        std::array<std::size_t, verdict_words.size()> seen = {}, alone = {};
         for (const ConditionFacts& condition : scenario.conditions) {
             if (!condition.is_compared() || !condition.control_of.empty() ||
                 reference_of(study, scenario, condition) != nullptr)
                 continue;
             ++compared;
             ++seen[finding_of(condition)];
+            alone[finding_of(condition)] += is_shown_alone(condition, primary) ? 1 : 0;
         }
         if (compared == 0) continue;
         std::vector<std::string> findings;
@@ -374,7 +376,14 @@ std::string headline(const StudyFacts& study) {
             if (seen[finding] == 0) continue;
             const std::string total =
                 findings.empty() ? fmt::format(" of {}", counted(compared, "condition")) : "";
-            findings.push_back(fmt::format("{} under {}{}", verdict_words[finding], seen[finding], total));
+            const std::string corrected =
+                alone[finding] == 0 ? ""
+                                    : fmt::format(" ({} with Holm's correction)",
+                                                  alone[finding] == seen[finding]
+                                                      ? "none"
+                                                      : std::to_string(seen[finding] - alone[finding]));
+            findings.push_back(
+                fmt::format("{} under {}{}{}", verdict_words[finding], seen[finding], total, corrected));
         }
         parts.push_back(fmt::format("{}: {}", scenario.name, fmt::join(findings, ", ")));
     }

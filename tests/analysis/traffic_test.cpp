@@ -65,6 +65,10 @@ TEST_F(Traffic, AnApproachThatNobodyEnteredCountsNothing) {
 }
 
 TEST_F(Traffic, RecoveryIsOverOnceNoIntervalLiesAboveZeroForAWhile) {
+    for (auto* const runs : {&condition_, &baseline_}) {  // twice as many, enough for intervals
+        const std::vector<RunRecord> again = *runs;
+        runs->insert(runs->end(), again.begin(), again.end());
+    }
     const auto recovered_after = [&] {
         return recovery_after(pointers(condition_), pointers(baseline_), 0.95)->recovered_after_s;
     };
@@ -86,6 +90,18 @@ TEST_F(Traffic, RecoveryIsOverOnceNoIntervalLiesAboveZeroForAWhile) {
     for (RunRecord& run : condition_)
         run.traffic.recovery[6].halted_vehicles = 5.0 + run.traffic.recovery[1].halted_vehicles;
     EXPECT_EQ(recovered_after(), std::nullopt);
+}
+
+TEST_F(Traffic, RecoveryIsNotClaimedOverFewerPairsThanAnIntervalNeeds) {
+    for (auto* const runs : {&condition_, &baseline_}) {
+        for (RunRecord& run : *runs) {
+            run.traffic.recovery.clear();
+            for (double offset_s = 0.0; offset_s <= 60.0; offset_s += 5.0)
+                run.traffic.recovery.push_back({offset_s, 2, 1.0});
+        }
+    }
+    const auto recovery = recovery_after(pointers(condition_), pointers(baseline_), 0.95);
+    EXPECT_EQ(recovery->recovered_after_s, std::nullopt);
 }
 
 TEST_F(Traffic, OfRunsThatWereNotWatchedSaysNothing) {

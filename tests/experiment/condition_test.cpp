@@ -48,7 +48,7 @@ TEST(FailureWords, TellPresetsInWordsAndFieldsAsTheyStand) {
     condition.policies = {"preempt_signals"};
     condition.failure = "B10";
     EXPECT_THAT(failure_words(condition),
-                testing::HasSubstr("; all requests of EVs to vehicles and signals arrive"));
+                testing::HasSubstr("; no request of an EV to vehicles or signals is lost"));
     condition.failure = "Q50";
     EXPECT_THAT(failure_words(condition), testing::Not(testing::HasSubstr("arrive")));
 }

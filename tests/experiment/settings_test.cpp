@@ -441,6 +441,27 @@ TEST(Settings, WithoutFailureNothingFailsAndNothingIsRepaired) {
     EXPECT_EQ(without_failure(condition).name, "mine_perfect");
 }
 
+TEST(Settings, a_condition_without_its_failure_is_known_by_what_it_does) {
+    ConditionSpec failing;
+    failing.name = "mine";
+    failing.policies = {"corridor"};
+    failing.failure = "B10";
+    failing.predictor = "kalman";
+    failing.factors = {{"condition.failure", "B10"}};
+    ConditionSpec working = failing;
+    working.name = "other";
+    working.failure = "perfect";
+    working.factors = {{"condition.failure", "perfect"}};
+    EXPECT_TRUE(is_without_failure(working, failing)) << "what is repaired does not count";
+    EXPECT_FALSE(is_without_failure(failing, working));
+    EXPECT_FALSE(is_without_failure(working, working));
+    working.settings = {{"preempt_signals.lead_s", "12"}};
+    EXPECT_FALSE(is_without_failure(working, failing));
+    working.settings.clear();
+    working.policies = {"preempt_signals"};
+    EXPECT_FALSE(is_without_failure(working, failing));
+}
+
 TEST(Settings, PrivilegesAreOfTheEnvironmentSoTheBaselineHasThemToo) {
     ConditionSpec condition = corridor();
     set(condition, "privilege.pass_red", "1");

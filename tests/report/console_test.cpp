@@ -62,6 +62,9 @@ TEST(ConsoleTables, print_what_a_plan_confirms_before_all_else) {
     EXPECT_THAT(text, HasSubstr("links act (merge)\n    linked - links_cut "));
     EXPECT_THAT(text, HasSubstr("-2.50 [-3.00, -2.00]      20   <0.001  shown: less time\n"));
     EXPECT_THAT(text, HasSubstr("0.020  equivalent within 1.2 s"));
+    StudyFacts vain = planned_study();
+    vain.planned.back().shown = analysis::Shown::not_shown;
+    EXPECT_THAT(console_tables(vain), HasSubstr("no equivalence within 1.2 s shown"));
     EXPECT_LT(text.find("Exploratory: everything below"), text.find("TABLE II"));
     for (const std::string& line : lines_of(text.substr(0, text.find("Exploratory"))))
         EXPECT_LE(line.size(), 100u) << line;
@@ -296,7 +299,7 @@ TEST(JsonTables, survive_names_that_are_not_utf_8) {
     EXPECT_EQ(json["scenarios"].size(), 1u);
 }
 
-TEST(ConsoleTables, tell_of_a_control_under_its_condition_and_name_blocked_roads) {
+TEST(ConsoleTables, answer_for_a_control_tell_of_it_under_its_condition_and_name_blocked_roads) {
     StudyFacts study = tests::study({"merge"});
     ScenarioFacts& scenario = study.scenarios[0];
     scenario.roads.emplace().incidents = {{"e1", 80.0, 980.0, 60.0}};
@@ -307,9 +310,13 @@ TEST(ConsoleTables, tell_of_a_control_under_its_condition_and_name_blocked_roads
     EXPECT_THAT(console_tables(study, Tables::essential),
                 AllOf(HasSubstr(verdict), HasSubstr("Blocked: e1 from 80 to 980 s")));
     control.control_of = scenario.conditions[1].name();
-    EXPECT_THAT(console_tables(study, Tables::essential),
-                AllOf(Not(HasSubstr(verdict)), HasSubstr("Controls, each with a part")));
-    EXPECT_THAT(console_tables(study, Tables::all), HasSubstr(verdict));
+    control.same_as = scenario.conditions[0].name();
+    const std::string fact = "  - Every run is identical";
+    EXPECT_THAT(
+        console_tables(study, Tables::essential),
+        AllOf(HasSubstr(verdict), HasSubstr("Controls: with one part of it off"), Not(HasSubstr(fact))))
+        << "the answer alone";
+    EXPECT_THAT(console_tables(study, Tables::all), AllOf(HasSubstr(verdict), HasSubstr(fact)));
 }
 
 StudyFacts study_with_response() {

@@ -249,7 +249,7 @@ TEST(TradeOff, of_policies_under_failures_has_a_colour_for_each_policy_and_a_mar
 TEST(TradeOff, has_marks_at_the_true_places_of_points) {
     const StudyFacts study = crossed(5, 2);
     const std::string drawing = drawing_of(figure_of(tests::page_of(study), "tradeoff-merge"));
-    const std::regex disc("<path class=\"dot s([1-5])\" d=\"M([0-9.]+) ([0-9.]+)m5.5 0a");
+    const std::regex disc("<path class=\"dot s([1-5]) through\" d=\"M([0-9.]+) ([0-9.]+)m5.5 0a");
     std::map<int, std::pair<double, double>> places;
     for (std::sregex_iterator at(drawing.begin(), drawing.end(), disc); at != std::sregex_iterator(); ++at)
         places[std::stoi((*at)[1])] = {std::stod((*at)[2]), std::stod((*at)[3])};
@@ -299,7 +299,9 @@ TEST(TradeOff, has_one_mark_for_conditions_with_the_same_runs) {
     for (const Measure measure : {Measure::emergency_restricted_time, Measure::other_time_loss})
         tests::difference(conditions[4], measure) = tests::difference(conditions[3], measure);
     EXPECT_EQ(marks(), 9u);
-    EXPECT_THAT(tests::page_of(study), HasSubstr("Without a mark: 1 condition whose"));
+    EXPECT_THAT(tests::page_of(study),
+                HasSubstr("Without a mark, as every run is one of another (see the verdicts): " +
+                          conditions[4].label() + "."));
     EXPECT_EQ(tradeoff_figure(study, study.scenarios[0]).data.rows.size(), 10u) << "the data have all";
     conditions[4].same_as = conditions[0].name();
     EXPECT_EQ(marks(), 10u) << "the baseline has no mark";
@@ -312,8 +314,8 @@ TEST(Looks, do_not_change_with_what_is_compared) {
         study.scenarios[0].conditions[number].condition.policies = {"first"};
     }
     const std::string drawing = drawing_of(figure_of(tests::page_of(study), "tradeoff-merge"));
-    EXPECT_EQ(count_of(drawing, "<path class=\"dot s1\""), 0u);
-    EXPECT_EQ(count_of(drawing, "<path class=\"dot s2\""), 2u) << "the second policy";
+    EXPECT_EQ(count_of(drawing, "<path class=\"dot s1 "), 0u);
+    EXPECT_EQ(count_of(drawing, "<path class=\"dot s2 "), 2u) << "the second policy";
 }
 
 TEST(TradeOff, keeps_numbers_for_few_conditions_and_where_there_are_more_levels_than_looks) {

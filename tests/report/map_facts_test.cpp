@@ -79,10 +79,10 @@ TEST_F(MapFacts, TellTripsThatPassSignalsFromOthers) {
     const ScenarioFacts after = crossing();
     EXPECT_EQ(after.map->signal_trips.others.trips, 1U);
     EXPECT_EQ(after.map->signal_trips.passing.trips, 5U);
-    EXPECT_THAT(
-        signal_trips_words(after, after.conditions[after.map->condition], Script::plain),
-        testing::MatchesRegex("5 of 6 trips pass signals: -[0-9.]+ .-[0-9.]+, -[0-9.]+. s in the mean of 5 "
-                              "pairs with such, the others -[0-9.]+ s"));
+    EXPECT_THAT(signal_trips_words(after, after.conditions[after.map->condition], Script::plain),
+                testing::MatchesRegex(
+                    "5 of 6 trips pass a signal and change by -[0-9.]+ .-[0-9.]+, -[0-9.]+. s .mean of 5 "
+                    "pairs with such., the others by -[0-9.]+ s"));
     EXPECT_EQ(signal_trips_words(after, after.conditions[0], Script::plain), "") << "the map is not about it";
 }
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "experiment/related_conditions.hpp"
 #include "report/controls.hpp"
 #include "report/locks.hpp"
 #include "report/sample.hpp"
@@ -257,10 +258,9 @@ class Controls : public Overview {
 };
 
 TEST_F(Controls, tell_what_a_part_is_worth) {
-    EXPECT_EQ(
-        sentence(),
-        "Controls, each with a part of it off; EV travel time minus its own, s: deaf: +12.0 [10.8, 13.2]; "
-        "blind: 0.0 [-2.5, 2.5], no difference shown.");
+    EXPECT_EQ(sentence(),
+              "Controls: with one part of it off, EV travel time changes by, s: deaf: +12.0 [10.8, 13.2]; "
+              "blind: 0.0 [-2.5, 2.5], no difference shown.");
     EXPECT_THAT(verdict(scenario_, corridor(), Script::plain).text(), HasSubstr(sentence()));
     EXPECT_EQ(controls_sentence(scenario_, scenario_.conditions[2], Script::plain), "")
         << "a control has none";
@@ -285,7 +285,8 @@ TEST_F(Controls, tell_a_part_that_harms_one_that_never_acts_objections_and_too_f
 
 TEST_F(Controls, say_what_a_failure_costs_and_where_it_changes_nothing) {
     corridor().condition.failure = "B40";
-    scenario_.conditions[2].condition.name = "corridor_perfect";
+    scenario_.conditions[2].condition = experiment::without_failure(corridor().condition);
+    scenario_.conditions[3].condition.policies = {"clear_lane"};
     set(scenario_.conditions[2], {70.0, 74.0, 73.0, 74.0, 75.0});
     EXPECT_THAT(sentence(),
                 HasSubstr("s: nothing fails (deaf): -0.8 [-2.2, 0.6], no difference shown, the same "
@@ -321,10 +322,10 @@ TEST_F(Overview, SaysWhetherThereAreEnoughRuns) {
     tests::difference(corridor(), primary)->deviation = 6.4;
     corridor().precision = Precision{{}, 6.4, 160};
     EXPECT_EQ(badge().runs, Badge::Runs::too_few);
-    EXPECT_EQ(badge().words,
-              "Not enough runs: 20 pairs of runs; about 83 would likely (80 %) show the 2.0 s seen, about "
-              "160 tell the "
-              "mean to within 1.0 s");
+    EXPECT_EQ(
+        badge().words,
+        "Not enough runs: 20 pairs of runs. Likely (80 %), about 83 show the 2.0 s seen; about 160 tell "
+        "the mean to within 1.0 s");
     tests::difference(corridor(), primary)->mean = -0.9;
     EXPECT_EQ(badge().words, "Not enough runs: 20 pairs of runs; about 160 tell the mean to within 1.0 s");
     corridor().precision->needed = 20;
@@ -355,18 +356,50 @@ TEST_F(Overview, FeaturesTheLargestShownGainAndSaysThatItWasChosen) {
 }
 
 TEST_F(Overview, LetsTheSimplestOfEqualGainsSpeak) {
-    ConditionFacts failing = tests::condition("failing", "corridor with failing sensors", 73.9);
-    failing.condition.policies = corridor().condition.policies;
-    failing.condition.failure = "B10";
+    ConditionFacts larger = tests::condition("larger", "corridor and more", 73.9);
+    larger.condition.policies = {"corridor", "more"};
     const double gain_s = corridor().difference(Measure::emergency_restricted_time)->mean;
-    corridor().least_relevant_s = failing.least_relevant_s = 1.0;
-    tests::compare(failing, around(gain_s - 0.1, 4.0), around(4.6, 1.0));
-    scenario_.conditions.push_back(failing);
+    corridor().least_relevant_s = larger.least_relevant_s = 1.0;
+    tests::compare(larger, around(gain_s - 0.1, 4.0), around(4.6, 1.0));
+    scenario_.conditions.push_back(larger);
     EXPECT_EQ(featured_condition(study_, scenario_), &corridor());
     EXPECT_THAT(among_conditions(study_, scenario_), HasSubstr("this one is the simplest of those"));
     tests::compare(scenario_.conditions.back(), around(gain_s - 1.1, 4.0), around(4.6, 1.0));
     EXPECT_EQ(featured_condition(study_, scenario_), &scenario_.conditions.back());
     EXPECT_THAT(among_conditions(study_, scenario_), HasSubstr("largest mean gain"));
+}
+
+TEST_F(Overview, IsAboutAConditionInWhichNothingFails) {
+    ConditionFacts failing = tests::condition("failing", "corridor with failing sensors", 60.0);
+    failing.condition.policies = corridor().condition.policies;
+    failing.condition.failure = "B10";
+    tests::compare(failing, around(-90.0, 4.0), around(4.6, 1.0));
+    scenario_.conditions.push_back(failing);
+    EXPECT_EQ(featured_condition(study_, scenario_), &corridor()) << "whatever gains more by chance";
+    EXPECT_THAT(among_conditions(study_, scenario_),
+                HasSubstr("the largest mean gain of those in which nothing fails"));
+    tests::metric(corridor(), info(primary).field).values = {50.0, 60.0, 70.0, 61.0, 59.0};
+    tests::metric(scenario_.conditions.back(), info(primary).field).values = {44.0, 55.0, 64.0, 55.0, 54.0};
+    EXPECT_THAT(
+        failing_note(scenario_, corridor(), Script::plain),
+        HasSubstr("against the same while nothing fails, s: corridor with failing sensors: -5.6 [-6.3"));
+    EXPECT_THAT(failing_sentence(scenario_, scenario_.conditions.back(), Script::plain),
+                StartsWith("EV travel time against the same while nothing fails, s: -5.6"));
+    corridor().control_of = "failing";
+    EXPECT_EQ(featured_condition(study_, scenario_), &scenario_.conditions.back()) << "what was asked for";
+    EXPECT_EQ(failing_sentence(scenario_, scenario_.conditions.back(), Script::plain), "");
+}
+
+TEST_F(Overview, SaysThatRunsAreTooFewForManyComparisons) {
+    tests::comparison(corridor(), primary).holm_p = 0.2;
+    const Badge badge = badge_of(scenario_, corridor(), Script::plain);
+    EXPECT_EQ(badge.runs, Badge::Runs::too_few);
+    EXPECT_THAT(badge.words,
+                HasSubstr("show the direction of one comparison alone, not among so many (Holm)"));
+    study_.scenarios = {scenario_};
+    EXPECT_THAT(report::headline(study_),
+                HasSubstr("emergency vehicles faster under 1 of 1 condition (none with "
+                          "Holm's correction)"));
 }
 
 TEST_F(Overview, OfABaselineAloneIsEmpty) {

@@ -306,6 +306,7 @@ TEST(FigureFiles, AreAllOnOnePage) {
     }
     EXPECT_THAT(index, HasSubstr("href=\"tradeoff-merge.pdf\""));
     EXPECT_THAT(index, HasSubstr("\\label{fig:tradeoff-merge}"));
+    EXPECT_THAT(index, HasSubstr("<details><summary>Table</summary><div class=\"scroll\""));
     EXPECT_THAT(index, HasSubstr("height=.8\\textheight,keepaspectratio]{tradeoff-merge.pdf}"));
     EXPECT_THAT(index, Not(HasSubstr("<b>")));
 }

@@ -268,6 +268,22 @@ TEST(LeaseSentence, names_what_was_asked_or_that_nothing_was) {
               "out, refused at some time: no_room_beside 400, lockout 1");
 }
 
+// What is heard is renewed, and what is lost is asked anew.
+TEST(LeaseSentence, tells_lost_messages_from_what_was_refused) {
+    ScenarioFacts scenario = tests::scenario("merge");
+    ConditionFacts& condition = scenario.conditions[1];
+    condition.condition.policies = {"Green"};
+    condition.leases = {
+        {"Green", traffic::LeaseKind::hold_green, 272, 179, 34, 0, {{traffic::Refusal::unheard, 238}}}};
+    EXPECT_EQ(lease_sentence(condition),
+              "Green: asked a signal for green 34 times, 34 carried out, 238 of 451 messages lost");
+    EXPECT_EQ(refusals_sentence(condition), "");
+    condition.leases.front().acted = 5;
+    condition.leases.front().refused[traffic::Refusal::lockout] = 29;
+    EXPECT_THAT(refusals_sentence(condition), HasSubstr("Of Green's 34 requests 85 % were never carried out, "
+                                                        "mostly refused as lockout"));
+}
+
 TEST(Verdict, of_one_replication_claims_nothing) {
     ScenarioFacts scenario = tests::scenario("merge");
     tests::difference(scenario.conditions[1], primary) = analysis::Estimate{1, -12.4, 0.0, {}};

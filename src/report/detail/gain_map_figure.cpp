@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -136,7 +137,9 @@ DataTable data_of(const ScenarioFacts& scenario, const WayCounts& counts,
     const RoadMap& roads = *scenario.roads;
     const ScenarioMap& map = *scenario.map;
     DataTable table{{"What", "id", "passages or holds", "baseline, s", "condition, s", "gain, s"}, {}};
-    for (const EdgeTimes& one : map.times)
+    std::vector<EdgeTimes> times = map.times;
+    std::ranges::stable_sort(times, std::greater{}, &EdgeTimes::gain_s);
+    for (const EdgeTimes& one : times)
         table.rows.push_back({"edge", roads.edges[one.edge].id, grouped(one.passages),
                               number(one.baseline_s, typeset(2)), number(one.condition_s, typeset(2)),
                               number(one.gain_s(), typeset(2, Sign::always))});

@@ -15,8 +15,13 @@ constexpr double below_height = 12.0;  ///< More for a second line.
 constexpr double small_letter = 5.1;   ///< Width of one of that line.
 constexpr double cells_right = 396.0;
 constexpr double gap = 2.0;
+constexpr double label_margin = 7.0;
 constexpr double letter = 6.5;  ///< Width of one.
-constexpr std::size_t longest_label = 18;
+/// Letters of a row's label: at least the first, and up to the second where columns leave room.
+constexpr double short_label = 18.0;
+constexpr double longest_label = 40.0;
+constexpr double usual_column = 60.0;
+constexpr std::size_t most_columns = 6;  ///< More are too narrow for their figures.
 
 }  // namespace
 
@@ -51,12 +56,30 @@ std::vector<std::string> heading_lines(const std::string& heading, std::size_t l
     return {heading.substr(0, end + 1), fits ? rest : shortened(rest, letters - 1)};
 }
 
+/// Letters of the longest second line of a cell; 0 without any.
+std::size_t letters_below(const Grid& grid) {
+    std::size_t letters = 0;
+    for (const Grid::Row& row : grid.rows)
+        for (const GridCell& cell : row.cells)
+            letters = std::max(letters, core::characters_in(cell.below));
+    return letters;
+}
+
+/// Letters of the longest label that is drawn whole.
+std::size_t label_letters(const Grid& grid) {
+    const double second_line = small_letter * static_cast<double>(letters_below(grid)) + 2.0 * gap;
+    const double columns = static_cast<double>(std::min(grid.columns.size(), most_columns));
+    const double room = cells_right - columns * std::max(usual_column, second_line) - label_margin;
+    return static_cast<std::size_t>(std::clamp(room / letter, short_label, longest_label));
+}
+
 /// Room for the labels of the rows.
 double cells_left_of(const Grid& grid) {
+    const std::size_t most = label_letters(grid);
     std::size_t letters = 4;
     for (const Grid::Row& row : grid.rows)
-        letters = std::max(letters, std::min(row.label.size(), longest_label));
-    return 7.0 + letter * static_cast<double>(letters);
+        letters = std::max(letters, std::min(core::characters_in(row.label), most));
+    return label_margin + letter * static_cast<double>(letters);
 }
 
 double column_width(const Grid& grid) {
@@ -69,15 +92,6 @@ double columns_height_of(const Grid& grid) {
     const bool is_long = std::ranges::any_of(
         grid.columns, [&](const std::string& column) { return heading_lines(column, letters).size() > 1; });
     return columns_height + (is_long ? line_height : 0.0);
-}
-
-/// Letters of the longest second line of a cell; 0 without any.
-std::size_t letters_below(const Grid& grid) {
-    std::size_t letters = 0;
-    for (const Grid::Row& row : grid.rows)
-        for (const GridCell& cell : row.cells)
-            letters = std::max(letters, core::characters_in(cell.below));
-    return letters;
 }
 
 double row_height_of(const Grid& grid) {
@@ -109,7 +123,7 @@ void draw_grid(const Grid& grid, double top, Canvas& canvas) {
     top += columns_height_of(grid);
     const double height = row_height_of(grid);
     for (const Grid::Row& row : grid.rows) {
-        canvas.text(2.0, top + 16.0, shortened(row.label, longest_label), Anchor::start, "label");
+        canvas.text(2.0, top + 16.0, shortened(row.label, label_letters(grid)), Anchor::start, "label");
         for (std::size_t column = 0; column < row.cells.size(); ++column) {
             const double left = cells_left + static_cast<double>(column) * width;
             const GridCell& cell = row.cells[column];
@@ -121,9 +135,6 @@ void draw_grid(const Grid& grid, double top, Canvas& canvas) {
         top += height;
     }
 }
-
-/// More columns are too narrow for their figures.
-constexpr std::size_t most_columns = 6;
 
 template <class Cell>
 std::vector<Cell> part_of(const std::vector<Cell>& cells, std::size_t first, std::size_t count) {

@@ -153,6 +153,7 @@ stroke-width:4px;stroke-linejoin:round}
 .plot .hair{fill:none;stroke:currentColor;stroke-width:1;stroke-opacity:.4}
 .plot .band{fill:currentColor;fill-opacity:.16;stroke:none}
 .plot .dot{fill:currentColor;stroke:var(--paper);stroke-width:1.2}
+.plot .dot.through{fill-opacity:.45;stroke:currentColor;stroke-width:1.4}
 .plot .dot.hollow{fill:var(--paper);stroke:currentColor;stroke-width:2}
 .plot .bar.thin{stroke-width:1.4}.plot .onDot{fill:var(--paper);font-weight:700}
 .plot .uncounted{fill:var(--muted);fill-opacity:.16}

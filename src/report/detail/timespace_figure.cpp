@@ -94,18 +94,19 @@ Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& con
     const double saved_s = without->places.back().time_s - with->places.back().time_s;
     const char* const ways =
         has_two_ways ? " It took another way with the condition: each line follows its own." : "";
-    return {"trip-" + scenario.name, "One trip with and without", plot.finish(),
-            fmt::format(
-                "Vehicle {}, replication {}: {} s {}.{} A level piece is a stop. {}", with->vehicle,
-                with->replication, number(std::abs(saved_s), typeset(1)), saved_s >= 0.0 ? "sooner" : "later",
-                ways,
-                without->signals.empty() && with->signals.empty()
-                    ? "No signal stands on its route. Its gain is the middle one of the first replications."
-                    : "Signals on its route are drawn twice: without the condition above the stop "
-                      "line, with it below; a vehicle may stand at green behind one whose turn has red. "
-                      "Its gain is the middle one of the trips of the first replications that pass "
-                      "signals."),
-            std::move(data)};
+    return {
+        "trip-" + scenario.name, "One trip with and without", plot.finish(),
+        fmt::format(
+            "Vehicle {}, replication {}: {} s {}.{} A level piece is a stop. {}", with->vehicle,
+            with->replication, number(std::abs(saved_s), typeset(1)), saved_s >= 0.0 ? "sooner" : "later",
+            ways,
+            without->signals.empty() && with->signals.empty()
+                ? "No signal stands on its route. Its gain is nearest to the mean of the first replications."
+                : "Signals on its route are drawn twice: without the condition above the stop "
+                  "line, with it below; a vehicle may stand at green behind one whose turn has red. "
+                  "Its gain is nearest to the mean of the trips of the first replications that pass "
+                  "signals."),
+        std::move(data)};
 }
 
 }  // namespace clearway::report::detail

@@ -70,7 +70,8 @@ std::vector<Point> points_of(const StudyFacts& study, const ScenarioFacts& scena
 using Place = std::pair<double, double>;
 constexpr double badge_radius = 8.0;
 constexpr double mark_radius = 5.5;
-constexpr const char* hollow = " hollow";  ///< The mark of a condition that loses or hits more EVs.
+constexpr const char* see_through = " through";  ///< A mark that others may lie on.
+constexpr const char* hollow = " hollow";        ///< The mark of a condition that loses or hits more EVs.
 
 /// The dash tells colours apart without colour.
 std::string interval_style(const Series& series) {
@@ -131,8 +132,8 @@ void draw_number(Plot& plot, const Point& point, const Place& at) {
 void draw_mark(Plot& plot, const Point& point, const Place& at) {
     if (point.series.weight == Series::Weight::lead)
         plot.circle(at.first, at.second, mark_radius + 4.0, "ring " + colour_of(point.series));
-    plot.add(
-        mark_of(point.series, at.first, at.second, mark_radius, point.objection().empty() ? "" : hollow));
+    plot.add(mark_of(point.series, at.first, at.second, mark_radius,
+                     point.objection().empty() ? see_through : hollow));
 }
 
 std::vector<Place> places_of(const Plot& plot, const std::vector<Point>& points) {
@@ -266,8 +267,12 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
     std::vector<Point> points = points_of(study, scenario);
     if (points.empty()) return {};
     DataTable data = data_of(points);
-    const std::size_t merged =
-        std::erase_if(points, [&](const Point& point) { return is_shown_by_another(scenario, point); });
+    std::vector<std::string> merged;
+    std::erase_if(points, [&](const Point& point) {
+        const bool is_merged = is_shown_by_another(scenario, point);
+        if (is_merged) merged.push_back(point.condition->label());
+        return is_merged;
+    });
     Range costs;
     Range gains;
     costs.include(0.0);
@@ -307,9 +312,9 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
         number(scenario.least_relevant_s, typeset(1)));
     note += touching_words(points, places);
     if (is_moved) note += " A number that would hide another has a line to its dot.";
-    if (merged > 0)
-        note += fmt::format(" Without a mark: {} whose every run is one of another (see the verdicts).",
-                            counted(merged, "condition"));
+    if (!merged.empty())
+        note += fmt::format(" Without a mark, as every run is one of another (see the verdicts): {}.",
+                            fmt::join(merged, "; "));
     if (std::ranges::any_of(points, &Point::turned_alone)) note += " Small dots: one setting turned alone.";
     return {"tradeoff-" + scenario.name, "Gain and cost against the baseline", plot.finish(), note,
             std::move(data)};

@@ -1,6 +1,7 @@
 #include "report/detail/traffic_facts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <utility>
@@ -81,13 +82,17 @@ void add_candidates(std::uint32_t replication, const std::vector<Journeys>& runs
     }
 }
 
-/// The one in the middle of the gains; of trips that pass signals, if there are any: the others tell nothing
-/// of what was asked of signals. Candidates may not be empty.
+/// The one whose gain is nearest to the mean, as most gains may be 0; of trips that pass signals, if there
+/// are any: the others tell nothing of what was asked of signals. Candidates may not be empty.
 Candidate typical_of(std::vector<Candidate> candidates) {
     const auto passes = [](const Candidate& one) { return one.passes_signals; };
     if (std::ranges::any_of(candidates, passes)) std::erase_if(candidates, std::not_fn(passes));
-    std::ranges::stable_sort(candidates, {}, &Candidate::gain_s);
-    return candidates[candidates.size() / 2];
+    double sum_s = 0.0;
+    for (const Candidate& one : candidates)
+        sum_s += one.gain_s;
+    const double mean_s = sum_s / static_cast<double>(candidates.size());
+    return *std::ranges::min_element(candidates, {},
+                                     [&](const Candidate& one) { return std::abs(one.gain_s - mean_s); });
 }
 
 }  // namespace

@@ -114,8 +114,9 @@ void draw_recovery(Plot& plot, const ConditionFacts& condition, const Series& se
               "heading");
     const auto& recovered_s = condition.recovery->recovered_after_s;
     plot.text(plot.x().from, plot.y().to - 6.0,
-              recovered_s ? fmt::format("recovered after {} s", number(*recovered_s, typeset(0)))
-                          : "not recovered in this time",
+              recovered_s      ? fmt::format("recovered after {} s", number(*recovered_s, typeset(0)))
+              : bounds.empty() ? "too few passages to tell"
+                               : "not recovered in this time",
               Plot::Anchor::start, "label");
 }
 

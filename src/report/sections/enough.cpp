@@ -83,7 +83,8 @@ void enough_section(const StudyFacts& study, Writer& writer) {
     writer.markup(
         "<p>Half the width of the 95 % interval of the EV travel time difference, as replications were "
         "added. Where the curve is below the line, differences as small as the line can be detected. If an "
-        "effect is shown, n is enough from ten on, if it was chosen before. The last column gives the number "
+        "effect is shown, n is enough from ten on, if it was chosen before and for one comparison; among "
+        "several, p (Holm) decides. The last column gives the number "
         "of replications for an interval as narrow as the line "
         "(FHWA: n = (t s / e)\u00b2, at least 10).</p>\n");
     writer.figures(figures_of(study, precision_figure));

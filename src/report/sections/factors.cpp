@@ -13,6 +13,7 @@
 #include "report/detail/figures.hpp"
 #include "report/detail/grid.hpp"
 #include "report/sections/sections.hpp"
+#include "report/shared_sentences.hpp"
 #include "report/verdict.hpp"
 
 namespace clearway::report::detail {
@@ -112,7 +113,8 @@ GridCell cell_of(const Made& made, Measure measure) {
     const bool lost =
         measure == Measure::emergency_restricted_time && made.condition->objections.on_emergency();
     const analysis::Interval* const interval = shown_interval(difference);
-    return {number(difference->mean, typeset(1, Sign::always)) + (lost ? " (!)" : ""),
+    const char* const mark = lost ? " (!)" : is_shown_alone(*made.condition, measure) ? " ?" : "";
+    return {number(difference->mean, typeset(1, Sign::always)) + mark,
             lost || effect == Effect::worse ? GridCell::Tone::worse
             : effect == Effect::better      ? GridCell::Tone::better
                                             : GridCell::Tone::neutral,
@@ -259,7 +261,7 @@ DataTable data_of(const std::vector<Made>& made, const std::vector<Factor>& fact
     return table;
 }
 
-/// What the colours of the cells and `(!)` mean.
+/// What the colours and marks of the cells mean.
 std::vector<LegendEntry> entries_of(const std::vector<Grid>& grids) {
     const auto sample = [](GridCell::Tone tone, const char* words) {
         return LegendEntry{
@@ -269,11 +271,16 @@ std::vector<LegendEntry> entries_of(const std::vector<Grid>& grids) {
     std::vector<LegendEntry> entries = {sample(GridCell::Tone::better, "better"),
                                         sample(GridCell::Tone::worse, "worse"),
                                         sample(GridCell::Tone::neutral, "no effect shown or too small")};
-    for (const Grid& grid : grids)
-        for (const Grid::Row& row : grid.rows)
-            for (const GridCell& cell : row.cells)
-                if (cell.text.ends_with("(!)") && entries.size() == 3)
-                    entries.push_back({"", "(!) more EVs lost or hit, or safety checks off"});
+    const auto has = [&](std::string_view mark) {
+        return std::ranges::any_of(grids, [&](const Grid& grid) {
+            return std::ranges::any_of(grid.rows, [&](const Grid::Row& row) {
+                return std::ranges::any_of(row.cells,
+                                           [&](const GridCell& cell) { return cell.text.ends_with(mark); });
+            });
+        });
+    };
+    if (has("(!)")) entries.push_back({"", "(!) more EVs lost or hit, or safety checks off"});
+    if (has(" ?")) entries.push_back({"", "? shown alone, not among so many comparisons (Holm)"});
     return entries;
 }
 

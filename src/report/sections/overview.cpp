@@ -53,8 +53,9 @@ void write_words(const StudyFacts& study, const ScenarioFacts& scenario, const C
                   incident + tile_markup(others_tile(scenario, condition, script)) +
                   tile_markup(safety_tile(scenario, condition, script)) + "</div>\n");
     write_notes({privilege_sentence(scenario, condition, script), controls_note(scenario, condition, script),
-                 incidents_sentence(scenario, script), locks_sentence(scenario, condition),
-                 among_conditions(study, scenario), worst_trips(scenario, condition, script)},
+                 failing_note(scenario, condition, script), incidents_sentence(scenario, script),
+                 locks_sentence(scenario, condition), among_conditions(study, scenario),
+                 worst_trips(scenario, condition, script)},
                 writer);
 }
 
