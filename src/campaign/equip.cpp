@@ -23,6 +23,7 @@
 
 namespace clearway::campaign {
 
+using detail::chosen_words;
 using detail::interim_words;
 using detail::less_time;
 using detail::Look;
@@ -146,15 +147,18 @@ analysis::EquipPlan raced(const EquipRequest& request, Search& search, Look& loo
 /// What was chosen and what fresh runs make of it. Where they are interrupted, what was known is said first.
 std::pair<analysis::EquipPlan, FreshOutcomes> measured(const EquipRequest& request, Search& search) {
     Look look;
+    std::optional<analysis::EquipPlan> plan;
     try {
-        analysis::EquipPlan plan = raced(request, search, look);
+        plan = raced(request, search, look);
         analysis::SignalSet chosen;
-        for (const analysis::EquipStep& step : plan.steps)
+        for (const analysis::EquipStep& step : plan->steps)
             chosen.push_back(step.candidate);
         FreshOutcomes fresh = search.rounds.estimate(chosen);
-        return {std::move(plan), std::move(fresh)};
+        return {*std::move(plan), std::move(fresh)};
     } catch (const core::Error& error) {
-        if (is_interrupted(error.exit_code())) core::print_message(interim_words(look, search.signals));
+        if (is_interrupted(error.exit_code()))
+            core::print_message(plan ? chosen_words(*plan, search.signals)
+                                     : interim_words(look, search.signals));
         throw;
     }
 }

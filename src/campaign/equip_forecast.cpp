@@ -18,6 +18,7 @@
 #include "core/terminal.hpp"
 #include "experiment/related_conditions.hpp"
 #include "report/text.hpp"
+#include "report/verdict.hpp"
 
 namespace clearway::campaign {
 
@@ -64,6 +65,21 @@ std::uint32_t seeds_within(EquipRequest request, const scenario::BuiltNetwork& b
                                                          analysis::most_equip_replications));
 }
 
+/// Complete runs of earlier calls below the folder.
+std::size_t runs_below(const std::filesystem::path& folder) {
+    std::error_code none;
+    std::size_t count = 0;
+    for (std::filesystem::recursive_directory_iterator entry(folder, none), end; !none && entry != end;
+         entry.increment(none))
+        count += entry->path().filename() == "run.json" ? 1 : 0;
+    return count;
+}
+
+/// What becomes of gains over few seeds; empty for more.
+const char* few_seeds_warning(std::uint32_t seeds) {
+    return seeds < report::fewest_to_trust ? " So few seeds show large gains alone." : "";
+}
+
 /// What a first look of a quarter of an hour could be, the most seeds and then places, where what is asked
 /// for takes longer; else empty. A run adds `run_s` to the time.
 std::string short_plan(const EquipRounds& rounds, const EquipRequest& request, std::size_t candidates,
@@ -77,16 +93,16 @@ std::string short_plan(const EquipRounds& rounds, const EquipRequest& request, s
     for (std::uint32_t seeds = request.replications; seeds >= analysis::fewest_for_interval; --seeds) {
         for (std::size_t budget = std::min(request.budget, candidates); budget > 0; --budget)
             if (fits(rounds.forecast(budget, seeds)))
-                return fmt::format(" A first look, in {} minutes: --seeds {} --budget {}.", minutes, seeds,
-                                   budget);
+                return fmt::format(" A first look, in {} minutes: --seeds {} --budget {}.{}", minutes, seeds,
+                                   budget, few_seeds_warning(seeds));
     }
     // Which signals trips pass is known for the seeds that were asked for: more take as much each.
     const auto known = std::min<std::uint32_t>(request.replications, analysis::fewest_for_interval);
     const double least_s = seconds(rounds.forecast(1, known)) * analysis::fewest_for_interval / known;
-    return fmt::format(
-        " The smallest plan that can show something of {} takes about {}: --seeds {} --budget 1.{}",
-        report::counted(candidates, "candidate"), clock_words(least_s), analysis::fewest_for_interval,
-        candidates > 1 ? " Fewer --candidates take less." : "");
+    return fmt::format(" The smallest plan with intervals, of {}, takes about {}: --seeds {} --budget 1.{}{}",
+                       report::counted(candidates, "candidate"), clock_words(least_s),
+                       analysis::fewest_for_interval, few_seeds_warning(analysis::fewest_for_interval),
+                       candidates > 1 ? " Fewer --candidates take less." : "");
 }
 
 }  // namespace
@@ -140,17 +156,23 @@ core::ExitCode equip_dry_run(EquipRequest request) {
             runs.race);
     add("later places", runs.later, runs.later_most);
     add("fresh seeds: estimate", runs.fresh, runs.fresh);
-    const std::string size =
-        fmt::format("{} likely, {} at most, into {}; runs that it holds are not made again.",
-                    report::counted(runs.likely(), "run"), runs.most(), request.run.folder.string());
+    const std::size_t held = runs_below(request.run.folder);
+    const std::size_t rest = runs.likely() - std::min(held, runs.likely());
+    const std::string size = fmt::format(
+        "{} likely, {} at most, into {}{}.", report::counted(runs.likely(), "run"), runs.most(),
+        request.run.folder.string(),
+        held == 0
+            ? ""
+            : fmt::format(", which holds {} of earlier calls; those that it needs are not made again", held));
     const std::string vain =
         request.replications < analysis::fewest_for_interval
             ? fmt::format(" Nothing can be shown by fewer than {} seeds.", analysis::fewest_for_interval)
             : "";
-    const std::string time =
-        cost.wall_s ? fmt::format("About {} with {}, warm-ups left out ({}).", clock(runs.likely()),
-                                  report::counted(processes, "worker"), words(cost.basis))
-                    : "Time unknown: a run of this scenario beside that folder tells.";
+    const std::string time = cost.wall_s
+                                 ? fmt::format("About {}{} with {}, warm-ups left out ({}).", clock(rest),
+                                               held == 0 ? "" : " for the rest",
+                                               report::counted(processes, "worker"), words(cost.basis))
+                                 : "Time unknown: a run of this scenario beside that folder tells.";
     const std::string few = request.budget > candidates
                                 ? fmt::format(" The budget is {}, and {} could gain.", request.budget,
                                               report::counted(candidates, "signal"))
@@ -163,6 +185,7 @@ core::ExitCode equip_dry_run(EquipRequest request) {
             {"candidates", candidates},
             {"runs", runs.likely()},
             {"most_runs", runs.most()},
+            {"held_runs", held},
             {"estimated_time_s", seconds(runs.likely())},
             {"estimate_measured", cost.basis == CostBasis::measured}},
            {table},

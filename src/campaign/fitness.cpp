@@ -144,11 +144,13 @@ Finding jams_finding(const metrics::RunMetrics& run, const RoadUse& use, const C
                                         : density_advice(checked, use.factor)};
 }
 
+constexpr const char* signals_name = "signals";
+
 Finding signals_finding(const roads::Network& network, const std::vector<detail::EmergencyTrip>& trips) {
     const std::size_t count = network.signals().size();
     if (count == 0)
         return {
-            "signals", Grade::note,
+            signals_name, Grade::note,
             "0 in the network: signal policies have no effect here; only policies that make vehicles give "
             "way can help"};
     const detail::Crossings crossings = detail::crossings_of(network);
@@ -156,7 +158,7 @@ Finding signals_finding(const roads::Network& network, const std::vector<detail:
     for (const detail::EmergencyTrip& trip : trips)
         met.add(detail::passed_by(trip.edges, crossings).size());
     const bool are_few = 2 * met.trips_with_signals < met.trips;
-    return {"signals", are_few ? Grade::note : Grade::ok,
+    return {signals_name, are_few ? Grade::note : Grade::ok,
             fmt::format("{} in the network; {} of {} pass one", count, met.trips_with_signals,
                         core::counted(met.trips, "EV")),
             are_few ? "studies/parts.toml with --scenario: corridor also clears lanes and holds crossing "
@@ -218,8 +220,11 @@ std::string conclusion_of(const std::string& scenario, const std::vector<Finding
             "{} may be fit for a study: its one run locks, and others may more; --lock-trials 6 "
             "tells. Noted: {}.",
             scenario, core::listed(noted));
+    const bool lacks_signals = std::ranges::find(noted, signals_name) != noted.end();
     if (short_of.empty())
-        return fmt::format("{} is fit for a study, with what is noted: {}.", scenario, core::listed(noted));
+        return fmt::format(
+            "{} is fit for a study, with what is noted: {}.{}", scenario, core::listed(noted),
+            lacks_signals ? " Few EVs pass a signal, so a study of signals can show little." : "");
     return fmt::format("{} is not fit for a study as it is: {}.", scenario, core::listed(short_of));
 }
 

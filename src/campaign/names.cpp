@@ -92,6 +92,22 @@ std::vector<std::pair<std::string, std::string>> chosen_levels(const std::string
 
 }  // namespace
 
+namespace {
+
+/// The level that `given` is, or is the title of; empty where there is none.
+std::string level_of(const std::string& given, const std::vector<std::string>& known,
+                     const core::Settings& titles) {
+    const auto is_meant = [&](const std::string& level) {
+        const auto title = titles.find(level);
+        return level == given || (title != titles.end() && title->second == given);
+    };
+    const auto exact = std::ranges::find(known, given);
+    const auto found = exact != known.end() ? exact : std::ranges::find_if(known, is_meant);
+    return found == known.end() ? "" : *found;
+}
+
+}  // namespace
+
 analysis::Reference reference_from(const std::string& against,
                                    const std::vector<experiment::ConditionSpec>& conditions,
                                    const std::filesystem::path& folder) {
@@ -99,7 +115,8 @@ analysis::Reference reference_from(const std::string& against,
     const char* const option = "--against";
     const std::vector<std::string> names = core::texts_of(conditions, &experiment::ConditionSpec::name);
     if (std::ranges::find(names, against) != names.end()) return {.name = against};
-    const core::Settings titles = report::titles_of(results::Store::open(folder));
+    const results::Store store = results::Store::open(folder);
+    const core::Settings titles = report::titles_of(store);
     const auto titled = std::ranges::find(titles, against, [](const auto& title) { return title.second; });
     if (titled != titles.end()) return {.name = titled->first};
     if (against == "best") return {.chosen = analysis::Reference::Chosen::best};
@@ -111,6 +128,7 @@ analysis::Reference reference_from(const std::string& against,
         if (!levels.empty()) problem.allowed += "; or a factor and its level, as " + example_of(levels);
         throw core::InputError(std::move(problem));
     }
+    const core::Settings given_titles = report::given_titles_of(store);
     analysis::Reference reference;
     for (const auto& [factor, level] : chosen_levels(against, levels)) {
         const auto found = factor_named(factor, levels);
@@ -120,10 +138,10 @@ analysis::Reference reference_from(const std::string& against,
                 factors.push_back(name);
             throw core::InputError(unknown_name(fmt::format("{}: factor", option), factor, factors));
         }
-        if (std::ranges::find(found->second, level) == found->second.end())
+        reference.levels[found->first] = level_of(level, found->second, given_titles);
+        if (reference.levels[found->first].empty())
             throw core::InputError(
                 unknown_name(fmt::format("{}: level of {}", option, found->first), level, found->second));
-        reference.levels[found->first] = level;
     }
     return reference;
 }

@@ -47,5 +47,19 @@ TEST_F(EquipLook, tells_what_those_gain_that_are_chosen) {
                       HasSubstr("  No. 4 High Street: 1.0")));
 }
 
+TEST_F(EquipLook, tells_what_was_chosen_where_fresh_seeds_are_interrupted) {
+    analysis::EquipPlan plan;
+    const analysis::MaybeEstimate gain = less_time({90.0, 92.0}, {80.0, 82.0});
+    plan.steps.emplace_back().candidate = 1;
+    plan.steps.back().gain = gain;
+    plan.candidates.resize(2);
+    plan.candidates[1].gain = gain;
+    EXPECT_THAT(chosen_words(plan, signals_),
+                AllOf(HasSubstr("the search has ended"), HasSubstr("  1) No. 9 Low Road: 10.0"),
+                      HasSubstr("Each alone:\n  No. 9 Low Road: 10.0"), HasSubstr("  No. 4 High Street: ")));
+    plan.steps.clear();
+    EXPECT_THAT(chosen_words(plan, signals_), HasSubstr("It chose no signal."));
+}
+
 }  // namespace
 }  // namespace clearway::campaign::detail

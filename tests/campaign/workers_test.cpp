@@ -129,7 +129,7 @@ TEST_F(Study, RecordsACrashAfterThreeAttemptsAndGoesOn) {
 
 TEST_F(Study, EndsAWorkerAtItsTimeLimit) {
     plan({"baseline", "hang"}, 1);
-    options_.limits.wall_s = 0.1;
+    options_.limits.wall_s = 0.5;
     options_.attempts = 2;
     const StudyResult result = run_in("out");
     EXPECT_EQ(result.exit_code, ExitCode::runs_failed);

@@ -17,32 +17,66 @@ analysis::MaybeEstimate less_time(const analysis::Values& before, const analysis
     return analysis::estimate_paired(before, after, analysis::MetricKind::quantity, level);
 }
 
-std::string interim_words(const Look& look, const Signals& signals) {
+namespace {
+
+using Gain = std::pair<analysis::MaybeEstimate, std::size_t>;  // of a candidate
+
+std::string name_of(std::size_t candidate, const Signals& signals) {
+    const std::string& streets = signals.streets(candidate);
+    return fmt::format(
+        "No. {} {}", signals.number(candidate),
+        streets.empty() ? report::short_signal_name(signals.id(candidate)) : report::printable(streets));
+}
+
+/// The largest first, a line each.
+std::string gain_lines(std::vector<Gain> gains, const Signals& signals) {
     constexpr std::size_t most_told = 5;
+    std::ranges::stable_sort(gains, std::greater{},
+                             [](const Gain& one) { return analysis::mean_of(one.first).value_or(-1e30); });
+    gains.resize(std::min(gains.size(), most_told));
+    std::string text;
+    for (const auto& [gain, candidate] : gains)
+        text += core::wrapped(
+                    fmt::format("  {}: {}", name_of(candidate, signals), report::estimate(gain, {})), 4) +
+                "\n";
+    return text;
+}
+
+constexpr const char* flatters = "Gains, s, of which the largest flatters itself:\n";
+
+}  // namespace
+
+std::string interim_words(const Look& look, const Signals& signals) {
     if (look.sets.size() < 2) return "clearway: no look is complete: no gain can be told yet\n";
-    std::vector<std::pair<analysis::MaybeEstimate, std::size_t>> gains;
+    std::vector<Gain> gains;
     for (std::size_t set = 1; set < look.sets.size(); ++set)
         if (look.sets[set].size() == look.sets.front().size() + 1)
             gains.emplace_back(less_time(look.values.front(), look.values[set]), look.sets[set].back());
-    std::ranges::stable_sort(gains, std::greater{},
-                             [](const auto& one) { return analysis::mean_of(one.first).value_or(-1e30); });
-    gains.resize(std::min(gains.size(), most_told));
-    const auto name = [&](std::size_t candidate) {
-        const std::string& streets = signals.streets(candidate);
-        return fmt::format(
-            "No. {} {}", signals.number(candidate),
-            streets.empty() ? report::short_signal_name(signals.id(candidate)) : report::printable(streets));
-    };
     std::string text =
         fmt::format("clearway: no ranking yet; the last complete look, {} seeds", look.replications);
     if (!look.sets.front().empty())
-        text += fmt::format(", beside those chosen so far, {}, which gain {} s",
-                            core::listed(core::texts_of(look.sets.front(), name)),
-                            report::estimate(less_time(look.none, look.values.front()), {}));
-    text += ". Gains, s, of which the largest flatters itself:\n";
-    for (const auto& [gain, candidate] : gains)
-        text += core::wrapped(fmt::format("  {}: {}", name(candidate), report::estimate(gain, {})), 4) + "\n";
-    return text;
+        text += fmt::format(
+            ", beside those chosen so far, {}, which gain {} s",
+            core::listed(core::texts_of(look.sets.front(),
+                                        [&](std::size_t candidate) { return name_of(candidate, signals); })),
+            report::estimate(less_time(look.none, look.values.front()), {}));
+    return text + ". " + flatters + gain_lines(std::move(gains), signals);
+}
+
+std::string chosen_words(const analysis::EquipPlan& plan, const Signals& signals) {
+    std::string text = "clearway: the search has ended, the fresh seeds that tell its gain have not. ";
+    text += plan.steps.empty() ? "It chose no signal. " : "It chose, in this order, with what each adds. ";
+    text += flatters;
+    for (std::size_t rank = 0; rank < plan.steps.size(); ++rank)
+        text +=
+            core::wrapped(fmt::format("  {}) {}: {}", rank + 1, name_of(plan.steps[rank].candidate, signals),
+                                      report::estimate(plan.steps[rank].gain, {})),
+                          4) +
+            "\n";
+    std::vector<Gain> alone;
+    for (std::size_t candidate = 0; candidate < plan.candidates.size(); ++candidate)
+        alone.emplace_back(plan.candidates[candidate].gain, candidate);
+    return text + "Each alone:\n" + gain_lines(std::move(alone), signals);
 }
 
 }  // namespace clearway::campaign::detail

@@ -24,4 +24,7 @@ struct Look {
 /// The candidates that gained most in a look, a line each, and what those gain that were chosen before.
 std::string interim_words(const Look& look, const Signals& signals);
 
+/// What a search chose whose fresh seeds were interrupted, and what each candidate gains alone.
+std::string chosen_words(const analysis::EquipPlan& plan, const Signals& signals);
+
 }  // namespace clearway::campaign::detail
