@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import functools
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Union
 
@@ -56,6 +56,18 @@ class Conditions:
         for one in _program.call_json(["compare", str(self._folder.absolute())])["conditions"]:
             titles.setdefault(one["title"], set()).add(one["condition"])
         return titles
+
+    @functools.cached_property
+    def _given(self) -> dict[str, str]:
+        """The titles that the study gives names and values of factors."""
+        try:
+            return dict(json.loads((self._folder / "titles.json").read_bytes()))
+        except (OSError, ValueError, TypeError):
+            return {}  # its titles are then those of Clearway alone
+
+    def level_of(self, value: Any, levels: Iterable[Any]) -> Any:
+        """The value of a factor of which ``value`` is the title; ``value`` itself, where it is none."""
+        return next((level for level in levels if self._given.get(str(level)) == value), value)
 
     def title_of(self, name: str) -> str:
         """What tables call a condition that factors made; the name of another one, and where there is no title of its own."""
@@ -113,7 +125,8 @@ class Conditions:
             if name not in known and name not in self._known("scenario"):
                 there = _program.there_are(name, list(known), "factor", "list(results.runs)")
                 raise _program.InputError(f"the conditions of this study have no factor {name!r}{there}")
-        given = {name: value for name, value in given.items() if name in known}
+        given = {name: value if any(_is(level, value) for level in known[name]) else self.level_of(value, known[name])
+                 for name, value in given.items() if name in known}
         for name, value in given.items():
             if not any(_is(level, value) for level in known[name]):
                 there = _program.there_are(value, known[name], "level", f"set(results.runs[{name!r}])")

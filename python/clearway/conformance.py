@@ -314,6 +314,12 @@ class Judgement:
     def asks_in(self, beginning: str) -> bool:
         return any(leases for scene, _, leases in self.decisions() if scene.name.startswith(beginning))
 
+    def tells_of(self, rule: "Rule") -> bool:
+        """Whether there is anything to judge by: an answer, and for most rules of policies one that asks for something."""
+        if rule is ANSWERS_RULE:
+            return True
+        return self.asks() if rule.judges_leases else any(told.answers for told in self.first)
+
     def asks(self) -> bool:
         return any(leases for _, _, leases in self.decisions())
 
@@ -323,9 +329,13 @@ def _place(scene: Scene, shown: list[dict[str, np.ndarray]]) -> str:
 
 
 def does_not_answer(judgement: Judgement) -> Iterator[str]:
+    places: dict[str, list[str]] = {}  # the same failure is told once
     for scene, told in zip(judgement.scenes, judgement.first):
         if told.failure:
-            yield f"{_place(scene, scene.shown[:len(told.answers) + 1])}: {told.failure}"
+            places.setdefault(told.failure, []).append(_place(scene, scene.shown[:len(told.answers) + 1]))
+    for failure, where in places.items():
+        others = f" and {_program.counted(len(where) - 1, 'other scene')}" if len(where) > 1 else ""
+        yield f"{where[0]}{others}: {failure}"
 
 
 def asks_what_is_not(judgement: Judgement) -> Iterator[str]:
@@ -452,7 +462,7 @@ def report(part: dict[str, Any], judgement: Judgement, left_out: list[str], most
           f"{sum(len(told.answers) for told in judgement.first)} decisions")
     broken = 0
     for rule in RULES[part["kind"]]:
-        silent = "left out" if rule.name in left_out else "not judged" if rule.judges_leases and not judgement.asks() else ""
+        silent = "left out" if rule.name in left_out else "" if judgement.tells_of(rule) else "not judged"
         problems = [] if silent else list(rule.problems(judgement))
         print(f"  {'-' if silent else 'FAIL' if problems else 'pass':6}{rule.name:10}{rule.says}{f' ({silent})' if silent else ''}")
         for problem in problems[:most_told]:

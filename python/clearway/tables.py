@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 #: Rows of a table that are shown.
 SHOWN_ROWS = 10
-#: Columns that say which run a row is of.
-_KEYS = ("scenario", "condition", "replication")
+#: Columns that say which run, or which score of links, a row is of.
+_KEYS = ("scenario", "condition", "replication", "failure", "predictor", "against")
 #: Columns for which a table is looked at: they are shown before others, and before what else says which run a row is of.
 _TELLING = ("cause", "message", "outcome", "reason", "leases", "action", "policy")
 #: What a condition is made of, which is no column where it is no factor.
@@ -29,7 +29,8 @@ _OF_CONDITIONS = ("policy", "failure", "predictor", "model", "dispatch")
 class Table(_program.Told, Mapping[str, np.ndarray]):
     """A table as numpy arrays by column. Read-only; columns carry their units in their names (``emergency_travel_time_s``).
 
-    ``table["collisions"]`` is a column, ``table[["condition", "collisions"]]`` a table of some, ``row_count`` the number of rows.
+    ``table["collisions"]`` is a column, ``table[["condition", "collisions"]]`` a table of some,
+    ``table[table["collisions"] > 0]`` one of some rows, ``row_count`` the number of rows.
     Numbers are ``float64`` or, where all are whole and none is missing, ``int64``; a missing number is NaN. Texts are arrays of
     ``str``, a missing text is ``""``. Printed, it shows the first rows and as many columns as the terminal is wide.
     """
@@ -52,10 +53,18 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
     def __getitem__(self, column: Any) -> Any:
         if isinstance(column, list):
             return self._like({name: self[name] for name in column}, column)
+        if isinstance(column, np.ndarray):
+            return self._like({name: array[self._mask(column)] for name, array in self._columns.items()})
         try:
             return self._columns[column]
         except (KeyError, TypeError):
             raise _program.InputError(self._without(column)) from None
+
+    def _mask(self, mask: np.ndarray) -> np.ndarray:
+        if mask.dtype != bool or mask.shape != (self.row_count,):
+            raise _program.InputError(f"a table is indexed with an array of {mask.dtype}, shape {mask.shape} (allowed: a truth value "
+                                      f"for each of {_program.counted(self.row_count, 'row')}; where(COLUMN=VALUE) chooses rows, too)")
+        return mask
 
     def _without(self, column: Any, value: Any = None) -> str:
         """That there is no such column, and which one is meant, by its name or by the value that is looked for in it."""
@@ -102,6 +111,8 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
             if np.ndim(value) != 0 or isinstance(value, str) != (array.dtype.kind == "U"):
                 kind = "a text" if array.dtype.kind == "U" else "a number"
                 raise _program.InputError(f"column {column!r} is compared with {value!r} (allowed: {kind})")
+            if "." in column and self._conditions is not None and value not in array:
+                value = self._conditions.level_of(value, array.tolist())
             if column == "condition" and self._conditions is not None:
                 value = self._conditions.name_of(value, hint=self._factor_with(value))
             elif column in self._names and value not in self._names[column]:

@@ -65,6 +65,18 @@ class ConditionsTest(FolderCase):
         self.assertIn(f"intersection/{ours}/00000.h5: cannot be read",
                       self.message_of(clearway.InputError, lambda: self.results.recording("intersection", "Ours, B10")))
 
+    def test_a_title_is_taken_where_a_level_of_a_factor_is(self) -> None:
+        runs, named = self.results.runs, {"condition.policy": "preempt_signals"}
+        titled = {"condition.policy": "Ours"}
+        self.assertEqual(set(runs.where(**titled)["condition"]), set(runs.where(**named)["condition"]))
+        self.assertEqual(self.results.paired_difference(self.metric, {**titled, "condition.failure": "B10"}),
+                         self.results.paired_difference(self.metric, "Ours, B10"))
+        compared = [program("compare", str(self.results.folder), "--against", f"policy={policy}", "--json")
+                    for policy in ("Ours", "preempt_signals")]
+        self.assertEqual(*compared)
+        self.assertIn("has no condition.policy 'Theirs'",
+                      self.message_of(clearway.InputError, lambda: runs.where(**{"condition.policy": "Theirs"})))
+
     def test_a_condition_of_ones_own_has_a_title_which_is_taken_too(self) -> None:
         def run(title: str) -> clearway.Results:
             return clearway.run("intersection", [clearway.Condition("own", policy="corridor", title=title),

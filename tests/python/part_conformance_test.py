@@ -122,8 +122,13 @@ class ConformanceTest(FolderCase):
         self.assertIn("answers", self.broken("parts.py:Endless"))
         self.assertRegex(self.said, r"TimeoutError: no answer after 10 s \(parts.py, line \d+\)")
         self.assertEqual(self.said.count("TimeoutError: no answer"), 1)
-        self.assertIn("answers", self.broken("parts.py:Refuses", "--all"))
-        self.assertGreater(self.said.count("TimeoutError: its own server"), 1)  # which ends no scene but its own
+
+    def test_a_part_that_always_raises_is_judged_by_that_alone(self) -> None:
+        self.assertEqual(self.broken("parts.py:Refuses"), {"answers"})
+        self.assertEqual(self.said.count("TimeoutError: its own server"), 1, "the same failure is told once")
+        self.assertRegex(self.said, r"s and \d+ other scenes: ")  # it ends no scene but its own
+        self.assertRegex(self.said, r"- +same +answers the same to the same \(not judged\)")
+        self.assertRegex(self.said, r"- +acts .* \(not judged\)")
 
     def test_predictors_are_judged_too(self) -> None:
         self.assertEqual(self.broken("parts.py:Never", "--predictor"), {"links"})

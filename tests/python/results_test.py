@@ -121,6 +121,14 @@ class ResultsTest(FolderCase):
         errors = clearway.Table({**keys, "cause": np.array(["python"] * rows), "message": np.array(["TypeError: " + "x" * 90] * rows)})
         self.assertEqual(self.printed(errors)[0].split(), ["condition", "cause", "message"])
 
+    def test_an_array_of_truth_values_chooses_rows(self) -> None:
+        runs = self.results.runs
+        chosen = runs[runs["condition"] == "baseline"]
+        self.assertEqual(list(chosen["replication"]), list(runs.where(condition="baseline")["replication"]))
+        for wrong in (np.array([True]), np.array([0, 1])):
+            self.assertIn("allowed: a truth value for each of 10 rows; where(COLUMN=VALUE)",
+                          self.message_of(clearway.InputError, lambda: runs[wrong]))
+
     def test_a_printed_table_shows_rows_as_wide_as_the_terminal(self) -> None:
         runs, metric = self.results.runs, "emergency_restricted_travel_time_s"
         names, first, *others, last = self.printed(runs.head())
