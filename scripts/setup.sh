@@ -212,7 +212,6 @@ configure_and_build() {
     if [[ -r $folder/CMakeCache.txt ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$folder/CMakeCache.txt"; then
         configure+=(--fresh) # the tree was moved together with its build folder
     fi
-    configure+=("-DCMAKE_CXX_COMPILER_LAUNCHER=$(command -v ccache || true)")
     # Sanitizers look at no library of others, and libtorch is one.
     if [[ $preset != [at]san && $preset != fuzz ]]; then configure+=("-DCLEARWAY_TRAINING=$training"); fi
     if [[ $preset == ci && -n ${fast_tests:-} ]]; then configure+=("-DCLEARWAY_FAST_TESTS=$fast_tests"); fi

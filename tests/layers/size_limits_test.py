@@ -99,7 +99,7 @@ class House(unittest.TestCase):
         self.write("studies/harm/motorways.toml", "# Nothing to do there: slow\n")
         self.write("CHANGELOG.md", "- Policy `slow`: drives slowly.\n")
         self.assertEqual(self.check(), (0, ""))
-        for file, what in (("docs/reference/policies.md", "the policy `slow` has no row in docs/reference/policies.md"),
+        for file, what in (("docs/reference/policies.md", "the policy `slow` has no row of three columns in docs/reference/policies.md"),
                            ("studies/harm/roads.toml", "the policy `slow` has no condition in studies/harm"),
                            ("studies/harm/motorways.toml", "studies/harm/motorways.toml does not name the policy `slow`"),
                            ("CHANGELOG.md", "CHANGELOG.md does not name the policy `slow`: add a line below its first `### Added`")):
@@ -107,6 +107,8 @@ class House(unittest.TestCase):
             self.write(file, "")
             self.assertEqual(self.refused(what).count("\n"), 1)
             self.write(file, text)
+        self.write("studies/harm/roads.toml", 'policy = ["slow"]\npolicy = ["slwo"]\n')
+        self.refused("studies/harm tries the policy `slwo`, which is not registered")
 
     def test_a_policy_that_combines_one_that_is_not_there_is_found(self):
         registry = 'entry<Slow, SlowConfig>("slow", "Drives slowly"),\ncombination<Both>("both",\n    "slow and fast", {"slow", "slwo"})\n'
