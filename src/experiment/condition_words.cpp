@@ -13,16 +13,6 @@
 #include "policy/policy.hpp"
 
 namespace clearway::experiment {
-namespace {
-
-bool all_requests_arrive(const std::string& name) {
-    const failures::FailureConfig failure = failures::failure_from(name);
-    return static_cast<const failures::RequestChannel&>(failure) == failures::RequestChannel{} &&
-           static_cast<const failures::SignalRequestChannel&>(failure) == failures::SignalRequestChannel{};
-}
-
-}  // namespace
-
 std::string policy_words(const ConditionSpec& condition) {
     std::vector<std::string> words;
     for (const std::string& name : condition.policies) {
@@ -37,8 +27,10 @@ std::string policy_words(const ConditionSpec& condition) {
 }
 
 bool loses_no_request(const ConditionSpec& condition) {
-    return condition.failure != ConditionSpec().failure && !condition.policies.empty() &&
-           all_requests_arrive(condition.failure);
+    if (condition.failure == ConditionSpec().failure || condition.policies.empty()) return false;
+    const failures::FailureConfig failure = failures::failure_from(condition.failure);
+    return static_cast<const failures::RequestChannel&>(failure) == failures::RequestChannel{} &&
+           static_cast<const failures::SignalRequestChannel&>(failure) == failures::SignalRequestChannel{};
 }
 
 std::string failure_words(const ConditionSpec& condition) {
@@ -50,8 +42,6 @@ std::string failure_words(const ConditionSpec& condition) {
         const auto preset = std::ranges::find(presets, item, &failures::FailurePreset::name);
         words.push_back(preset == presets.end() ? item : preset->summary);
     }
-    if (loses_no_request(condition))
-        words.emplace_back("no request of an EV to vehicles or signals is lost (Q50 loses half)");
     return fmt::format("{}", fmt::join(words, "; "));
 }
 

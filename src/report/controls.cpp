@@ -108,7 +108,7 @@ std::string failing_note(const ScenarioFacts& scenario, const ConditionFacts& wo
     constexpr std::size_t most_told = 4;
     std::vector<std::string> parts;
     for (const ConditionFacts& condition : scenario.conditions)
-        if (working_of(scenario, condition) == &working && working.control_of.empty())
+        if (condition.control_of.empty() && working_of(scenario, condition) == &working)
             parts.push_back(condition.title + ": " + failing_words(condition, working, script));
     if (parts.empty()) return {};
     if (parts.size() > most_told) {

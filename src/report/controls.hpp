@@ -27,7 +27,7 @@ const ConditionFacts* working_of(const ScenarioFacts& scenario, const ConditionF
 /// `EV travel time against the same while nothing fails, s: -1.4 [-5.0, 2.2], no difference shown.` Empty
 /// without such a condition, and where that is a control, of which the controls tell.
 std::string failing_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
-/// The same for all in which something fails of a condition, after their titles.
+/// The same for those in which something fails of a condition, after their titles, but for its controls.
 std::string failing_note(const ScenarioFacts& scenario, const ConditionFacts& working, Script script);
 
 /// `Controls: with one part of it off, EV travel time changes by, s: deaf: +12.0 [10.0, 14.0]; blind: +0.7

@@ -45,12 +45,13 @@ TEST(FailureWords, TellPresetsInWordsAndFieldsAsTheyStand) {
               "sight");
     condition.failure = "B10,dark_share=0.5";
     EXPECT_EQ(failure_words(condition), "outages of 10 s on average, dark 30 % of the time; dark_share=0.5");
+    EXPECT_FALSE(loses_no_request(condition)) << "asks for nothing";
     condition.policies = {"preempt_signals"};
-    condition.failure = "B10";
-    EXPECT_THAT(failure_words(condition),
-                testing::HasSubstr("; no request of an EV to vehicles or signals is lost"));
-    condition.failure = "Q50";
-    EXPECT_THAT(failure_words(condition), testing::Not(testing::HasSubstr("arrive")));
+    EXPECT_TRUE(loses_no_request(condition));
+    for (const char* const failure : {"Q50", "B10,range_150m", "perfect"}) {
+        condition.failure = failure;
+        EXPECT_FALSE(loses_no_request(condition)) << failure;
+    }
 }
 
 TEST(BuiltInConditions, AreNotTheirPartsWhoseOptionIsNamed) {

@@ -390,6 +390,17 @@ TEST_F(Overview, IsAboutAConditionInWhichNothingFails) {
     EXPECT_EQ(failing_sentence(scenario_, scenario_.conditions.back(), Script::plain), "");
 }
 
+TEST_F(Overview, SaysOnceUnderWhichFailuresNoRequestIsLost) {
+    EXPECT_EQ(kept_requests_sentence(scenario_), "");
+    corridor().condition.policies = {"corridor"};
+    for (const char* const failure : {"B10", "Q50", "B10", "D3"}) {
+        scenario_.conditions.push_back(corridor());
+        scenario_.conditions.back().condition.failure = failure;
+    }
+    EXPECT_EQ(kept_requests_sentence(scenario_),
+              "No request of an EV to vehicles or signals is lost under B10; D3 (Q50 loses half).");
+}
+
 TEST_F(Overview, SaysThatRunsAreTooFewForManyComparisons) {
     tests::comparison(corridor(), primary).holm_p = 0.2;
     const Badge badge = badge_of(scenario_, corridor(), Script::plain);
