@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -65,14 +66,17 @@ std::uint32_t seeds_within(EquipRequest request, const scenario::BuiltNetwork& b
                                                          analysis::most_equip_replications));
 }
 
-/// Complete runs of earlier calls below the folder.
-std::size_t runs_below(const std::filesystem::path& folder) {
+/// Complete runs of earlier calls; one that a later round took over counts once.
+std::size_t runs_in_rounds_of(const std::filesystem::path& folder) {
+    std::set<std::pair<std::uint64_t, experiment::RunKey>> runs;  // after the seed of the round
     std::error_code none;
-    std::size_t count = 0;
-    for (std::filesystem::recursive_directory_iterator entry(folder, none), end; !none && entry != end;
-         entry.increment(none))
-        count += entry->path().filename() == "run.json" ? 1 : 0;
-    return count;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+        if (!std::filesystem::exists(entry.path() / "manifest.json")) continue;
+        const results::Store round = results::Store::open(entry.path());
+        for (const experiment::RunKey& key : round.complete_runs())
+            runs.emplace(round.manifest().study_seed, key);
+    }
+    return runs.size();
 }
 
 /// What becomes of gains over few seeds; empty for more.
@@ -156,7 +160,7 @@ core::ExitCode equip_dry_run(EquipRequest request) {
             runs.race);
     add("later places", runs.later, runs.later_most);
     add("fresh seeds: estimate", runs.fresh, runs.fresh);
-    const std::size_t held = runs_below(request.run.folder);
+    const std::size_t held = runs_in_rounds_of(request.run.folder);
     const std::size_t rest = runs.likely() - std::min(held, runs.likely());
     const std::string size = fmt::format(
         "{} likely, {} at most, into {}{}.", report::counted(runs.likely(), "run"), runs.most(),

@@ -94,16 +94,16 @@ std::vector<std::pair<std::string, std::string>> chosen_levels(const std::string
 
 namespace {
 
-/// The level that `given` is, or is the title of; empty where there is none.
-std::string level_of(const std::string& given, const std::vector<std::string>& known,
-                     const core::Settings& titles) {
-    const auto is_meant = [&](const std::string& level) {
-        const auto title = titles.find(level);
-        return level == given || (title != titles.end() && title->second == given);
-    };
-    const auto exact = std::ranges::find(known, given);
-    const auto found = exact != known.end() ? exact : std::ranges::find_if(known, is_meant);
-    return found == known.end() ? "" : *found;
+/// The level that `given` is, or else is the title of; null where there is none.
+const std::string* level_of(const std::string& given, const std::vector<std::string>& known,
+                            const core::Settings& titles) {
+    auto found = std::ranges::find(known, given);
+    if (found == known.end())
+        found = std::ranges::find_if(known, [&](const std::string& level) {
+            const auto title = titles.find(level);
+            return title != titles.end() && title->second == given;
+        });
+    return found == known.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -138,10 +138,11 @@ analysis::Reference reference_from(const std::string& against,
                 factors.push_back(name);
             throw core::InputError(unknown_name(fmt::format("{}: factor", option), factor, factors));
         }
-        reference.levels[found->first] = level_of(level, found->second, given_titles);
-        if (reference.levels[found->first].empty())
+        const std::string* const meant = level_of(level, found->second, given_titles);
+        if (meant == nullptr)
             throw core::InputError(
                 unknown_name(fmt::format("{}: level of {}", option, found->first), level, found->second));
+        reference.levels[found->first] = *meant;
     }
     return reference;
 }

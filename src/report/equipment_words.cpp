@@ -22,9 +22,7 @@ using detail::great_share;
 std::string names_of(const EquipmentFacts& facts) {
     std::vector<std::string> names;
     for (const EquippedSignal& signal : facts.ranked)
-        names.push_back(fmt::format(
-            "{}) {}", names.size() + 1,
-            signal.streets.empty() ? short_signal_name(signal.signal) : printable(signal.streets)));
+        names.push_back(fmt::format("{}) {}", names.size() + 1, signal_words(signal.signal, signal.streets)));
     return fmt::format("{}", fmt::join(names, ", "));
 }
 

@@ -12,6 +12,10 @@ std::string short_signal_name(const std::string& id) {
     return printable(id.size() <= most ? id : id.substr(0, most - 3) + "...");
 }
 
+std::string signal_words(const std::string& id, const std::string& streets) {
+    return streets.empty() ? short_signal_name(id) : printable(streets);
+}
+
 std::string printable(const std::string& text) {
     std::string result;
     for (const char letter : text) {

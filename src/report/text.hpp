@@ -12,6 +12,8 @@ namespace clearway::report {
 
 /// At most 24 characters of a signal's id for a terminal: those of joined junctions name all their nodes.
 std::string short_signal_name(const std::string& id);
+/// The streets that meet at a signal; where they have no names, its short name.
+std::string signal_words(const std::string& id, const std::string& streets);
 
 using core::escaped;
 

@@ -114,6 +114,7 @@ TEST_F(EquipTest, says_before_it_runs_how_many_runs_it_makes) {
     // alone and two ranks.
     EXPECT_EQ(json.at("runs"), 20 + 5 + 30);
     EXPECT_EQ(json.at("most_runs"), 55);
+    EXPECT_EQ(json.at("held_runs"), 0);
     EXPECT_GT(json.at("estimated_time_s").get<double>(), 0.0);
     EXPECT_FALSE(json.at("estimate_measured").get<bool>());
     const auto made = nlohmann::json::parse(equip({"--json"}).out);
@@ -121,6 +122,8 @@ TEST_F(EquipTest, says_before_it_runs_how_many_runs_it_makes) {
     if (made.at("ranked").size() == 2) {
         EXPECT_EQ(made.at("runs"), json.at("runs"));
     }
+    const auto again = nlohmann::json::parse(equip({"--dry-run", "--json"}).out);
+    EXPECT_EQ(again.at("held_runs"), made.at("runs"));
     const Ended text = equip({"--dry-run"});
     EXPECT_THAT(text.out, testing::StartsWith("100 % of the EVs' trips pass at least one signal; a trip"));
     EXPECT_THAT(text.out,

@@ -22,10 +22,12 @@ namespace {
 using Gain = std::pair<analysis::MaybeEstimate, std::size_t>;  // of a candidate
 
 std::string name_of(std::size_t candidate, const Signals& signals) {
-    const std::string& streets = signals.streets(candidate);
-    return fmt::format(
-        "No. {} {}", signals.number(candidate),
-        streets.empty() ? report::short_signal_name(signals.id(candidate)) : report::printable(streets));
+    return fmt::format("No. {} {}", signals.number(candidate),
+                       report::signal_words(signals.id(candidate), signals.streets(candidate)));
+}
+
+std::string line_of(const std::string& words, const analysis::MaybeEstimate& gain) {
+    return core::wrapped(fmt::format("  {}: {}", words, report::estimate(gain, {})), 4) + "\n";
 }
 
 /// The largest first, a line each.
@@ -36,9 +38,7 @@ std::string gain_lines(std::vector<Gain> gains, const Signals& signals) {
     gains.resize(std::min(gains.size(), most_told));
     std::string text;
     for (const auto& [gain, candidate] : gains)
-        text += core::wrapped(
-                    fmt::format("  {}: {}", name_of(candidate, signals), report::estimate(gain, {})), 4) +
-                "\n";
+        text += line_of(name_of(candidate, signals), gain);
     return text;
 }
 
@@ -68,11 +68,8 @@ std::string chosen_words(const analysis::EquipPlan& plan, const Signals& signals
     text += plan.steps.empty() ? "It chose no signal. " : "It chose, in this order, with what each adds. ";
     text += flatters;
     for (std::size_t rank = 0; rank < plan.steps.size(); ++rank)
-        text +=
-            core::wrapped(fmt::format("  {}) {}: {}", rank + 1, name_of(plan.steps[rank].candidate, signals),
-                                      report::estimate(plan.steps[rank].gain, {})),
-                          4) +
-            "\n";
+        text += line_of(fmt::format("{}) {}", rank + 1, name_of(plan.steps[rank].candidate, signals)),
+                        plan.steps[rank].gain);
     std::vector<Gain> alone;
     for (std::size_t candidate = 0; candidate < plan.candidates.size(); ++candidate)
         alone.emplace_back(plan.candidates[candidate].gain, candidate);
