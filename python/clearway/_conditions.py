@@ -30,8 +30,7 @@ class Conditions:
             manifest = json.loads(content)
             return manifest, {kind: {one["name"]: dict(one.get("factors") or {}) for one in manifest[f"{kind}s"]} for kind in ("scenario", "condition")}
         except (ValueError, LookupError, TypeError, AttributeError) as error:
-            raise _program.InputError(f"{file}: is damaged ({error!r}). Take it from a backup, or run the study into another folder"
-                                      ) from None
+            raise _damaged(file, error) from None
 
     @property
     def study(self) -> dict[str, Any]:
@@ -60,10 +59,13 @@ class Conditions:
     @functools.cached_property
     def _given(self) -> dict[str, str]:
         """The titles that the study gives names and values of factors."""
+        file = self._folder / "titles.json"
+        if not file.exists():
+            return {}  # the study gives none
         try:
-            return dict(json.loads((self._folder / "titles.json").read_bytes()))
-        except (OSError, ValueError, TypeError):
-            return {}  # its titles are then those of Clearway alone
+            return dict(json.loads(_files.content(file)))
+        except (ValueError, TypeError) as error:
+            raise _damaged(file, error) from None
 
     def level_of(self, value: Any, levels: Iterable[Any]) -> Any:
         """The value of a factor of which ``value`` is the title; ``value`` itself, where it is none."""
@@ -125,10 +127,12 @@ class Conditions:
             if name not in known and name not in self._known("scenario"):
                 there = _program.there_are(name, list(known), "factor", "list(results.runs)")
                 raise _program.InputError(f"the conditions of this study have no factor {name!r}{there}")
-        given = {name: value if any(_is(level, value) for level in known[name]) else self.level_of(value, known[name])
-                 for name, value in given.items() if name in known}
+        given = {name: value for name, value in given.items() if name in known}
         for name, value in given.items():
-            if not any(_is(level, value) for level in known[name]):
+            if any(_is(level, value) for level in known[name]):
+                continue
+            given[name] = self.level_of(value, known[name])
+            if given[name] not in known[name]:
                 there = _program.there_are(value, known[name], "level", f"set(results.runs[{name!r}])")
                 raise _program.InputError(f"the study has no {name} {value!r}{there}")
         return given
@@ -159,6 +163,10 @@ class Conditions:
             return found[0]
         several = f"{len(found)} {kind}s: {', '.join(found[:_program.MOST_LISTED])}{', ...' if len(found) > _program.MOST_LISTED else ''}"
         raise _program.InputError(f"{dict(given)!r} chooses {several if found else f'no {kind}'} (allowed: factors that choose one)")
+
+
+def _damaged(file: Path, error: Exception) -> _program.InputError:
+    return _program.InputError(f"{file}: is damaged ({error!r}). Take it from a backup, or run the study into another folder")
 
 
 def _have(factors: Mapping[str, str], given: Mapping[str, Any]) -> bool:

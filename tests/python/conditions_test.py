@@ -77,6 +77,16 @@ class ConditionsTest(FolderCase):
         self.assertIn("has no condition.policy 'Theirs'",
                       self.message_of(clearway.InputError, lambda: runs.where(**{"condition.policy": "Theirs"})))
 
+    def test_damaged_titles_are_told_and_missing_ones_are_none(self) -> None:
+        place = self.folder / "part"
+        place.mkdir()
+        shutil.copy(self.results.folder / "manifest.json", place)
+        def ask() -> object:
+            return clearway.open(place)._conditions.levels({"condition.policy": "Ours"})
+        self.assertIn("has no condition.policy 'Ours'", self.message_of(clearway.InputError, ask))
+        (place / "titles.json").write_text("{")
+        self.assertIn("titles.json: is damaged", self.message_of(clearway.InputError, ask))
+
     def test_a_condition_of_ones_own_has_a_title_which_is_taken_too(self) -> None:
         def run(title: str) -> clearway.Results:
             return clearway.run("intersection", [clearway.Condition("own", policy="corridor", title=title),
