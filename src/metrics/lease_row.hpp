@@ -22,14 +22,6 @@ struct LeaseRow {
 
     bool operator==(const LeaseRow&) const = default;
 
-    /// Sum over the reasons: a lease refused for two reasons counts twice.
-    std::uint64_t refusals() const {
-        std::uint64_t sum = 0;
-        for (const auto& [reason, count] : refused)
-            sum += count;
-        return sum;
-    }
-
     /// `refused` with words for the reasons, in the same order.
     std::map<std::string, std::uint64_t> refused_words() const {
         std::map<std::string, std::uint64_t> words;

@@ -250,6 +250,19 @@ TEST(Page, draws_what_is_reached_only_where_a_difference_is_shown) {
     EXPECT_THAT(tests::page_of(study), Not(HasSubstr("id=\"reach-city\"")));
 }
 
+TEST(Page, claims_no_recovery_where_no_interval_is_known) {
+    StudyFacts study = tests::study({"merge"});
+    EXPECT_THAT(page_of(study), HasSubstr("recovered after 75 s"));
+    for (ConditionFacts& condition : study.scenarios[0].conditions) {
+        if (!condition.recovery) continue;
+        condition.recovery->recovered_after_s.reset();
+        for (analysis::RecoveryPoint& point : condition.recovery->points)
+            point.difference->n = analysis::fewest_for_interval - 1;
+    }
+    EXPECT_THAT(page_of(study), AllOf(HasSubstr("too few passages to tell"),
+                                      Not(HasSubstr("recovered after")), Not(HasSubstr("not recovered in"))));
+}
+
 TEST(Page, lists_at_most_fifty_failures_of_a_condition_and_counts_the_rest) {
     StudyFacts study = tests::study({"merge"});
     for (std::uint32_t replication = 0; replication < 120; ++replication) {

@@ -122,8 +122,9 @@ void draw_grid(const Grid& grid, double top, Canvas& canvas) {
     }
     top += columns_height_of(grid);
     const double height = row_height_of(grid);
+    const std::size_t letters = label_letters(grid);
     for (const Grid::Row& row : grid.rows) {
-        canvas.text(2.0, top + 16.0, shortened(row.label, label_letters(grid)), Anchor::start, "label");
+        canvas.text(2.0, top + 16.0, shortened(row.label, letters), Anchor::start, "label");
         for (std::size_t column = 0; column < row.cells.size(); ++column) {
             const double left = cells_left + static_cast<double>(column) * width;
             const GridCell& cell = row.cells[column];
