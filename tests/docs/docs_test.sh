@@ -62,6 +62,12 @@ refuses_pages_with_spoilt_text() {
     grep -qF "check-docs: 9 faults" "$work/err" || fail "not nine faults"
 }
 
+refuses_a_folder_that_is_not_there() {
+    run_check
+    [[ $code == 1 ]] || fail "exit code $code"
+    expect_line "tree is no folder"
+}
+
 accepts_good_pages() {
     mkdir -p "$work/tree/docs"
     printf '# A page\n\nAn emergency\nvehicle (EV), [two words](docs/b.md#two-words-1-s), <https://example.org>\n\n' >"$work/tree/a.md"
