@@ -51,16 +51,19 @@ TEST(Settings, HaveDefaultsThatTheirOwnTablesAllow) {
         EXPECT_THAT(component.table.rows, testing::Not(IsEmpty())) << component.name;
         for (const core::SettingInfo& row : component.table.rows) {
             const std::string name = component.name + "." + row.name;
-            EXPECT_TRUE(names.insert(name).second) << name << " stands there twice";
+            if (!names.insert(name).second) {
+                ADD_FAILURE() << name << " stands there twice; a base of its config may have it";
+                continue;  // what is said of one would be said of the other
+            }
             for (const core::Problem& problem : check_setting(name, row.preset, ""))
-                ADD_FAILURE() << "the default is refused: " << core::format_problem(problem);
+                ADD_FAILURE() << "the default of " << name << " is refused: " << problem.what
+                              << " (allowed: " << problem.allowed << ")";
             EXPECT_FALSE(row.doc.empty()) << name;
             EXPECT_FALSE(row.source.empty()) << name << " has no reason";
             const bool is_text = name == "actuation.equipped";
             if (is_text || !row.words.empty()) continue;
             EXPECT_LT(row.minimum, row.maximum) << name;
-            EXPECT_THAT(check_setting(name, fmt::format("{}", 2.0 * row.maximum + 1.0), ""),
-                        testing::SizeIs(1))
+            EXPECT_EQ(check_setting(name, fmt::format("{}", 2.0 * row.maximum + 1.0), "").size(), 1U)
                 << name << " has no upper bound";
         }
     }

@@ -109,6 +109,12 @@ class House(unittest.TestCase):
             self.write(file, text)
         self.write("studies/harm/roads.toml", 'policy = ["slow"]\npolicy = ["slwo"]\n')
         self.refused("studies/harm tries the policy `slwo`, which is not registered")
+        self.write("studies/harm/roads.toml", 'policy = ["slow"]\n')
+        self.write("docs/reference/policies.md", "| policy | a | b |\n|---|---|---|\n| `slow` | a | b |\n| `slwo` | a | b |\n\n| `other` | a | b |\n")
+        self.assertEqual(self.refused("docs/reference/policies.md has a line for the policy `slwo`, which is not registered").count("\n"), 1)
+        self.write("docs/reference/policies.md", "| `slow` | drives slowly | anywhere |\n")
+        self.write("docs/limits.md", "## Policies that harm\n\n- **`slwo`**: EVs in `city`.\n\n## More\n\n- **`other`**: none.\n")
+        self.assertEqual(self.refused("docs/limits.md has a line for the policy `slwo`, which is not registered").count("\n"), 1)
 
     def test_a_policy_that_combines_one_that_is_not_there_is_found(self):
         registry = 'entry<Slow, SlowConfig>("slow", "Drives slowly"),\ncombination<Both>("both",\n    "slow and fast", {"slow", "slwo"})\n'

@@ -1,5 +1,7 @@
 """Tests of scripts/check-harm with a program that stands in for clearway: what it tells, and what it leaves when it is ended."""
+import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -12,11 +14,11 @@ STANDS_IN = """#!/bin/bash
 case $1 in
     list) echo "$LISTED" ;;
     study)
-        mkdir -p "$5"
-        trap 'sleep 0.3; echo late >"$5/late"; echo ended >>"$ENDED"; exit 143' TERM
+        mkdir -p "$4"
+        trap 'sleep 0.3; echo late >"$4/late"; echo ended >>"$ENDED"; exit 143' TERM
         echo "runs 1 of 9" >&2
         if [[ $SLOW == yes ]]; then sleep 60 >/dev/null 2>&1 & wait; fi ;;
-    compare) echo '{"comparisons": []}' ;;
+    compare) echo "$COMPARED" ;;
 esac
 """
 
@@ -31,10 +33,10 @@ class Harm(unittest.TestCase):
             (self.root / name).write_text(text)
             (self.root / name).chmod(0o755)
 
-    def start(self, *words, listed='{"policies": [], "scenarios": []}', slow="no"):
-        return subprocess.Popen([sys.executable, ROOT / "scripts/check-harm", *words], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    def start(self, *words, listed='{"policies": [], "scenarios": []}', slow="no", tree=ROOT, compared='{"comparisons": []}'):
+        return subprocess.Popen([sys.executable, tree / "scripts/check-harm", *words], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                 env=os.environ | {"CLEARWAY": str(self.root / "clearway"), "PATH": f"{self.root}:{os.environ['PATH']}",
-                                                  "TMPDIR": str(self.root / "tmp"), "LISTED": listed, "SLOW": slow,
+                                                  "TMPDIR": str(self.root / "tmp"), "LISTED": listed, "SLOW": slow, "COMPARED": compared,
                                                   "ENDED": str(self.root / "ended")})
 
     def test_each_study_is_told_as_it_begins_and_ends(self):
@@ -57,7 +59,7 @@ class Harm(unittest.TestCase):
         harm = self.start("--policy", "corridor", "--out", out)
         printed, said = harm.communicate(timeout=60)
         self.assertEqual(harm.returncode, 0, said)
-        self.assertIn("study 2 of 2: roads, 1 conditions on", said)
+        self.assertIn("study 2 of 2: roads, 1 condition on", said)
         self.assertRegex(printed, r"corridor: no harm shown on .*\nnot run: .*city.* \(--full\)")
         self.assertEqual((out / "corridor/studies/roads.toml").read_text().count("policy = ["), 1)
         _, said = self.start("--out", out).communicate(timeout=60)
@@ -84,6 +86,29 @@ class Harm(unittest.TestCase):
         _, said = harm.communicate(timeout=60)
         self.assertEqual(harm.returncode, 1)
         self.assertIn('add a condition such as {name = "keep_distance", policy = ["keep_distance"]} to studies/harm/roads.toml', said)
+
+    def test_a_misspelt_row_of_the_page_is_named(self):
+        tree = self.root / "tree"
+        for name in ("scripts/check-harm", "docs/reference/policies.md", "docs/limits.md"):
+            (tree / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / name, tree / name)
+        shutil.copytree(ROOT / "studies/harm", tree / "studies/harm")
+        page = tree / "docs/reference/policies.md"
+        page.write_text(page.read_text().replace("| `corridor` |", "| `coridor` |"))
+        _, said = self.start(tree=tree, listed='{"policies": [{"name": "corridor"}], "scenarios": []}').communicate(timeout=60)
+        self.assertIn("policies.md does not say what corridor is for", said)
+        self.assertIn("The row of `coridor` is no policy's: misspelt?", said)
+
+    def test_harm_that_the_page_does_not_name_comes_with_the_line_to_write(self):
+        worse = {"difference": 4.0, "holm_p": 0.01}
+        level = {"difference": 0.1, "holm_p": 0.9}
+        pair = {"scenario": "city", "condition": "preempt_signals", "objections": "",
+                "metrics": {"emergency_restricted_travel_time_s": level, "others_time_loss_s": worse}}
+        harm = self.start("--policy", "preempt_signals", compared=json.dumps({"comparisons": [pair]}))
+        _, said = harm.communicate(timeout=60)
+        self.assertEqual(harm.returncode, 1)
+        self.assertIn("preempt_signals others city: docs/limits.md does not name it", said)
+        self.assertIn("- **`preempt_signals`**: others in `city`, `grid_right`, `intersection`.", said)
 
 
 if __name__ == "__main__":
