@@ -12,6 +12,7 @@
 #include "core/fields.hpp"
 #include "experiment/related_conditions.hpp"
 #include "experiment/settings.hpp"
+#include "metrics/run_metrics.hpp"
 #include "traffic/lease.hpp"
 
 namespace clearway::analysis {
@@ -92,6 +93,17 @@ Values without_locks(Values values, const Values& locks, const Values& baseline_
         if (locked) values[row].reset();
     }
     return values;
+}
+
+/// Replications with a value in both conditions, in one of whose runs locks held up traffic.
+std::size_t held_up_pairs(const Runs& runs, const Runs& baseline_runs, const Values& values,
+                          const Values& base) {
+    std::size_t count = 0;
+    for (std::size_t row = 0; row < std::min(values.size(), base.size()); ++row)
+        if (values[row] && base[row] &&
+            (metrics::is_held_up(runs[row]->metrics) || metrics::is_held_up(baseline_runs[row]->metrics)))
+            ++count;
+    return count;
 }
 
 /// All metrics of all runs of a condition, each by replication.
@@ -335,8 +347,10 @@ void compare_conditions(const Runs& runs, const Runs& baseline_runs, const Condi
         const Values& base = baseline.metrics[metric].values;
         const Pairs unlocked = pairs_of(without_locks(one.values, locks, baseline_locks), base);
         comparison.locked_pairs = pairs_of(one.values, base).condition.size() - unlocked.condition.size();
-        if (comparison.locked_pairs > 0)
+        if (comparison.locked_pairs > 0) {
+            comparison.held_up_pairs = held_up_pairs(runs, baseline_runs, one.values, base);
             comparison.unlocked = difference_of(unlocked, one.metric.kind, resamples.level());
+        }
         comparison.condition_values = pairs.condition;
         comparison.baseline_values = pairs.baseline;
     }

@@ -69,7 +69,8 @@ struct Comparison {
     std::optional<Interval> median_interval;  ///< From order statistics.
     /// Complete pairs with a lock in at least one of their runs (metrics::RunMetrics::locks).
     std::size_t locked_pairs = 0;
-    MaybeEstimate unlocked;             ///< The difference over the other pairs; nothing if no pair locked.
+    std::size_t held_up_pairs = 0;  ///< Of them, those with a run that locks held up (metrics::is_held_up).
+    MaybeEstimate unlocked;         ///< The difference over the other pairs; nothing if no pair locked.
     std::optional<double> effect_size;  ///< Cohen's d for pairs, d_z.
     std::optional<double> t_p;          ///< Not for counts, which are far from normal.
     std::optional<double> wilcoxon_p;

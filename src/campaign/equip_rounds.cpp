@@ -24,6 +24,7 @@
 #include "experiment/conditions.hpp"
 #include "experiment/equipped_signals.hpp"
 #include "experiment/related_conditions.hpp"
+#include "metrics/run_metrics.hpp"
 #include "scenario/prepare.hpp"
 #include "study/reuse.hpp"
 
@@ -82,7 +83,7 @@ report::UnsoundRuns unsound_runs(const results::Results& results, const std::str
         if (run.key.condition == alone) continue;
         ++unsound.runs;
         unsound.locked += run.metrics.locks > 0 ? 1 : 0;
-        unsound.held_up += detail::is_held_up(run.metrics) ? 1 : 0;
+        unsound.held_up += metrics::is_held_up(run.metrics) ? 1 : 0;
         unsound.lost_vehicles += run.metrics.emergency_count - run.metrics.emergency_arrived;
     }
     return unsound;

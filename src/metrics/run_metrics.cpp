@@ -22,4 +22,9 @@ std::optional<double> LinkCounts::f1() const {
     return share(2 * true_positive, 2 * true_positive + false_positive + false_negative);
 }
 
+bool is_held_up(const RunMetrics& run) {
+    constexpr std::uint64_t many = 100;  // one vehicle in so many
+    return run.locked_emergency_vehicles > 0 || many * run.locked_vehicles > run.vehicle_count;
+}
+
 }  // namespace clearway::metrics

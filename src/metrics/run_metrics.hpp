@@ -483,4 +483,8 @@ struct RunSummary {
     std::optional<std::vector<SignalEvent>> signal_events = {};
 };
 
+/// Whether locks say more about a run than its policy: an EV or more than one vehicle in a hundred stood in
+/// one.
+bool is_held_up(const RunMetrics& run);
+
 }  // namespace clearway::metrics

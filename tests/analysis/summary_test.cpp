@@ -78,6 +78,7 @@ TEST_F(SmallStudy, GivesTheDifferenceWithoutThePairsThatLocked) {
     const ScenarioSummary summary = scenario();
     const Comparison& comparison = *summary.find("treated")->metric(primary_metric).comparison;
     EXPECT_EQ(comparison.locked_pairs, 2U);
+    EXPECT_EQ(comparison.held_up_pairs, 0U);
     EXPECT_DOUBLE_EQ(comparison.difference->mean, -27.5);
     EXPECT_DOUBLE_EQ(comparison.unlocked->mean, -22.5);  // Of 40 and 50 s, half.
     EXPECT_EQ(summary.find("baseline")->locked_runs(), 1U);
@@ -85,6 +86,9 @@ TEST_F(SmallStudy, GivesTheDifferenceWithoutThePairsThatLocked) {
     for (RunRecord& run : results_.runs)
         run.metrics.locks = run.metrics.locks / 2;
     EXPECT_EQ(scenario().find("treated")->metric(primary_metric).comparison->locked_pairs, 2U);
+    for (RunRecord& run : results_.runs)
+        run.metrics.locked_emergency_vehicles = run.key.condition == "treated" ? run.metrics.locks : 0;
+    EXPECT_EQ(scenario().find("treated")->metric(primary_metric).comparison->held_up_pairs, 1U);
 }
 
 TEST_F(SmallStudy, DoesNotLetSurvivorsSpeakForLostEmergencyVehicles) {

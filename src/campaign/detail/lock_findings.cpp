@@ -50,11 +50,6 @@ std::string places_of(const std::vector<metrics::LockRow>& locks, const roads::N
 
 }  // namespace
 
-bool is_held_up(const metrics::RunMetrics& run) {
-    constexpr std::uint64_t many = 100;  // one vehicle in so many
-    return run.locked_emergency_vehicles > 0 || many * run.locked_vehicles > run.vehicle_count;
-}
-
 Finding trials_finding(const LockTrials& trials) {
     const std::string setting = fmt::format("time.ignore_junction_blocker_s = {:g}", trials.ignored_after_s);
     const LockTrial& own = trials.ignores ? trials.with : trials.without;
@@ -85,7 +80,7 @@ Finding locks_finding(const results::RunRecord& record, const std::vector<metric
                                       ? ""
                                       : fmt::format(", {} of them EV", run.locked_emergency_vehicles);
     const bool ignored = checked.config.time.ignore_junction_blocker_s.value_or(-1.0) >= 0.0;
-    return {locks_name, is_held_up(run) ? Grade::falls_short : Grade::note,
+    return {locks_name, metrics::is_held_up(run) ? Grade::falls_short : Grade::note,
             fmt::format("{} in this run of seed {}, the longest {:.0f} s; {} stood in them{}: {}",
                         core::counted(run.locks, "lock"), record.provenance.study_seed, run.longest_lock_s,
                         core::counted(run.locked_vehicles, "vehicle"), emergency,
@@ -96,7 +91,7 @@ Finding locks_finding(const results::RunRecord& record, const std::vector<metric
 
 void count_trial(const metrics::RunMetrics& run, std::uint32_t trials, LockTrial& trial) {
     if (run.locks > 0) ++trial.locked;
-    if (is_held_up(run)) ++trial.held_up;
+    if (metrics::is_held_up(run)) ++trial.held_up;
     if (run.vehicle_count > 0)
         trial.stood_s += run.locked_vehicle_s / static_cast<double>(run.vehicle_count) / trials;
     trial.collisions += static_cast<double>(run.collisions) / trials;

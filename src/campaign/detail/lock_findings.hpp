@@ -10,10 +10,6 @@
 
 namespace clearway::campaign::detail {
 
-/// Whether locks say more about a run than its policy: an EV or more than one vehicle in a hundred stood in
-/// one.
-bool is_held_up(const metrics::RunMetrics& run);
-
 /// Names of the findings below.
 inline constexpr const char* locks_name = "locks";
 inline constexpr const char* trials_name = "trials";
