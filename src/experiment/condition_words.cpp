@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiment/settings.hpp"
 #include "failures/failure_config.hpp"
 #include "policy/policy.hpp"
 
@@ -29,8 +30,16 @@ std::string policy_words(const ConditionSpec& condition) {
 bool loses_no_request(const ConditionSpec& condition) {
     if (condition.failure == ConditionSpec().failure || condition.policies.empty()) return false;
     const failures::FailureConfig failure = failures::failure_from(condition.failure);
-    return static_cast<const failures::RequestChannel&>(failure) == failures::RequestChannel{} &&
+    return failure.dark_commands == failures::DarkCommands::received &&
+           static_cast<const failures::RequestChannel&>(failure) == failures::RequestChannel{} &&
            static_cast<const failures::SignalRequestChannel&>(failure) == failures::SignalRequestChannel{};
+}
+
+std::vector<std::string> policies_without_messages(const ConditionSpec& condition) {
+    const failures::FailureConfig failure = failures::failure_from(condition.failure);
+    if (static_cast<const failures::SignalRequestChannel&>(failure) == failures::SignalRequestChannel{})
+        return {};
+    return policies_with(condition, traffic::Trait::asks_without_radio);
 }
 
 std::string failure_words(const ConditionSpec& condition) {

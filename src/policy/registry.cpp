@@ -84,11 +84,11 @@ const traffic::Registry<PolicyEntry>& policies() {
             entry<CheckInOut, CheckInOutConfig>(
                 "check_in_out",
                 "For comparison: a detector before the stop line calls green, one behind it releases",
-                {Trait::asks_signals, Trait::compares_only}),
+                {Trait::asks_signals, Trait::asks_without_radio, Trait::compares_only}),
             entry<LineOfSight, LineOfSightConfig>(
                 "line_of_sight",
                 "For comparison: an optical emitter calls green while the signal is in its beam",
-                {Trait::asks_signals, Trait::compares_only}),
+                {Trait::asks_signals, Trait::asks_without_radio, Trait::compares_only}),
             entry<RedPrivilege, RedPrivilegeConfig>(
                 "red_privilege", "For comparison: the emergency vehicle passes red slowly and yielding",
                 {Trait::compares_only}),

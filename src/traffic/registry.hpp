@@ -20,6 +20,7 @@ enum class Trait : std::uint8_t {
     /// Its requests to vehicles live `lease_s` unless it renews them: one that arrives later is lost.
     renews_requests,
     asks_signals,          ///< For green, before the emergency vehicle arrives.
+    asks_without_radio,    ///< By a detector or a light: no message that could be lost.
     reads_links,           ///< Believed links decide something, and not places alone.
     sublane_model,         ///< Needs vehicles with a lateral position within their lane.
     shoulder,              ///< Needs a network with shoulders.
@@ -28,9 +29,10 @@ enum class Trait : std::uint8_t {
     compares_only,         ///< Nobody would run it but to compare others with it.
     repeats_dissertation,  ///< As published, defects included.
 };
-constexpr core::Spellings<Trait, 9> spellings(Trait) {
+constexpr core::Spellings<Trait, 10> spellings(Trait) {
     return {{{Trait::renews_requests, "renews_requests"},
              {Trait::asks_signals, "asks_signals"},
+             {Trait::asks_without_radio, "asks_without_radio"},
              {Trait::reads_links, "reads_links"},
              {Trait::sublane_model, "needs_sublane_model"},
              {Trait::shoulder, "needs_shoulder"},

@@ -48,10 +48,21 @@ TEST(FailureWords, TellPresetsInWordsAndFieldsAsTheyStand) {
     EXPECT_FALSE(loses_no_request(condition)) << "asks for nothing";
     condition.policies = {"preempt_signals"};
     EXPECT_TRUE(loses_no_request(condition));
-    for (const char* const failure : {"Q50", "B10,range_150m", "perfect"}) {
+    for (const char* const failure : {"Q50", "B10,range_150m", "perfect", "B10,dark_commands=lost"}) {
         condition.failure = failure;
         EXPECT_FALSE(loses_no_request(condition)) << failure;
     }
+}
+
+TEST(FailureWords, KnowPoliciesThatSendNoMessagesWhereMessagesAreLost) {
+    ConditionSpec condition;
+    condition.policies = {"check_in_out", "clear_lane"};
+    condition.failure = "B10";
+    EXPECT_TRUE(policies_without_messages(condition).empty());
+    condition.failure = "B10,Q50";
+    EXPECT_THAT(policies_without_messages(condition), testing::ElementsAre("check_in_out"));
+    condition.policies = {"corridor"};
+    EXPECT_TRUE(policies_without_messages(condition).empty());
 }
 
 TEST(BuiltInConditions, AreNotTheirPartsWhoseOptionIsNamed) {
