@@ -19,6 +19,7 @@
 #include "core/terminal.hpp"
 #include "report/comparison.hpp"
 #include "report/read_facts.hpp"
+#include "report/shared_sentences.hpp"
 #include "report/text.hpp"
 #include "report/verdict.hpp"
 #include "results/store.hpp"
@@ -129,9 +130,8 @@ analysis::Summary summary_of(const CompareArguments& arguments, analysis::Refere
     return summary;
 }
 
-/// How a condition stands to another, by its EV travel time minus that of the other.
-const char* standing(const analysis::MaybeEstimate& difference) {
-    switch (report::effect_of(difference, report::Better::lower, report::usual_least_relevant_s)) {
+const char* standing(report::Effect effect) {
+    switch (effect) {
         case report::Effect::better:
             return "is ahead of";
         case report::Effect::worse:
@@ -148,8 +148,29 @@ const char* standing(const analysis::MaybeEstimate& difference) {
     return "cannot be told yet from";
 }
 
+/// How a condition stands to another in a metric, with what speaks against believing it.
+std::string standing_text(const analysis::MetricSummary& metric, const std::string& condition,
+                          const std::string& other) {
+    const analysis::Comparison& comparison = *metric.comparison;
+    const bool more = report::more_is_better(metric.metric.name);
+    const bool is_time = metric.metric.unit == "s";
+    const report::Effect effect =
+        report::effect_of(comparison.difference, more ? report::Better::higher : report::Better::lower,
+                          is_time ? report::usual_least_relevant_s : 0.0);
+    const std::string difference =
+        report::estimate(comparison.difference, {.decimals = 1, .sign = report::Sign::always});
+    const std::string what = metric.metric.name == analysis::primary_metric
+                                 ? fmt::format(": {} s of EV travel time", difference)
+                                 : fmt::format(" by EV travel time: {} {}", metric.metric.name, difference);
+    return fmt::format("{} {} {}, the best other one{}{}.", condition, standing(effect), other, what,
+                       report::doubt_clause(report::doubts_of(effect, comparison, report::Script::plain)));
+}
+
 /// Which conditions were the best, and what choosing them so means.
-std::string best_text(const analysis::Summary& summary, const report::ConditionTitleMap& titles) {
+std::string best_text(const analysis::Summary& summary, const std::vector<std::string>& metrics,
+                      const report::ConditionTitleMap& titles) {
+    const bool has_primary = std::ranges::find(metrics, analysis::primary_metric) != metrics.end();
+    const std::string metric = has_primary ? analysis::primary_metric : metrics.front();
     std::string text;
     for (const analysis::ScenarioSummary& scenario : summary.scenarios) {
         const auto title = [&](const std::string& name) {
@@ -157,16 +178,11 @@ std::string best_text(const analysis::Summary& summary, const report::ConditionT
         };
         for (const analysis::ConditionSummary& condition : scenario.conditions) {
             if (condition.baseline.empty()) continue;
-            const analysis::MaybeEstimate& difference =
-                condition.metric(analysis::primary_metric).comparison->difference;
-            text +=
-                core::wrapped(
-                    fmt::format("{}: {} {} {}, the best other one: {} s of EV travel time.",
-                                report::printable(scenario.scenario), title(condition.condition.name),
-                                standing(difference), title(condition.baseline),
-                                report::estimate(difference, {.decimals = 1, .sign = report::Sign::always})),
-                    4) +
-                "\n";
+            text += core::wrapped(report::printable(scenario.scenario) + ": " +
+                                      standing_text(condition.metric(metric), title(condition.condition.name),
+                                                    title(condition.baseline)),
+                                  4) +
+                    "\n";
         }
     }
     return text +
@@ -200,7 +216,7 @@ core::ExitCode compare(CompareArguments arguments) {
             fmt::print("diff.: {} minus {}, paired by scenario, condition and replication.\n",
                        arguments.second, arguments.first);
         if (reference.is_best())
-            fmt::print("{}", best_text(summary, titles.conditions));
+            fmt::print("{}", best_text(summary, arguments.metrics, titles.conditions));
         else if (!arguments.against.empty())
             fmt::print("diff.: minus {} (here the baseline), paired by scenario and replication.\n",
                        report::printable(titles.reference));

@@ -174,12 +174,12 @@ void append_wrapped(const std::string& paragraph, std::string& text) {
     }
 }
 
-/// First and last line: the last of a Python traceback is the cause.
+/// First and last line: the last of a Python traceback is the cause. A line of code is none.
 std::string ends_of(const std::string& lines) {
     const std::string text = lines.substr(0, lines.find_last_not_of("\n ") + 1);
-    const std::size_t first = text.find('\n');
-    if (first == std::string::npos) return text;
-    return text.substr(0, first) + " ... " + text.substr(text.rfind('\n') + 1);
+    const std::string first = text.substr(0, text.find('\n'));
+    const std::string last = text.substr(text.rfind('\n') + 1);
+    return first == text || last.starts_with(' ') ? first : first + " ... " + last;
 }
 
 void append_failed(const ScenarioFacts& scenario, std::string& text) {
@@ -311,6 +311,7 @@ void append_head(const ScenarioFacts& scenario, std::string& text) {
                    counted(emergency, "emergency vehicle"));
     append_wrapped(scenario.assumptions, text);
     append_wrapped(printable(kept_requests_sentence(scenario)), text);
+    append_wrapped(printable(unsent_messages_sentence(scenario)), text);
     const bool has_runs = std::ranges::any_of(
         scenario.conditions, [](const auto& condition) { return condition.complete_runs > 0; });
     if (emergency == 0 && has_runs)

@@ -40,19 +40,6 @@ MaybeEstimate longer_in(const ConditionFacts& first, const ConditionFacts& secon
                                      analysis::MetricKind::quantity);
 }
 
-/// What failing changes, and whether it is shown.
-std::string failing_words(const ConditionFacts& condition, const ConditionFacts& working, Script script) {
-    const MaybeEstimate longer = longer_in(condition, working);
-    if (!longer) return "no complete pair of runs";
-    return estimate(longer, {1, script, Sign::always}) +
-           words_of(effect_of(longer, Better::lower, condition.least_relevant(primary)));
-}
-
-/// `nothing fails (corridor)`, or the title.
-std::string title_of(const ConditionFacts& condition, const ConditionFacts& control) {
-    return is_working(control, condition) ? fmt::format("nothing fails ({})", control.title) : control.title;
-}
-
 /// `, the same EV times in 9 of 10 runs`, or empty where none has.
 std::string same_times_words(const ConditionFacts& condition, const ConditionFacts& control) {
     const analysis::Values& mine = condition.outcome(primary).values;
@@ -63,12 +50,32 @@ std::string same_times_words(const ConditionFacts& condition, const ConditionFac
     return same == 0 ? "" : fmt::format(", the same EV times in {} of {}", same, counted(mine.size(), "run"));
 }
 
+/// Whether each run of the one is a run of the other.
+bool are_same(const ConditionFacts& condition, const ConditionFacts& other) {
+    return other.same_as == condition.name() || condition.same_as == other.name();
+}
+
+/// What failing changes, and whether it is shown.
+std::string failing_words(const ConditionFacts& condition, const ConditionFacts& working, Script script) {
+    if (are_same(condition, working)) return "every run is the same";
+    const MaybeEstimate longer = longer_in(condition, working);
+    if (!longer) return "no complete pair of runs";
+    return estimate(longer, {1, script, Sign::always}) +
+           words_of(effect_of(longer, Better::lower, condition.least_relevant(primary))) +
+           same_times_words(condition, working);
+}
+
+/// `nothing fails (corridor)`, or the title.
+std::string title_of(const ConditionFacts& condition, const ConditionFacts& control) {
+    return is_working(control, condition) ? fmt::format("nothing fails ({})", control.title) : control.title;
+}
+
 std::string words_of(const ConditionFacts& condition, const Control& control, Script script) {
     const ConditionFacts& other = *control.condition;
     const std::string title = title_of(condition, other);
     if (!other.same_as.empty() && other.same_as == other.baseline)
         return title + ": every run is that of the baseline";
-    if (other.same_as == condition.name() || condition.same_as == other.name())
+    if (are_same(condition, other))
         return title + ": every run is the same, so what is off there does nothing here";
     if (!control.difference_s) return title + ": no complete pair of runs";
     const std::string objection = analysis::emergency_objection_word(other.objections);
@@ -99,8 +106,8 @@ const ConditionFacts* working_of(const ScenarioFacts& scenario, const ConditionF
 
 std::string failing_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     const ConditionFacts* const working = working_of(scenario, condition);
-    if (working == nullptr || !working->control_of.empty()) return {};
-    return fmt::format("EV travel time against the same while nothing fails, s: {}.",
+    if (working == nullptr) return {};
+    return fmt::format("What failing costs: EV travel time against the same while nothing fails, s: {}.",
                        failing_words(condition, *working, script));
 }
 
@@ -128,7 +135,8 @@ std::string working_words(const ScenarioFacts& scenario, const ConditionFacts& c
 std::string controls_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     std::vector<std::string> parts;
     for (const Control& control : controls_of(scenario, condition))
-        parts.push_back(words_of(condition, control, script));
+        if (control.condition != working_of(scenario, condition))
+            parts.push_back(words_of(condition, control, script));
     if (parts.empty()) return {};
     return fmt::format("Controls: with one part of it off, EV travel time changes by, s: {}.",
                        fmt::join(parts, "; "));

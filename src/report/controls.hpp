@@ -24,8 +24,8 @@ std::string working_words(const ScenarioFacts& scenario, const ConditionFacts& c
 /// The condition that does the same while nothing fails, if the study compares both; else null. Points into
 /// the scenario.
 const ConditionFacts* working_of(const ScenarioFacts& scenario, const ConditionFacts& condition);
-/// `EV travel time against the same while nothing fails, s: -1.4 [-5.0, 2.2], no difference shown.` Empty
-/// without such a condition, and where that is a control, of which the controls tell.
+/// `What failing costs: EV travel time against the same while nothing fails, s: +1.4 [-2.2, 5.0], no
+/// difference shown.` Empty without such a condition.
 std::string failing_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
 /// The same for those in which something fails of a condition, after their titles, but for its controls.
 std::string failing_note(const ScenarioFacts& scenario, const ConditionFacts& working, Script script);

@@ -223,7 +223,9 @@ std::string link(const std::string& name, const std::string& ending) {
     return fmt::format(" <a href=\"{0}.{1}\">{1}</a>", name, ending);
 }
 
-std::string entry_markup(const FigureEntry& entry, const std::vector<std::string>& more) {
+/// `folder` is the name by which LaTeX finds the files from beside it.
+std::string entry_markup(const FigureEntry& entry, const std::vector<std::string>& more,
+                         const std::string& folder) {
     std::string html = fmt::format("<figure id=\"{}\"><figcaption>{}<span class=\"save\">", entry.name,
                                    escaped(entry.caption));
     if (entry.is_drawing) {
@@ -242,11 +244,11 @@ std::string entry_markup(const FigureEntry& entry, const std::vector<std::string
             entry.name, escaped(entry.caption), escaped(entry.note),
             escaped(fmt::format(
                 "\\begin{{figure}}\n\\centering\n\\includegraphics[width=\\linewidth,"
-                "height=.8\\textheight,keepaspectratio]{{{0}{1}}}\n"
+                "height=.8\\textheight,keepaspectratio]{{{4}/{0}{1}}}\n"
                 "\\caption{{{2}}}\n\\label{{fig:{3}}}\n\\end{{figure}}",
                 entry.name, has_pdf ? ".pdf" : "",
                 detail::latex_escaped(entry.caption + "." + (entry.note.empty() ? "" : " " + entry.note)),
-                entry.label)));
+                entry.label, folder)));
     }
     if (!entry.markup.empty()) html += "<details><summary>Table</summary>" + entry.markup + "</details>\n";
     return html + "</figure>\n";
@@ -263,13 +265,14 @@ void write_index(const FigureFiles& files, const std::filesystem::path& folder,
         "img{{display:block;width:100%;background:#fff}}</style>\n</head>\n<body>\n"
         "<header>\n<h1>{0}: figures and tables</h1>\n</header>\n<main>\n",
         escaped(files.title), detail::page_style());
+    const std::string name = std::filesystem::canonical(folder).filename().string();
     std::string section;
     for (const FigureEntry& entry : files.entries) {
         if (entry.section != section)
             html += fmt::format("{}<h2>{}</h2>\n<div class=\"figures\">\n", section.empty() ? "" : "</div>\n",
                                 entry.section);
         section = entry.section;
-        html += entry_markup(entry, more);
+        html += entry_markup(entry, more, name);
     }
     html += section.empty() ? "<p>Nothing to draw.</p>\n" : "</div>\n";
     core::write_output(folder / "index.html", html + "</main>\n</body>\n</html>\n");

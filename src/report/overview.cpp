@@ -31,8 +31,8 @@ std::string interval_words(const MaybeEstimate& difference, Script script) {
     if (interval == nullptr) return {};
     const double most = std::max(std::abs(interval->low), std::abs(interval->high));
     const NumberStyle style{most < 9.95 ? 1 : 0, script};
-    return fmt::format("95 % interval {} to {} s", number(interval->low, style),
-                       number(interval->high, style));
+    const auto [low, high] = interval_ends(*interval, style);
+    return fmt::format("95 % interval {} to {} s", low, high);
 }
 
 /// ` (24 %)`, or nothing.
@@ -81,7 +81,8 @@ std::string emergency_clause(const ScenarioFacts& scenario, const ConditionFacts
 
 std::string others_clause(const ConditionFacts& condition, Script script) {
     const double mean = mean_of(condition.difference(Measure::other_time_loss)).value_or(0.0);
-    const std::string doubts = doubt_clause(condition, Measure::other_time_loss, script);
+    const std::string own = doubts_of(condition, Measure::other_time_loss, script);
+    const std::string doubts = own == doubts_of(condition, primary, script) ? "" : doubt_clause(own);
     switch (effect_of(condition, Measure::other_time_loss)) {
         case Effect::better:
             return fmt::format("other drivers save {} each{}", seconds(mean, script), doubts);
@@ -433,6 +434,11 @@ Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, S
                         fmt::format("Not enough runs: {} show the direction of one comparison alone, not "
                                     "among so many (Holm)",
                                     pairs)};
+            if (is_held_up(*condition.outcome(primary).comparison))
+                return {
+                    Badge::Runs::too_few,
+                    fmt::format("Doubtful: {} show the direction, but locks hold up traffic in {} of them",
+                                pairs, condition.outcome(primary).comparison->held_up_pairs)};
             return {runs, fmt::format("{} runs: {} show the direction{}", quantity, pairs, few)};
         case Effect::negligible:
             return {runs, fmt::format("{} runs: {} show that the difference is too small to matter{}",

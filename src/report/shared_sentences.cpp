@@ -8,7 +8,6 @@
 
 #include "experiment/condition_words.hpp"
 #include "report/safety.hpp"
-#include "report/verdict.hpp"
 
 namespace clearway::report {
 namespace {
@@ -21,48 +20,87 @@ bool blocks_the_way(const RoadMap& roads) {
     });
 }
 
-}  // namespace
-
-bool is_shown_alone(const ConditionFacts& condition, Measure measure) {
-    const Effect effect = effect_of(condition, measure);
-    const auto& comparison = condition.outcome(measure).comparison;
-    return (effect == Effect::better || effect == Effect::worse) && comparison && comparison->holm_p &&
-           *comparison->holm_p > 1.0 - analysis::usual_level;
+bool is_clear(Effect effect) {
+    return effect == Effect::better || effect == Effect::worse;
 }
 
-std::string doubts_of(const ConditionFacts& condition, Measure measure, Script script) {
-    const Effect effect = effect_of(condition, measure);
+bool is_shown_alone(Effect effect, const analysis::Comparison& comparison) {
+    return is_clear(effect) && comparison.holm_p && *comparison.holm_p > 1.0 - analysis::usual_level;
+}
+
+void add_once(const std::string& word, std::vector<std::string>& words) {
+    if (std::ranges::find(words, word) == words.end()) words.push_back(word);
+}
+
+}  // namespace
+
+bool is_held_up(const analysis::Comparison& comparison) {
+    return 2 * comparison.held_up_pairs > comparison.complete_pairs;
+}
+
+bool is_shown_alone(const ConditionFacts& condition, Measure measure) {
     const auto& comparison = condition.outcome(measure).comparison;
-    if (!comparison || (effect != Effect::better && effect != Effect::worse)) return {};
+    return comparison && is_shown_alone(effect_of(condition, measure), *comparison);
+}
+
+std::string doubts_of(Effect effect, const analysis::Comparison& comparison, Script script) {
+    if (!is_clear(effect)) return {};
     std::vector<std::string> words;
-    if (2 * comparison->locked_pairs > comparison->complete_pairs)
-        words.push_back(fmt::format("vehicles locked each other in {} of {} of runs",
-                                    comparison->locked_pairs, counted(comparison->complete_pairs, "pair")));
-    if (const std::uint64_t pairs = comparison->difference->n; pairs < fewest_to_trust)
+    if (is_held_up(comparison))
+        words.push_back(fmt::format("locks held up an EV or one vehicle in a hundred in {} of {}",
+                                    comparison.held_up_pairs, counted(comparison.complete_pairs, "pair")));
+    if (const std::uint64_t pairs = comparison.difference->n; pairs < fewest_to_trust)
         words.push_back(fmt::format("{} pairs are few", pairs));
-    if (is_shown_alone(condition, measure))
-        words.push_back(fmt::format("p {} among so many comparisons", p_words(comparison->holm_p, script)));
+    if (is_shown_alone(effect, comparison))
+        words.push_back(fmt::format("p {} among so many comparisons", p_words(comparison.holm_p, script)));
     return fmt::format("{}", fmt::join(words, "; "));
 }
 
-std::string doubt_clause(const ConditionFacts& condition, Measure measure, Script script) {
-    const std::string doubts = doubts_of(condition, measure, script);
+std::string doubts_of(const ConditionFacts& condition, Measure measure, Script script) {
+    const auto& comparison = condition.outcome(measure).comparison;
+    return comparison ? doubts_of(effect_of(condition, measure), *comparison, script) : "";
+}
+
+std::string doubt_clause(const std::string& doubts) {
     return doubts.empty() ? "" : " (doubtful: " + doubts + ")";
+}
+
+std::string doubt_clause(const ConditionFacts& condition, Measure measure, Script script) {
+    return doubt_clause(doubts_of(condition, measure, script));
 }
 
 std::string kept_requests_sentence(const ScenarioFacts& scenario) {
     std::vector<std::string> failures;
     for (const ConditionFacts& one : scenario.conditions) {
-        const std::string& failure = one.condition.failure;
-        if (experiment::loses_no_request(one.condition) &&
-            std::ranges::find(failures, failure) == failures.end())
-            failures.push_back(failure);
+        if (experiment::loses_no_request(one.condition)) add_once(one.condition.failure, failures);
     }
     return failures.empty() ? ""
                             : fmt::format(
                                   "No request of an EV to vehicles or signals is lost under {} (Q50 "
                                   "loses half).",
                                   fmt::join(failures, "; "));
+}
+
+bool is_judged_by_messages(const ConditionFacts& condition) {
+    return experiment::policies_without_messages(condition.condition).empty();
+}
+
+std::string unsent_messages_sentence(const ScenarioFacts& scenario) {
+    std::vector<std::string> policies;
+    std::vector<std::string> failures;
+    for (const ConditionFacts& one : scenario.conditions) {
+        if (is_judged_by_messages(one)) continue;
+        add_once(one.condition.failure, failures);
+        for (const std::string& policy : experiment::policies_without_messages(one.condition))
+            add_once(policy, policies);
+    }
+    return failures.empty()
+               ? ""
+               : fmt::format(
+                     "{} {} signals by a detector or by light and not by messages: results under "
+                     "{} mean nothing there.",
+                     core::listed(policies), policies.size() == 1 ? "calls" : "call",
+                     fmt::join(failures, "; "));
 }
 
 std::string survivors_words(const ConditionFacts& condition, Script script) {

@@ -5,6 +5,7 @@
 
 #include "report/facts.hpp"
 #include "report/text.hpp"
+#include "report/verdict.hpp"
 
 namespace clearway::report {
 
@@ -14,14 +15,25 @@ namespace clearway::report {
 /// `5 pairs are few; p 0.072 among so many comparisons`: why chance or locks could be all of an effect that
 /// its interval shows. Empty where nothing speaks for that.
 std::string doubts_of(const ConditionFacts& condition, Measure measure, Script script);
+/// Whether locks hold up a run in most pairs, so that these say little about a policy.
+bool is_held_up(const analysis::Comparison& comparison);
 /// Whether an effect is shown by its own interval, and not once p is corrected for all comparisons (Holm).
 bool is_shown_alone(const ConditionFacts& condition, Measure measure);
+/// The same of a comparison with that effect.
+std::string doubts_of(Effect effect, const analysis::Comparison& comparison, Script script);
 /// ` (doubtful: 5 pairs are few)`, or nothing.
+std::string doubt_clause(const std::string& doubts);
 std::string doubt_clause(const ConditionFacts& condition, Measure measure, Script script);
 
 /// `No request of an EV to vehicles or signals is lost under B10 (Q50 loses half).` Empty where nothing else
 /// fails.
 std::string kept_requests_sentence(const ScenarioFacts& scenario);
+
+/// Whether its policies send the messages that its failure loses, if it loses any.
+bool is_judged_by_messages(const ConditionFacts& condition);
+/// `check_in_out calls signals by a detector or by light and not by messages: results under Q50 mean nothing
+/// there.` Empty where all are judged by messages.
+std::string unsent_messages_sentence(const ScenarioFacts& scenario);
 
 /// `EVs that arrived in both: -10.3 s [-30.1, 9.5], all but 1; median of the pairs -4.7 s`: the travel time
 /// without the horizon that stands for an EV that did not arrive. Empty where all arrived in both.

@@ -60,10 +60,23 @@ std::string estimate(const MaybeEstimate& estimate, NumberStyle style, double fa
     return text + " " + interval_text(*interval, style, factor);
 }
 
-std::string interval_text(const analysis::Interval& interval, NumberStyle style, double factor) {
+std::pair<std::string, std::string> interval_ends(const analysis::Interval& interval, NumberStyle style,
+                                                  double factor) {
     if (style.sign == Sign::always) style.sign = Sign::negative_only;
-    return fmt::format("[{}, {}]", number(interval.low * factor, style),
-                       number(interval.high * factor, style));
+    constexpr int most_decimals = 4;
+    const auto end = [&](double value) {
+        NumberStyle finer = style;
+        const auto is_hidden = [&] { return std::abs(value) < 0.5 * std::pow(10.0, -finer.decimals); };
+        while (!interval.contains(0.0) && is_hidden() && finer.decimals < most_decimals)
+            ++finer.decimals;
+        return number(value, finer);
+    };
+    return {end(interval.low * factor), end(interval.high * factor)};
+}
+
+std::string interval_text(const analysis::Interval& interval, NumberStyle style, double factor) {
+    const auto [low, high] = interval_ends(interval, style, factor);
+    return fmt::format("[{}, {}]", low, high);
 }
 
 int decimals_of(const ScenarioFacts& scenario, Measure measure) {

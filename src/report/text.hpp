@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/counted.hpp"
 #include "core/markup.hpp"
@@ -43,7 +44,10 @@ std::string number(double value, NumberStyle style);
 /// An interval is printed only when it has enough values. `factor` scales to the printed unit.
 std::string estimate(const MaybeEstimate& estimate, NumberStyle style, double factor = 1.0);
 
-/// `[10.1, 14.5]`.
+/// The ends of an interval. One that excludes 0 has none that reads 0.0: -2.0 and -0.03.
+std::pair<std::string, std::string> interval_ends(const analysis::Interval& interval, NumberStyle style,
+                                                  double factor = 1.0);
+/// `[10.1, 14.5]`
 std::string interval_text(const analysis::Interval& interval, NumberStyle style, double factor = 1.0);
 
 /// A number, or the text for a missing one.

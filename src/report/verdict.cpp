@@ -252,6 +252,8 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     if (const std::size_t same = scenario.place_of(condition.same_as); same < scenario.conditions.size())
         words.facts.push_back(
             fmt::format("Every run is identical to that of {}.", scenario.conditions[same].label()));
+    if (!is_judged_by_messages(condition))
+        words.facts.emplace_back("Its policy sends no messages, so this failure means nothing here.");
     if (condition.is_unchecked())
         words.facts.push_back(
             "Safety checks of the simulator were off: vehicles may drive through each other.");

@@ -160,6 +160,9 @@ TEST_F(CompareTest, compares_with_the_best_other_condition_under_the_same_failur
     EXPECT_THAT(text,
                 testing::ContainsRegex("line: corridor, B10 is [a-z ]+ (geocast|clear_lane), B10, the best"));
     EXPECT_THAT(text, HasSubstr("which favours it"));
+    EXPECT_THAT(clearway({"compare", "runs/mine", "--against", "best", "--metric", "others_time_loss_s"}).out,
+                testing::ContainsRegex("is level with [a-z_, 0-9B]+the\\s+best other one by "
+                                       "EV\\s+travel\\s+time:\\s+others_time_loss_s 0.0"));
 }
 
 TEST_F(CompareTest, tells_titles_where_nothing_is_compared) {

@@ -111,11 +111,11 @@ TEST_F(FiguresTest, with_svg_only_no_other_program_is_needed) {
 
 TEST_F(FiguresTest, a_second_time_gives_the_same_bytes) {
     run();
-    ASSERT_EQ(clearway({"export", "figures", "study", "--out", "one", "--svg-only"}).code, 0);
-    ASSERT_EQ(clearway({"export", "figures", "study", "--out", "two", "--svg-only"}).code, 0);
-    for (const auto& entry : std::filesystem::directory_iterator(folder() / "one")) {
+    for (const char* const into : {"one/figures", "two/figures"})
+        ASSERT_EQ(clearway({"export", "figures", "study", "--out", into, "--svg-only"}).code, 0);
+    for (const auto& entry : std::filesystem::directory_iterator(folder() / "one/figures")) {
         const std::string name = entry.path().filename();
-        EXPECT_EQ(read("one/" + name), read("two/" + name)) << name;
+        EXPECT_EQ(read("one/figures/" + name), read("two/figures/" + name)) << name;
     }
 }
 

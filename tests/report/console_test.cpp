@@ -75,7 +75,7 @@ TEST(Page, begins_with_what_a_plan_confirms) {
     std::ostringstream page;
     write_html(planned_study(), page);
     EXPECT_LT(page.str().find("<section id=\"plan\">"), page.str().find("<section id=\"overview\">"));
-    EXPECT_THAT(page.str(), HasSubstr("Findings of the plan: emergency_restricted_travel_time_s"));
+    EXPECT_THAT(page.str(), HasSubstr("Findings of the plan: EV travel time, all: difference, s"));
 }
 
 TEST(JsonTables, hold_the_findings_of_a_plan) {

@@ -156,19 +156,41 @@ TEST_F(Overview, doubts_effects_of_locked_pairs_few_pairs_and_many_comparisons) 
     EXPECT_THAT(headline(),
                 HasSubstr("other drivers lose 4.6 s each (doubtful: p 0.072 among so many comparisons)"));
     others.locked_pairs = others.complete_pairs = 20;
-    EXPECT_THAT(headline(),
-                HasSubstr("(doubtful: vehicles locked each other in 20 of 20 pairs of runs; p 0.072"));
-    others.difference->n = 5;
-    EXPECT_THAT(headline(), HasSubstr("20 of 20 pairs of runs; 5 pairs are few; p 0.072"));
-    EXPECT_EQ(this->others().tone, Tile::Tone::neutral);
-    EXPECT_THAT(this->others().meaning, HasSubstr("; doubtful: vehicles locked"));
-    EXPECT_THAT(headline(), StartsWith("corridor saves")) << "that of EVs stands";
+    EXPECT_THAT(headline(), HasSubstr("(doubtful: p 0.072"))
+        << "locks of a few vehicles, as the check tolerates";
+    others.held_up_pairs = 20;
     EXPECT_THAT(
-        verdict(scenario_, corridor(), Script::plain).facts,
-        testing::Contains(HasSubstr("(doubtful: vehicles locked each other in 20 of 20 pairs of runs; 5")));
-    others.locked_pairs = 4;
+        headline(),
+        HasSubstr("(doubtful: locks held up an EV or one vehicle in a hundred in 20 of 20 pairs; p 0.072"));
+    others.difference->n = 5;
+    EXPECT_THAT(headline(), HasSubstr("20 of 20 pairs; 5 pairs are few; p 0.072"));
+    EXPECT_EQ(this->others().tone, Tile::Tone::neutral);
+    EXPECT_THAT(this->others().meaning, HasSubstr("; doubtful: locks held up"));
+    EXPECT_THAT(headline(), StartsWith("corridor saves")) << "that of EVs stands";
+    EXPECT_THAT(verdict(scenario_, corridor(), Script::plain).facts,
+                testing::Contains(HasSubstr("in a hundred in 20 of 20 pairs; 5")));
+    others.held_up_pairs = 4;
     others.holm_p = 0.04;
     EXPECT_THAT(headline(), HasSubstr("(doubtful: 5 pairs are few)"));
+}
+
+TEST_F(Overview, TellsADoubtOnce) {
+    EXPECT_EQ(badge_of(scenario_, corridor(), Script::plain).runs, Badge::Runs::enough);
+    for (const Measure measure : {primary, Measure::other_time_loss}) {
+        analysis::Comparison& comparison = tests::comparison(corridor(), measure);
+        comparison.holm_p = 0.01;
+        comparison.complete_pairs = 20;
+        comparison.held_up_pairs = 11;
+    }
+    const std::string words = headline();
+    EXPECT_THAT(words, HasSubstr("doubtful: locks held up"));
+    EXPECT_EQ(words.find("doubtful"), words.rfind("doubtful"));
+    const Badge badge = badge_of(scenario_, corridor(), Script::plain);
+    EXPECT_EQ(badge.runs, Badge::Runs::too_few);
+    EXPECT_EQ(badge.words,
+              "Doubtful: 20 pairs of runs show the direction, but locks hold up traffic in 11 of them");
+    tests::comparison(corridor(), primary).held_up_pairs = 10;
+    EXPECT_EQ(badge_of(scenario_, corridor(), Script::plain).runs, Badge::Runs::enough) << "not most";
 }
 
 TEST_F(Overview, CountsCollisionsAgainstTheBaseline) {
@@ -288,16 +310,15 @@ TEST_F(Controls, say_what_a_failure_costs_and_where_it_changes_nothing) {
     scenario_.conditions[2].condition = experiment::without_failure(corridor().condition);
     scenario_.conditions[3].condition.policies = {"clear_lane"};
     set(scenario_.conditions[2], {70.0, 74.0, 73.0, 74.0, 75.0});
-    EXPECT_THAT(sentence(),
-                HasSubstr("s: nothing fails (deaf): -0.8 [-2.2, 0.6], no difference shown, the same "
-                          "EV times in 3 of 5 runs; blind"));
     tests::compare(scenario_.conditions[2], around(-24.0, 3.0), around(0.0, 1.0));
     EXPECT_THAT(emergency().meaning, HasSubstr("; -24.0 [-27.0, -21.0] s while nothing fails"));
+    const auto failing = [&] { return failing_sentence(scenario_, corridor(), Script::plain); };
+    EXPECT_EQ(failing(),
+              "What failing costs: EV travel time against the same while nothing fails, s: +0.8 [-0.6, 2.2], "
+              "no difference shown, the same EV times in 3 of 5 runs.");
+    EXPECT_THAT(sentence(), Not(HasSubstr("nothing fails"))) << "told once";
     corridor().same_as = "corridor_perfect";
-    EXPECT_THAT(
-        sentence(),
-        HasSubstr(
-            "nothing fails (deaf): every run is the same, so what is off there does nothing here; blind"));
+    EXPECT_THAT(failing(), HasSubstr("s: every run is the same."));
 }
 
 TEST_F(Controls, are_neither_featured_nor_counted) {
@@ -383,11 +404,11 @@ TEST_F(Overview, IsAboutAConditionInWhichNothingFails) {
     EXPECT_THAT(
         failing_note(scenario_, corridor(), Script::plain),
         HasSubstr("against the same while nothing fails, s: corridor with failing sensors: -5.6 [-6.3"));
-    EXPECT_THAT(failing_sentence(scenario_, scenario_.conditions.back(), Script::plain),
-                StartsWith("EV travel time against the same while nothing fails, s: -5.6"));
+    EXPECT_THAT(
+        failing_sentence(scenario_, scenario_.conditions.back(), Script::plain),
+        StartsWith("What failing costs: EV travel time against the same while nothing fails, s: -5.6"));
     corridor().control_of = "failing";
     EXPECT_EQ(featured_condition(study_, scenario_), &scenario_.conditions.back()) << "what was asked for";
-    EXPECT_EQ(failing_sentence(scenario_, scenario_.conditions.back(), Script::plain), "");
 }
 
 TEST_F(Overview, SaysOnceUnderWhichFailuresNoRequestIsLost) {
@@ -399,6 +420,28 @@ TEST_F(Overview, SaysOnceUnderWhichFailuresNoRequestIsLost) {
     }
     EXPECT_EQ(kept_requests_sentence(scenario_),
               "No request of an EV to vehicles or signals is lost under B10; D3 (Q50 loses half).");
+}
+
+TEST_F(Overview, SaysWhichPoliciesSendNoMessagesThatCouldBeLost) {
+    corridor().condition.policies = {"check_in_out"};
+    EXPECT_EQ(unsent_messages_sentence(scenario_), "");
+    corridor().condition.failure = "Q50";
+    EXPECT_EQ(
+        unsent_messages_sentence(scenario_),
+        "check_in_out calls signals by a detector or by light and not by messages: results under Q50 mean "
+        "nothing there.");
+    EXPECT_THAT(verdict(scenario_, corridor(), Script::plain).text(),
+                HasSubstr("this failure means nothing here"));
+}
+
+TEST_F(Overview, DoubtsAClaimThatHoldsAlone) {
+    analysis::Comparison comparison = tests::comparison(corridor(), primary);
+    comparison.holm_p = 0.2;
+    EXPECT_THAT(doubts_of(Effect::worse, comparison, Script::plain),
+                HasSubstr("p 0.200 among so many comparisons"));
+    EXPECT_EQ(doubts_of(Effect::none_shown, comparison, Script::plain), "") << "claims nothing";
+    comparison.holm_p = 0.01;
+    EXPECT_EQ(doubts_of(Effect::worse, comparison, Script::plain), "");
 }
 
 TEST_F(Overview, SaysThatRunsAreTooFewForManyComparisons) {

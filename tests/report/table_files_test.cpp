@@ -40,6 +40,16 @@ TEST(TableFiles, SplitIntervalsIntoColumnsOfTheirOwn) {
               "Condition,\"difference, s\",low 95 %,high 95 %\none,-12.4,-15.5,-9.3\ntwo,0.4,,\nthree,,,\n");
 }
 
+TEST(TableFiles, KeepWhatStandsBehindAnInterval) {
+    const DataTable table{{"Condition", "difference, s"},
+                          {{"one", "2.5 [0.6, 4.4] ?"}, {"two", "0.4 [0.1, 0.7]"}}};
+    EXPECT_EQ(to_csv(table),
+              "Condition,\"difference, s\",low 95 %,high 95 %,note\none,2.5,0.6,4.4,?\ntwo,0.4,0.1,0.7,\n");
+    EXPECT_THAT(to_latex({"t", "c", table}),
+                AllOf(HasSubstr("one & 2.5 & [\\num{0.6}, \\num{4.4}]\\,? \\\\\n"),
+                      HasSubstr("two & 0.4 & [\\num{0.1}, \\num{0.7}] \\\\\n")));
+}
+
 TEST(TableFiles, AreEscapedForLatex) {
     Table table{"a-b", "50 % of a_b", {{"a_b", "50 %"}, {{"x & {y} \\ ~ ^ # $ < >", "\u22121.0"}}}};
     EXPECT_EQ(
@@ -248,6 +258,15 @@ TEST(FigureFiles, HaveTheGridOfFactorsWithItsIntervals) {
     write_figures(study, folder.path());
     EXPECT_THAT(grid(), AllOf(HasSubstr("6.0 ?</text>"), HasSubstr("shown alone, not among so many"),
                               Not(HasSubstr("4.0 ?</text>"))));
+    const auto typeset = [&] { return text_of(folder.path() / "factors-emergency-grid.tex"); };
+    EXPECT_THAT(typeset(),
+                AllOf(HasSubstr("\\num{-4.5}]\\,? "), HasSubstr("; ? shown alone, not among so many")));
+    study.scenarios[0].conditions.back().condition.policies = {"check_in_out"};
+    study.scenarios[0].conditions.back().condition.failure = "Q50";
+    write_figures(study, folder.path());
+    EXPECT_THAT(grid(), AllOf(HasSubstr("6.0 (n/a)</text>"),
+                              HasSubstr("it sends no message that could be lost"), Not(HasSubstr("(Holm)"))));
+    EXPECT_THAT(typeset(), AllOf(HasSubstr("\\,(n/a) "), HasSubstr("; (n/a) it sends no message")));
 }
 
 TEST(FigureFiles, HaveAPanelForEachLevelOfAThirdFactorInTheOrderOfTheStudy) {
@@ -302,10 +321,11 @@ TEST(FigureFiles, SayOverHowManyComparisonsAndOfWhichTestPIsCorrected) {
 }
 
 TEST(FigureFiles, AreAllOnOnePage) {
-    const core::TemporaryFolder folder;
-    const FigureFiles files = write_figures(tests::study({"merge", "<b>City</b>/../x"}), folder.path());
-    write_index(files, folder.path(), {"pdf"});
-    const std::string index = text_of(folder.path() / "index.html");
+    const core::TemporaryFolder beside;
+    const std::filesystem::path folder = beside.path() / "figures";
+    const FigureFiles files = write_figures(tests::study({"merge", "<b>City</b>/../x"}), folder);
+    write_index(files, folder, {"pdf"});
+    const std::string index = text_of(folder / "index.html");
     for (const auto* const list : {&files.drawings, &files.tables, &files.typeset}) {
         for (const std::filesystem::path& file : *list)
             EXPECT_THAT(index, HasSubstr("href=\"" + file.filename().string() + "\""));
@@ -313,7 +333,7 @@ TEST(FigureFiles, AreAllOnOnePage) {
     EXPECT_THAT(index, HasSubstr("href=\"tradeoff-merge.pdf\""));
     EXPECT_THAT(index, HasSubstr("\\label{fig:tradeoff-merge}"));
     EXPECT_THAT(index, HasSubstr("<details><summary>Table</summary><div class=\"scroll\""));
-    EXPECT_THAT(index, HasSubstr("height=.8\\textheight,keepaspectratio]{tradeoff-merge.pdf}"));
+    EXPECT_THAT(index, HasSubstr("height=.8\\textheight,keepaspectratio]{figures/tradeoff-merge.pdf}"));
     EXPECT_THAT(index, Not(HasSubstr("<b>")));
 }
 

@@ -45,6 +45,15 @@ TEST(EstimateText, shows_the_interval_only_where_there_is_one) {
     EXPECT_EQ(estimate(tests::between(0.41, 0.28, 0.54), {.decimals = 0}, 100.0), "41 [28, 54]");
 }
 
+TEST(IntervalText, shows_that_an_interval_excludes_0) {
+    const NumberStyle style{.decimals = 1};
+    EXPECT_EQ(interval_text({-2.0, -0.03}, style), "[-2.0, -0.03]");
+    EXPECT_EQ(interval_text({0.001, 2.0}, style), "[0.001, 2.0]");
+    EXPECT_EQ(interval_text({0.000001, 2.0}, style), "[0.0000, 2.0]") << "no longer than four decimals";
+    EXPECT_EQ(interval_text({-0.03, 2.0}, style), "[0.0, 2.0]") << "it includes 0";
+    EXPECT_EQ(interval_text({0.0, 2.0}, style), "[0.0, 2.0]");
+}
+
 TEST(Decimals, grow_where_all_means_are_small) {
     const ScenarioFacts scenario = tests::scenario("merge");
     EXPECT_EQ(decimals_of(scenario, Measure::emergency_travel_time), 1);

@@ -37,7 +37,7 @@ const char* width_class(const DataTable& table) {
     constexpr double phone_px = 328.0;  // 360 px without margins
     if (needed_px <= phone_px) return "";
     for (const TableWidth& width : table_widths)
-        if (&width == &table_widths.back() || needed_px <= width.room_px) return width.name;
+        if (&width == &table_widths.back() || needed_px <= width.needed_px) return width.name;
     return "";
 }
 

@@ -20,14 +20,16 @@ std::string to_html(const DataTable& table);
 /// `coarse_step_sentence` as a marked paragraph; empty for finer steps.
 std::string coarse_step_note(double step_length_s);
 
-/// CSS classes of tables that become lists, a line for each cell, and the width in px up to which they do.
-/// Cells of such tables carry the words of their column in `data-label`.
+/// CSS classes of tables by the width that they need, and the room up to which they become lists, a line for
+/// each cell, px. With more room they scroll sideways. Cells of such tables carry the words of their column
+/// in `data-label`.
 struct TableWidth {
     const char* name;
+    int needed_px;
     int room_px;
 };
 inline constexpr std::array<TableWidth, 4> table_widths = {
-    {{"wide", 560}, {"wider", 880}, {"widest", 1180}, {"list", 10000}}};
+    {{"wide", 560, 560}, {"wider", 880, 880}, {"widest", 2000, 880}, {"list", 100000, 10000}}};
 
 /// A table of its own, not the data of a figure.
 struct Table {

@@ -186,9 +186,9 @@ constexpr const char* list_rules = R"css(
 
 std::string lists() {
     std::string css = "@media screen{";
-    for (const auto& [name, room_px] : table_widths)
-        css += fmt::format("@container (max-width:{}px){{{}}}", room_px,
-                           fmt::format(fmt::runtime(list_rules), fmt::format("table.{}", name)));
+    for (const TableWidth& width : table_widths)
+        css += fmt::format("@container (max-width:{}px){{{}}}", width.room_px,
+                           fmt::format(fmt::runtime(list_rules), fmt::format("table.{}", width.name)));
     return css + "}";
 }
 

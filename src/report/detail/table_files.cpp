@@ -1,7 +1,6 @@
 #include "report/detail/table_files.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -55,18 +54,25 @@ std::string plain(const std::string& cell) {
     return value;
 }
 
-using Interval = std::array<std::string, 3>;  // mean, low, high
+/// An estimate in a cell. The note is what stands behind it, such as `?`.
+struct Interval {
+    std::string mean, low, high, note;
+};
 
-/// The parts of `1.2 [0.9, 1.5]`; nothing for any other text.
+/// The parts of `1.2 [0.9, 1.5] ?`; nothing for any other text.
 std::optional<Interval> interval_in(const std::string& cell) {
     const std::size_t open = cell.find(" [");
     const std::size_t comma = cell.find(", ", open);
-    if (open == std::string::npos || open == 0 || comma == std::string::npos || !cell.ends_with("]"))
+    const std::size_t close = cell.find(']', comma);
+    if (open == std::string::npos || open == 0 || comma == std::string::npos || close == std::string::npos)
         return std::nullopt;
+    const std::string rest = cell.substr(close + 1);
+    if (!rest.empty() && !rest.starts_with(' ')) return std::nullopt;
     Interval parts = {cell.substr(0, open), cell.substr(open + 2, comma - open - 2),
-                      cell.substr(comma + 2, cell.size() - comma - 3)};
-    for (const std::string& part : parts) {
-        if (part.empty() || part.find(' ') != std::string::npos) return std::nullopt;
+                      cell.substr(comma + 2, close - comma - 2), rest.empty() ? rest : rest.substr(1)};
+    for (const std::string* const part : {&parts.mean, &parts.low, &parts.high, &parts.note}) {
+        if ((part->empty() && part != &parts.note) || part->find(' ') != std::string::npos)
+            return std::nullopt;
     }
     return parts;
 }
@@ -101,7 +107,7 @@ struct Column {
 
     void include(const std::string& cell) {
         const std::optional<Interval> parts = interval_in(cell);
-        const std::optional<std::string> number = number_in(parts ? (*parts)[0] : cell);
+        const std::optional<std::string> number = number_in(parts ? parts->mean : cell);
         if (!number) return;
         numbers = true;
         intervals = intervals || parts.has_value();
@@ -128,13 +134,15 @@ struct Column {
     std::string body(const std::string& cell) const {
         if (!numbers) return latex_escaped(cell);
         const std::optional<Interval> parts = interval_in(cell);
-        const std::optional<std::string> number = number_in(parts ? (*parts)[0] : cell);
+        const std::optional<std::string> number = number_in(parts ? parts->mean : cell);
         std::string text = number ? *number : "{" + latex_escaped(cell) + "}";
         if (!intervals) return text;
         const auto end = [](const std::string& value) {
             return "\\num{" + replaced(value, "\u2212", "-") + "}";
         };
-        return text + (parts ? " & [" + end((*parts)[1]) + ", " + end((*parts)[2]) + "]" : " &");
+        if (!parts) return text + " &";
+        return text + " & [" + end(parts->low) + ", " + end(parts->high) + "]" +
+               (parts->note.empty() ? "" : "\\," + latex_escaped(parts->note));
     }
 };
 
@@ -176,9 +184,13 @@ std::string latex_line(const std::vector<std::string>& cells, const Set& set) {
 
 std::string to_csv(const DataTable& table) {
     std::vector<bool> wide(table.head.size(), false);
+    std::vector<bool> noted(table.head.size(), false);
     for (const auto& row : table.rows) {
-        for (std::size_t column = 0; column < row.size(); ++column)
-            wide[column] = wide[column] || interval_in(row[column]).has_value();
+        for (std::size_t column = 0; column < row.size(); ++column) {
+            const std::optional<Interval> parts = interval_in(row[column]);
+            wide[column] = wide[column] || parts;
+            noted[column] = noted[column] || (parts && !parts->note.empty());
+        }
     }
     const bool several = std::ranges::count(wide, true) > 1;
     std::vector<std::string> cells;
@@ -186,17 +198,19 @@ std::string to_csv(const DataTable& table) {
         cells.push_back(table.head[column]);
         const std::string of = several ? table.head[column] + " " : "";
         if (wide[column]) cells.insert(cells.end(), {of + "low 95 %", of + "high 95 %"});
+        if (noted[column]) cells.push_back(of + "note");
     }
     std::string text = line_of(cells);
     for (const auto& row : table.rows) {
         cells.clear();
         for (std::size_t column = 0; column < row.size(); ++column) {
             const std::optional<Interval> parts = interval_in(row[column]);
-            cells.push_back(plain(parts ? (*parts)[0] : row[column]));
+            cells.push_back(plain(parts ? parts->mean : row[column]));
             if (wide[column]) {
-                cells.push_back(parts ? plain((*parts)[1]) : "");
-                cells.push_back(parts ? plain((*parts)[2]) : "");
+                cells.push_back(parts ? plain(parts->low) : "");
+                cells.push_back(parts ? plain(parts->high) : "");
             }
+            if (noted[column]) cells.push_back(parts ? parts->note : "");
         }
         text += line_of(cells);
     }

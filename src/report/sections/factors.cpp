@@ -106,6 +106,18 @@ std::vector<std::string> off_the_axes(const Made& made, const std::vector<Factor
     return parts;
 }
 
+// What is written behind a difference.
+constexpr const char* objected = " (!)";
+constexpr const char* shown_alone = " ?";
+constexpr const char* unsent = " (n/a)";
+constexpr const char* shown_alone_words = "? shown alone, not among so many comparisons (Holm)";
+constexpr const char* unsent_words = "(n/a) it sends no message that could be lost";
+
+const char* mark_of(const ConditionFacts& condition, Measure measure) {
+    if (!is_judged_by_messages(condition)) return unsent;
+    return is_shown_alone(condition, measure) ? shown_alone : "";
+}
+
 GridCell cell_of(const Made& made, Measure measure) {
     const MaybeEstimate& difference = made.condition->difference(measure);
     if (!difference) return {};
@@ -113,11 +125,12 @@ GridCell cell_of(const Made& made, Measure measure) {
     const bool lost =
         measure == Measure::emergency_restricted_time && made.condition->objections.on_emergency();
     const analysis::Interval* const interval = shown_interval(difference);
-    const char* const mark = lost ? " (!)" : is_shown_alone(*made.condition, measure) ? " ?" : "";
+    const char* const mark = lost ? objected : mark_of(*made.condition, measure);
     return {number(difference->mean, typeset(1, Sign::always)) + mark,
-            lost || effect == Effect::worse ? GridCell::Tone::worse
-            : effect == Effect::better      ? GridCell::Tone::better
-                                            : GridCell::Tone::neutral,
+            !lost && !is_judged_by_messages(*made.condition) ? GridCell::Tone::neutral
+            : lost || effect == Effect::worse                ? GridCell::Tone::worse
+            : effect == Effect::better                       ? GridCell::Tone::better
+                                                             : GridCell::Tone::neutral,
             interval == nullptr ? "" : interval_text(*interval, typeset(1))};
 }
 
@@ -215,6 +228,12 @@ Grid grid_of(const std::string& heading, const std::vector<Made>& panel, const s
     return grid;
 }
 
+/// `+2.5 [0.6, 4.4] ?`
+std::string marked_estimate(const ConditionFacts& condition, Measure measure) {
+    const std::string text = estimate_or_nothing(condition.difference(measure), typeset(1, Sign::always));
+    return text.empty() ? text : text + mark_of(condition, measure);
+}
+
 /// The grids as one table, with the intervals for which a drawing has no room.
 Table grid_table(const std::vector<Made>& made, const std::vector<Factor>& factors, Measure measure,
                  const std::string& name) {
@@ -232,15 +251,20 @@ Table grid_table(const std::vector<Made>& made, const std::vector<Factor>& facto
             if (has_heading) row.push_back(heading);
             if (has_down) row.push_back(down.titles[level]);
             for (const Made* const one : row_of(panel, factors, down.levels[level]))
-                row.push_back(one == nullptr ? std::string()
-                                             : estimate_or_nothing(one->condition->difference(measure),
-                                                                   typeset(1, Sign::always)));
+                row.push_back(one == nullptr ? std::string() : marked_estimate(*one->condition, measure));
         }
     }
+    const auto note = [&](const char* mark, const std::string& words) {
+        const bool is_used = std::ranges::any_of(made, [&](const Made& one) {
+            return std::string_view(mark_of(*one.condition, measure)) == mark;
+        });
+        return is_used ? "; " + words : "";
+    };
     return {name + "-grid",
-            fmt::format("{}{}, by {}; {}, 95 % intervals in brackets", scenario_of(made),
+            fmt::format("{}{}, by {}; {}, 95 % intervals in brackets{}{}", scenario_of(made),
                         labelled(measure, "difference to the baseline"), last_part(factors[0].name),
-                        pairs_of(made, measure)),
+                        pairs_of(made, measure), note(shown_alone, shown_alone_words),
+                        note(unsent, unsent_words)),
             table};
 }
 
@@ -279,8 +303,9 @@ std::vector<LegendEntry> entries_of(const std::vector<Grid>& grids) {
             });
         });
     };
-    if (has("(!)")) entries.push_back({"", "(!) more EVs lost or hit, or safety checks off"});
-    if (has(" ?")) entries.push_back({"", "? shown alone, not among so many comparisons (Holm)"});
+    if (has(objected)) entries.push_back({"", "(!) more EVs lost or hit, or safety checks off"});
+    if (has(shown_alone)) entries.push_back({"", shown_alone_words});
+    if (has(unsent)) entries.push_back({"", unsent_words});
     return entries;
 }
 

@@ -43,7 +43,7 @@ void write_words(const StudyFacts& study, const ScenarioFacts& scenario, const C
     const std::string failing = experiment::failure_words(condition.condition);
     write_notes({policies.empty() ? "" : fmt::format("{}: {}.", condition.title, policies),
                  failing.empty() ? "" : fmt::format("What fails: {}.", failing), scenario.assumptions,
-                 kept_requests_sentence(scenario)},
+                 kept_requests_sentence(scenario), unsent_messages_sentence(scenario)},
                 writer);
     writer.markup(fmt::format("<p class=\"badge {}\">{}</p>\n",
                               badge.runs == Badge::Runs::enough ? "enough" : "few", escaped(badge.words)));
@@ -54,9 +54,9 @@ void write_words(const StudyFacts& study, const ScenarioFacts& scenario, const C
                   incident + tile_markup(others_tile(scenario, condition, script)) +
                   tile_markup(safety_tile(scenario, condition, script)) + "</div>\n");
     write_notes({privilege_sentence(scenario, condition, script), controls_note(scenario, condition, script),
-                 failing_note(scenario, condition, script), incidents_sentence(scenario, script),
-                 locks_sentence(scenario, condition), among_conditions(study, scenario),
-                 worst_trips(scenario, condition, script)},
+                 failing_sentence(scenario, condition, script), failing_note(scenario, condition, script),
+                 incidents_sentence(scenario, script), locks_sentence(scenario, condition),
+                 among_conditions(study, scenario), worst_trips(scenario, condition, script)},
                 writer);
 }
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "report/detail/figures.hpp"
@@ -19,7 +21,12 @@ void plan_section(const StudyFacts& study, Writer& writer) {
     }
     writer.markup(fmt::format("<p>{} Everything else on this page is exploratory.</p>\n",
                               escaped(plan_sentence(study))));
-    writer.table({"plan", "Findings of the plan: " + study.plan->metric, std::move(table)});
+    const auto measure = std::ranges::find(measures(), study.plan->metric, &MeasureInfo::field);
+    writer.table(
+        {"plan",
+         "Findings of the plan: " +
+             (measure == measures().end() ? study.plan->metric : labelled(measure->measure, "difference")),
+         std::move(table)});
 }
 
 }  // namespace clearway::report::detail
