@@ -84,7 +84,7 @@ const char* few_seeds_warning(std::uint32_t seeds) {
     return seeds < report::fewest_to_trust ? " So few seeds show large gains alone." : "";
 }
 
-/// What a first look of a quarter of an hour could be, the most seeds and then places, where what is asked
+/// What a first look of a quarter of an hour could be, the most places and then seeds, where what is asked
 /// for takes longer; else empty. A run adds `run_s` to the time.
 std::string short_plan(const EquipRounds& rounds, const EquipRequest& request, std::size_t candidates,
                        double run_s) {
@@ -94,8 +94,8 @@ std::string short_plan(const EquipRounds& rounds, const EquipRequest& request, s
     };
     const auto fits = [&](const EquipForecast& runs) { return seconds(runs) <= 60.0 * minutes; };
     if (candidates == 0 || fits(rounds.forecast())) return "";
-    for (std::uint32_t seeds = request.replications; seeds >= analysis::fewest_for_interval; --seeds) {
-        for (std::size_t budget = std::min(request.budget, candidates); budget > 0; --budget)
+    for (std::size_t budget = std::min(request.budget, candidates); budget > 0; --budget) {
+        for (std::uint32_t seeds = request.replications; seeds >= analysis::fewest_for_interval; --seeds)
             if (fits(rounds.forecast(budget, seeds)))
                 return fmt::format(" A first look, in {} minutes: --seeds {} --budget {}.{}", minutes, seeds,
                                    budget, few_seeds_warning(seeds));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <string>
@@ -18,6 +19,7 @@
 #include "campaign/printout.hpp"
 #include "core/counted.hpp"
 #include "core/files.hpp"
+#include "core/supervisor.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
 #include "experiment/conditions.hpp"
@@ -33,21 +35,21 @@ double share(std::uint64_t part, std::uint64_t whole) {
     return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// `--density 0.45`, and how to keep it, which multiplies the scenario's own. Measured demand cannot grow.
+/// `--density 0.45`, which multiplies the scenario's own, and how to keep it. Measured demand cannot grow.
 std::string density_advice(const Checked& checked, double factor) {
     if (checked.config.measured && checked.config.demand.density * factor > 1.0)
         return "measured demand cannot be made denser";
-    const double density = checked.asked_density * factor;
-    return fmt::format(
-        "--density {:.{}f} (to keep it, multiply demand.density in scenario.toml, or else 1, by it)", density,
-        density < 1.0 ? 2 : 1);
+    const auto text = [&](double density) { return fmt::format("{:.{}f}", density, density < 1.0 ? 2 : 1); };
+    return fmt::format("--density {} (to keep it: density = {} in [demand] of scenario.toml)",
+                       text(checked.asked_density * factor), text(checked.config.demand.density * factor));
 }
 
 Finding insertion_finding(const metrics::RunMetrics& run, const std::string& less) {
     constexpr double most_left_outside = 0.1;  // Above it, queues reach the boundary.
     const bool is_short = share(run.not_inserted, run.vehicle_count) > most_left_outside;
     return {"inserts", is_short ? Grade::falls_short : Grade::ok,
-            fmt::format("{} of {} entered, {:.1f} s late on average", run.vehicle_count - run.not_inserted,
+            fmt::format("{} of {} entered, {:.1f} s late on average",
+                        core::grouped(run.vehicle_count - run.not_inserted),
                         core::counted(run.vehicle_count, "vehicle"), run.depart_delay_s.value_or(0.0)),
             is_short ? less : ""};
 }
@@ -401,8 +403,10 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double a
                   CostBook(options.folder).of(scenario, hash, experiment::TrafficModel::standard));
         remove_runs(options.folder);
         if (lock_trials > 0) {
-            fmt::print(stderr, "clearway: {} more to look for locks\n",
-                       core::counted(2 * std::size_t{lock_trials}, "run"));
+            const std::size_t trials = 2 * std::size_t{lock_trials};
+            const double rounds = static_cast<double>(trials) / static_cast<double>(core::process_count(0));
+            fmt::print(stderr, "clearway: {} more to look for locks, about {}\n",
+                       core::counted(trials, "run"), clock_words(std::ceil(rounds) * wall_s));
             try {
                 findings.push_back(detail::trials_finding(try_locks(scenario, seed, lock_trials, options)));
             } catch (const core::Error&) {

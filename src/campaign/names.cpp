@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <tuple>
@@ -206,6 +207,29 @@ void check_parts(const std::vector<experiment::ConditionSpec>& conditions) {
     }
 }
 
+/// A policy that a condition names again, by itself or as a part of another.
+std::optional<core::Problem> given_twice(const experiment::ConditionSpec& condition,
+                                         const std::string& where) {
+    constexpr const char* once = "each policy once";
+    std::vector<std::string> sorted = condition.policies;
+    std::ranges::sort(sorted);
+    if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
+        return core::Problem{where + "policy", fmt::format("`{}` is given twice", *twice), once,
+                             "Remove one of the two"};
+    for (const std::string& whole : sorted) {
+        const policy::PolicyEntry* const known = policy::policies().find(whole);
+        if (known == nullptr) continue;
+        for (const std::string& part : known->components) {
+            if (part != whole && std::ranges::binary_search(sorted, part))
+                return core::Problem{
+                    where + "policy", fmt::format("`{}` is a part of `{}` already", part, whole), once,
+                    fmt::format("Remove {}; to compare the two, give each a condition of a study file",
+                                part)};
+        }
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 void check_names(const std::vector<experiment::ConditionSpec>& conditions) {
@@ -223,11 +247,8 @@ void check_names(const std::vector<experiment::ConditionSpec>& conditions) {
         for (const std::string& policy : condition.policies) {
             check(place_of(condition, "policy"), policy, policy::policies().names());
         }
-        std::vector<std::string> sorted = condition.policies;
-        std::ranges::sort(sorted);
-        if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
-            problems.push_back({where + "policy", fmt::format("`{}` is given twice", *twice),
-                                "each policy once", "Remove one of the two"});
+        if (const std::optional<core::Problem> twice = given_twice(condition, where))
+            problems.push_back(*twice);
         else
             check_part_names(condition, where, problems);
         const std::vector<core::Problem> unfit = experiment::check_settings(condition, where);

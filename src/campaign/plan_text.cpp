@@ -18,6 +18,7 @@
 #include "core/terminal.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/condition_titles.hpp"
+#include "experiment/condition_words.hpp"
 #include "experiment/settings.hpp"
 #include "report/read_facts.hpp"
 #include "results/store.hpp"
@@ -191,6 +192,10 @@ Table table_of(const std::vector<Cell>& cells, const core::Settings& titles) {
                  cell.cost.basis == CostBasis::measured}};
         row.below.push_back(fmt::format("failure {}, predictor {}, policy {}", condition.failure,
                                         condition.predictor, policy_of(condition)));
+        if (const auto policies = experiment::policies_without_messages(condition); !policies.empty())
+            row.below.push_back(
+                fmt::format("{}: no messages that could be lost, so this failure means nothing here",
+                            core::listed(policies)));
         table.rows.push_back(std::move(row));
     }
     return table;

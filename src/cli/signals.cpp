@@ -110,7 +110,9 @@ std::vector<std::string> lines_of(const SignalSheet& sheet) {
         if (phase.green)
             lines.push_back(fmt::format("phase {}  {:>5g} s  {}", phase.number, phase.duration_s,
                                         approach_text(sheet, phase)));
-    const std::string set = text_of(sheet.set);
+    traffic::Preemption changed = sheet.set;
+    if (changed.enabled == 1) changed.enabled.reset();  // As signals are where no file says anything.
+    const std::string set = text_of(changed);
     if (set != "-") lines.push_back("set  " + set);
     return lines;
 }

@@ -28,6 +28,15 @@ const char* type_word(const toml::node& node) {
     }
 }
 
+/// What the parser found, in other words where its own mislead: it takes a bare word for a boolean or a
+/// number.
+std::string words_of(std::string_view what) {
+    for (const char* const guess : {"boolean", "infinity", "nan"})
+        if (what.starts_with(fmt::format("Error while parsing {}", guess)))
+            return "a value is neither a number, nor true or false, nor a text in quotes";
+    return std::string(what);
+}
+
 /// What to do about an error at this line, of which `what` is the parser's word.
 std::string cure_of_line(const std::string& line, const std::string& what) {
     constexpr const char* usual = "Correct this line; texts stand in quotes";
@@ -223,7 +232,7 @@ toml::table parse_toml(const std::string& text, const std::string& file) {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
         const toml::source_position place = error.source().begin;
-        const std::string what(error.description());
+        const std::string what = words_of(error.description());
         throw InputError({fmt::format("{}:{}:{}", file, place.line, place.column), what, "a TOML file",
                           cure_of_line(line_of(text, place.line), what)});
     }

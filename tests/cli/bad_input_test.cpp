@@ -495,6 +495,9 @@ TEST_F(BadInputTest, a_policy_part_that_is_there_twice_is_refused) {
         clearway({"run", "line", "--out", "out", "--policy", "clear_lane", "corridor", "clear_lane"});
     EXPECT_EQ(ended.code, 3);
     EXPECT_THAT(ended.err, HasSubstr("`clear_lane` is given twice"));
+    const Ended part = clearway({"run", "line", "--out", "out", "--policy", "corridor", "preempt_signals"});
+    EXPECT_EQ(part.code, 3);
+    EXPECT_THAT(part.err, HasSubstr("`preempt_signals` is a part of `corridor` already"));
     EXPECT_FALSE(std::filesystem::exists(folder() / "out"));
 }
 

@@ -21,6 +21,12 @@ TEST(TomlErrors, TellHowToWriteADecimalComma) {
     EXPECT_THAT(refusal("x = y\n"), HasSubstr("texts stand in quotes"));
 }
 
+TEST(TomlErrors, DoNotTakeABareWordForABooleanOrANumber) {
+    for (const char* const word : {"ten", "falcon", "nothing", "inside"})
+        EXPECT_THAT(refusal(std::string("replications = ") + word + "\n"), HasSubstr("city.toml:1:")) << word;
+    EXPECT_THAT(refusal("replications = ten\n"), HasSubstr("neither a number, nor true or false"));
+}
+
 TEST(TomlErrors, TellThatRowsHaveTwoBrackets) {
     EXPECT_THAT(refusal("[incident]\nedge = \"a\"\n[incident]\nedge = \"b\"\n"),
                 HasSubstr("Write [[incident]], with two brackets"));

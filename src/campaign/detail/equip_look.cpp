@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/terminal.hpp"
+#include "report/equipment.hpp"
 #include "report/text.hpp"
 
 namespace clearway::campaign::detail {
@@ -26,8 +27,8 @@ std::string name_of(std::size_t candidate, const Signals& signals) {
                        report::signal_words(signals.id(candidate), signals.streets(candidate)));
 }
 
-std::string line_of(const std::string& words, const analysis::MaybeEstimate& gain) {
-    return core::wrapped(fmt::format("  {}: {}", words, report::estimate(gain, {})), 4) + "\n";
+std::string line_of(const std::string& words, const analysis::MaybeEstimate& gain, const char* mark = "") {
+    return core::wrapped(fmt::format("  {}: {}{}", words, report::estimate(gain, {}), mark), 4) + "\n";
 }
 
 /// The largest first, a line each.
@@ -67,13 +68,19 @@ std::string chosen_words(const analysis::EquipPlan& plan, const Signals& signals
     std::string text = "clearway: the search has ended, the fresh seeds that tell its gain have not. ";
     text += plan.steps.empty() ? "It chose no signal. " : "It chose, in this order, with what each adds. ";
     text += flatters;
-    for (std::size_t rank = 0; rank < plan.steps.size(); ++rank)
-        text += line_of(fmt::format("{}) {}", rank + 1, name_of(plan.steps[rank].candidate, signals)),
-                        plan.steps[rank].gain);
+    for (std::size_t rank = 0; rank < plan.steps.size(); ++rank) {
+        const analysis::EquipStep& step = plan.steps[rank];
+        const std::string with =
+            step.partner ? fmt::format(" with No. {}, half of what both gain", signals.number(*step.partner))
+                         : "";
+        text += line_of(fmt::format("{}) {}{}", rank + 1, name_of(step.candidate, signals), with), step.gain,
+                        report::is_shown(step.gain) ? ", shown" : ", not shown");
+    }
     std::vector<Gain> alone;
     for (std::size_t candidate = 0; candidate < plan.candidates.size(); ++candidate)
         alone.emplace_back(plan.candidates[candidate].gain, candidate);
-    return text + "Each alone:\n" + gain_lines(std::move(alone), signals);
+    return text + "Each alone, with intervals for all rows together (Bonferroni):\n" +
+           gain_lines(std::move(alone), signals);
 }
 
 }  // namespace clearway::campaign::detail
