@@ -60,8 +60,9 @@ _HOMES = {
     "vector": ["VectorEnv", "vector_env"],
     "parts": ["Policy", "Predictor", "Belief", "Observation", "Vehicles", "Links", "EmergencyVehicle", "Approach", "Lease", "Network"],
 }
-#: Modules that are asked for by name: scoring of links, and what a TorchScript predictor is given (``help``).
-_MODULES = ("links", "torchscript")
+#: Modules that are asked for by name: scoring of links, what a TorchScript predictor is given, and those whose constants help()
+#: names.
+_MODULES = ("links", "torchscript", "parts", "recording")
 _MODULE_OF = {name: module for module, names in _HOMES.items() for name in names}
 __all__ = sorted(_MODULE_OF) + ["__version__"]
 

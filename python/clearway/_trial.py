@@ -188,6 +188,7 @@ def require_loadable(part: dict[str, Any]) -> None:
     greeting = {**part, "question": [], "answer": [], "network": None, "period_s": 0.0, "link_radius_m": 0.0}
     with Nursery() as nursery, Process(nursery, greeting) as process:
         if process.failure:
+            end = "" if process.failure.endswith("?") else "."
             cure = ", or say --predictor" if "has no method act()" in process.failure else ""
-            raise _program.InputError(f"{part['kind']}: {part['object'] or 'module'} of {part['file']}: {process.failure}. Correct the file "
+            raise _program.InputError(f"{part['kind']}: {part['object'] or 'module'} of {part['file']}: {process.failure}{end} Correct the file "
                                       f"or the settings{cure}")

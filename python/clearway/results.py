@@ -193,8 +193,9 @@ class Results(_program.Told):
         if found:
             raise _program.InputError(f"condition {name!r}: several scenarios have it (allowed: scenario= one of "
                                       f"{', '.join(one.scenario for one in found)})")
-        raise _program.InputError(f"condition {name!r}: is not compared with {other or 'a baseline'} here"
-                                  + (" (allowed: other conditions)" if there else ""))
+        known = ", ".join(dict.fromkeys(one.condition for one in there))
+        raise _program.InputError(f"condition {name!r}: is not compared with {other or 'a baseline'}: one of the two is a reference, or "
+                                  "they differ in traffic" + (f" (allowed: {known})" if known else ""))
 
     def paired_differences(self, metric: str, against: Given | None = None) -> list[Difference]:
         """All conditions of the folder against their baselines, or against the condition ``against``.

@@ -43,8 +43,8 @@ class StudentTest(FolderCase):
         self.assertEqual(set(re.findall(r"^class (\w+)", code, re.MULTILINE)), {"Green", "Mine"})
         printed = self.printed_by("my_policy.py", code.replace("seeds=10", "seeds=5"))
         for condition in ("corridor", "green"):
-            self.assertRegex(printed, rf"(?mi)^intersection: {condition} - Baseline, emergency_travel_time_s: [+-][\d.]+ \[.+, .+\] \(5 pairs\)")
-        self.assertRegex(printed, r"scenario +condition +replication +emergency_travel_time_s\n(intersection .*\n){5}\[5 rows, 4 columns\]")
+            self.assertRegex(printed, rf"(?mi)^intersection: {condition} - Baseline, emergency_restricted_travel_time_s: [+-][\d.]+ \[.+, .+\] \(5 pairs\)")
+        self.assertRegex(printed, r"scenario +condition +replication +emergency_restricted_travel_time_s\n(intersection .*\n){5}\[5 rows, 4 columns\]")
         self.assertIn("'seed': 0", printed)
         self.assertRegex(printed, r"(?m)^predictor +exits +ap +f1\nMine +known +0\.\d+ +0\.\d+$")
         (judged,) = [line for block in blocks("docs/guides/python.md", "A policy") for line in block.splitlines() if "conformance" in line]
@@ -65,14 +65,14 @@ class StudentTest(FolderCase):
         (code,) = python_blocks(GUIDE)
         printed = self.printed_by("read.py", code)
         ours, *each = [line for line in printed.splitlines() if line.startswith("intersection: ")]
-        self.assertRegex(ours, r"^intersection: Ours, B10 - corridor, B10, emergency_travel_time_s: [+-]\d")
+        self.assertRegex(ours, r"^intersection: Ours, failing - corridor, failing, emergency_restricted_travel_time_s: [+-]\d")
         self.assertEqual(len(each), 8)
         self.assertIn(ours, each)
-        self.assertRegex(printed, r"(?m)^scenario +condition +replication +emergency_travel_time_s$")
+        self.assertRegex(printed, r"(?m)^scenario +condition +replication +emergency_restricted_travel_time_s$")
         self.assertTrue(printed.endswith("\n[4 rows, 4 columns]\n"), printed)
         runs = clearway.open("runs/mine").runs
         self.assertEqual(len(set(runs["condition.policy"]) - {""}), 5)
-        self.assertEqual(set(runs["condition.failure"]) - {""}, {"perfect", "B10"})
+        self.assertEqual(set(runs["condition.failure"]) - {""}, {"perfect", "B10,Q50"})
         for command in found:
             if "export figures" in command:
                 type_in(command)

@@ -285,7 +285,7 @@ class ResultsTest(FolderCase):
                            (lambda: self.results.runs["nothing"], "It has scenario"),
                            (lambda: self.results.paired_difference("nothing_s", "corridor"), "nothing_s"),
                            (lambda: self.results.paired_difference("collisions", "mine"), "no condition 'mine'; it has baseline, corridor"),
-                           (lambda: self.results.paired_difference("collisions", "baseline"), "'baseline': is not compared with a baseline here"),
+                           (lambda: self.results.paired_difference("collisions", "baseline"), "'baseline': is not compared with a baseline: one of the two is a reference"),
                            (lambda: self.results.paired_differences("collisions", "mine"), "no condition 'mine'; it has baseline, corridor"),
                            (lambda: self.results.paired_difference("collisions", {"condition.policy": "a"}), "no factor 'condition.policy'"),
                            (lambda: clearway.open("no-folder"), "no-folder"),
