@@ -25,7 +25,10 @@ def read(path, fixed=()):
     def refuse(number, what):
         sys.exit(f"{path}:{number}: {what}")
 
-    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+    text = path.read_text(encoding="utf-8")
+    if not text.endswith("\n"):
+        refuse(text.count("\n") + 1, "has no line feed at its end, so that what is added there would be part of it. Add one")
+    for number, line in enumerate(text.splitlines(), 1):
         if not line.strip() or line.startswith("#"):
             continue
         limit, more = LIMIT.fullmatch(line), RAISE.fullmatch(line)
@@ -41,6 +44,8 @@ def read(path, fixed=()):
                 refuse(number, f"{line}: raises a limit that no line above has (allowed: {', '.join(str(known) for known in limits)})")
             if name in fixed:
                 refuse(number, f"{line}: {name} cannot be raised; remove the line, and what is above the limit")
+            if re.search(r"[+-]\d+ \d{4}-\d\d-\d\d:", more[3]):
+                refuse(number, f"{line}: two lines in one. Begin a line with each `+N DATE:`")
             if more[3].startswith(PLACEHOLDER):
                 refuse(number, f"{line}: write why in place of {PLACEHOLDER}")
             limits[name] += int(more[2])

@@ -52,6 +52,12 @@ class House(unittest.TestCase):
         self.write(LIMIT, f"3\n{line.replace('REASON', 'b is two')}\n")
         self.assertEqual(self.check(), (0, ""))
 
+    def test_a_line_that_would_be_lost_is_told(self):
+        self.write(LIMIT, "3\n+1 2026-11-27: no line feed")
+        self.refused(f"{LIMIT}:2: has no line feed at its end")
+        self.write(LIMIT, "3\n+1 2026-11-27: one+2 2026-11-28: glued to it\n")
+        self.refused(f"{LIMIT}:2: ", "two lines in one")
+
     def test_lines_of_two_branches_add_up(self):
         self.write("src/core/b.cpp", "int b() {\n    return 2;\n}\n")
         self.write(LIMIT, "3\n+1 2026-11-27: one branch\n+2 2026-11-28: another\n")

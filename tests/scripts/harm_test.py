@@ -87,12 +87,26 @@ class Harm(unittest.TestCase):
         self.assertEqual(harm.returncode, 1)
         self.assertIn('add a condition such as {name = "keep_distance", policy = ["keep_distance"]} to studies/harm/roads.toml', said)
 
-    def test_a_misspelt_row_of_the_page_is_named(self):
+    def tree(self):
+        """What check-harm reads of this tree, to be changed."""
         tree = self.root / "tree"
         for name in ("scripts/check-harm", "docs/reference/policies.md", "docs/limits.md"):
             (tree / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, tree / name)
         shutil.copytree(ROOT / "studies/harm", tree / "studies/harm")
+        return tree
+
+    def test_a_study_that_was_corrected_is_taken_anew(self):
+        tree, out = self.tree(), self.root / "out"
+        for line in ("# wrong\n", "# corrected\n"):
+            (tree / "studies/harm/roads.toml").write_text(line + (ROOT / "studies/harm/roads.toml").read_text())
+            harm = self.start("--policy", "corridor", "--out", out, tree=tree)
+            _, said = harm.communicate(timeout=60)
+            self.assertEqual(harm.returncode, 0, said)
+        self.assertTrue((out / "corridor/studies/roads.toml").read_text().startswith("# corrected"))
+
+    def test_a_misspelt_row_of_the_page_is_named(self):
+        tree = self.tree()
         page = tree / "docs/reference/policies.md"
         page.write_text(page.read_text().replace("| `corridor` |", "| `coridor` |"))
         _, said = self.start(tree=tree, listed='{"policies": [{"name": "corridor"}], "scenarios": []}').communicate(timeout=60)
