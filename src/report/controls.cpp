@@ -60,8 +60,11 @@ std::string failing_words(const ConditionFacts& condition, const ConditionFacts&
     if (are_same(condition, working)) return "every run is the same";
     const MaybeEstimate longer = longer_in(condition, working);
     if (!longer) return "no complete pair of runs";
+    const auto is_clear = [](Effect effect) { return effect == Effect::better || effect == Effect::worse; };
+    const Effect cost = effect_of(longer, Better::lower, condition.least_relevant(primary));
+    const bool can_tell = is_clear(cost) || is_clear(effect_of(working, primary));
     return estimate(longer, {1, script, Sign::always}) +
-           words_of(effect_of(longer, Better::lower, condition.least_relevant(primary))) +
+           (can_tell ? words_of(cost) : ", but no gain is shown that could be lost") +
            same_times_words(condition, working);
 }
 

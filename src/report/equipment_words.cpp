@@ -158,6 +158,17 @@ std::string unchanged_sentence(const EquipmentFacts& facts) {
                        fmt::join(ranks, ", "));
 }
 
+/// Ranks of a pair that changed no trip beyond those before them: the other may have all of its gain.
+std::string nothing_added_sentence(const EquipmentFacts& facts) {
+    std::vector<std::size_t> ranks;
+    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
+        if (is_of_pair(facts, facts.ranked[rank]) && is_exactly_none(facts.ranked[rank].gain))
+            ranks.push_back(rank + 1);
+    if (ranks.empty() || is_exactly_none(facts.ranked.back().so_far)) return "";
+    return fmt::format("Rank {} added nothing to the ranks before it in the fresh seeds.",
+                       fmt::join(ranks, ", "));
+}
+
 std::string not_shown_sentence(const EquipmentFacts& facts) {
     std::vector<std::size_t> ranks;
     for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank) {
@@ -231,6 +242,7 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts) {
         sentences.push_back(together_sentence(facts));
         sentences.push_back(not_shown_sentence(facts));
         sentences.push_back(unchanged_sentence(facts));
+        sentences.push_back(nothing_added_sentence(facts));
         sentences.push_back(few_trips_sentence(facts));
         sentences.push_back(seeds_sentence(facts));
     }

@@ -65,6 +65,21 @@ std::string lost_words(const metrics::LeaseRow& row) {
                                            grouped(row.issued + row.renewed));
 }
 
+/// `354 of 699 messages to signals lost`, but for those that are leases, which tell it themselves. Empty
+/// where none is.
+std::string lost_signal_messages(const ConditionFacts& condition) {
+    std::uint64_t sent = condition.count("signal_requests_sent");
+    std::uint64_t lost = sent - condition.count("signal_requests_heard");
+    for (const metrics::LeaseRow& row : condition.leases) {
+        const bool asks_signal =
+            row.action == traffic::LeaseKind::hold_green || row.action == traffic::LeaseKind::adjust_green;
+        if (!asks_signal || lost_of(row) == 0) continue;
+        sent -= std::min(sent, row.issued + row.renewed);
+        lost -= std::min(lost, lost_of(row));
+    }
+    return lost == 0 ? "" : fmt::format("{} of {} messages to signals lost", grouped(lost), grouped(sent));
+}
+
 /// `no_room_beside 12, outranked 3`, the most frequent first, but for what was lost.
 std::string reasons_of(const metrics::LeaseRow& row) {
     std::vector<std::pair<traffic::Refusal, std::uint64_t>> reasons(row.refused.begin(), row.refused.end());
@@ -151,7 +166,9 @@ std::string lease_sentence(const ConditionFacts& condition) {
             text += ", refused at some time: " + reasons;
         found.push_back(std::move(text));
     }
-    return found.empty() ? "asked for nothing" : fmt::format("{}", fmt::join(found, "; "));
+    if (found.empty()) return "asked for nothing";
+    if (const std::string lost = lost_signal_messages(condition); !lost.empty()) found.push_back(lost);
+    return fmt::format("{}", fmt::join(found, "; "));
 }
 
 std::string refusals_sentence(const ConditionFacts& condition) {

@@ -114,6 +114,11 @@ TEST(Equipment, HasPairsThatWereTriedTogether) {
                     HasSubstr("Chosen together: rank 1 with rank 2, which gain 42.0 [37.0, 47.0] s (shown)."),
                     Not(HasSubstr("Not shown:"))));
     EXPECT_LT(text.find("21.0 [17"), text.find("2.0 [-1.0, 5.0]")) << "the greatest gain first";
+    EXPECT_THAT(text, Not(HasSubstr("added nothing")));
+    EquipmentFacts one_of_both = facts;
+    one_of_both.ranked[1].gain = Estimate{10, 0.0, 0.0, Interval{0.0, 0.0}};
+    EXPECT_THAT(flat_text(one_of_both),
+                HasSubstr("Rank 2 added nothing to the ranks before it in the fresh seeds."));
     EXPECT_EQ(
         pairs_csv(facts),
         "number,with,gain_a_signal_s,gain_a_signal_low_s,gain_a_signal_high_s,shown,pairs,left_race,chosen\n"

@@ -169,8 +169,8 @@ TEST(Looks, make_the_condition_of_the_headline_the_most_prominent) {
 }
 
 TEST(Differences, of_many_conditions_have_a_figure_for_each_measure) {
-    EXPECT_THAT(figure_of(tests::page_of(crowd(12)), "differences-merge"), HasSubstr("EV waiting time"));
-    const std::string page = tests::page_of(crowd(13));
+    EXPECT_THAT(figure_of(tests::page_of(crowd(6)), "differences-merge"), HasSubstr("EV waiting time"));
+    const std::string page = tests::page_of(crowd(7));
     EXPECT_THAT(page, Not(HasSubstr("<figure id=\"differences-merge\">")));
     for (const char* const measure :
          {"emergency-restricted-travel-time-s", "emergency-waiting-time-s", "others-time-loss-s"})

@@ -317,6 +317,8 @@ TEST_F(Controls, say_what_a_failure_costs_and_where_it_changes_nothing) {
               "What failing costs: EV travel time against the same while nothing fails, s: +0.8 [-0.6, 2.2], "
               "no difference shown, the same EV times in 3 of 5 runs.");
     EXPECT_THAT(sentence(), Not(HasSubstr("nothing fails"))) << "told once";
+    tests::compare(scenario_.conditions[2], around(-2.0, 3.0), around(0.0, 1.0));
+    EXPECT_THAT(failing(), HasSubstr("+0.8 [-0.6, 2.2], but no gain is shown that could be lost, the same"));
     corridor().same_as = "corridor_perfect";
     EXPECT_THAT(failing(), HasSubstr("s: every run is the same."));
 }

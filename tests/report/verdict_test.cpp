@@ -253,8 +253,9 @@ TEST(Verdict, tells_the_difference_to_vehicles_that_pass_red_and_the_cost_on_cro
 }
 
 TEST(LeaseSentence, names_what_was_asked_or_that_nothing_was) {
-    ConditionFacts condition;
+    ConditionFacts condition = tests::condition("corridor", "corridor", 74.0);
     condition.condition.policies = {"corridor"};
+    condition.leases.clear();
     EXPECT_EQ(lease_sentence(condition), "asked for nothing");
     condition.leases.push_back({"corridor",
                                 traffic::LeaseKind::change_lane,
@@ -278,6 +279,12 @@ TEST(LeaseSentence, tells_lost_messages_from_what_was_refused) {
     EXPECT_EQ(lease_sentence(condition),
               "Green: asked a signal for green 34 times, 34 carried out, 238 of 451 messages lost");
     EXPECT_EQ(refusals_sentence(condition), "");
+    tests::set_total(condition, "signal_requests_sent", 451);
+    tests::set_total(condition, "signal_requests_heard", 213);
+    EXPECT_THAT(lease_sentence(condition), testing::EndsWith("238 of 451 messages lost")) << "told once";
+    tests::set_total(condition, "signal_requests_sent", 1150);
+    tests::set_total(condition, "signal_requests_heard", 558);
+    EXPECT_THAT(lease_sentence(condition), testing::EndsWith("; 354 of 699 messages to signals lost"));
     condition.leases.front().acted = 5;
     condition.leases.front().refused[traffic::Refusal::lockout] = 29;
     EXPECT_THAT(refusals_sentence(condition), HasSubstr("Of Green's 34 requests 85 % were never carried out, "

@@ -18,7 +18,7 @@ constexpr std::array forest_measures = {Measure::emergency_restricted_time, Meas
 constexpr double forest_right = 250.0;  // the numbers are to the right of the drawing
 constexpr double heading_height = 28.0;
 constexpr double row_height = 34.0;
-constexpr std::ptrdiff_t most_rows = 12;  ///< With more conditions, each measure has a figure of its own.
+constexpr std::ptrdiff_t most_rows = 6;  ///< With more conditions, each measure has a figure of its own.
 
 Range forest_range(const ScenarioFacts& scenario) {
     Range range;
