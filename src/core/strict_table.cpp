@@ -31,8 +31,8 @@ const char* type_word(const toml::node& node) {
 /// What the parser found, in other words where its own mislead: it takes a bare word for a boolean or a
 /// number.
 std::string words_of(std::string_view what) {
-    for (const char* const guess : {"boolean", "infinity", "nan"})
-        if (what.starts_with(fmt::format("Error while parsing {}", guess)))
+    for (const char* const guess : {"'true'", "'false'", "'inf'", "'nan'"})
+        if (what.find(fmt::format("expected {}", guess)) != std::string_view::npos)
             return "a value is neither a number, nor true or false, nor a text in quotes";
     return std::string(what);
 }
