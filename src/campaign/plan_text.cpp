@@ -192,10 +192,8 @@ Table table_of(const std::vector<Cell>& cells, const core::Settings& titles) {
                  cell.cost.basis == CostBasis::measured}};
         row.below.push_back(fmt::format("failure {}, predictor {}, policy {}", condition.failure,
                                         condition.predictor, policy_of(condition)));
-        if (const auto policies = experiment::policies_without_messages(condition); !policies.empty())
-            row.below.push_back(
-                fmt::format("{}: no messages that could be lost, so this failure means nothing here",
-                            core::listed(policies)));
+        if (std::string unsent = experiment::unsent_words(condition); !unsent.empty())
+            row.below.push_back(std::move(unsent));
         table.rows.push_back(std::move(row));
     }
     return table;

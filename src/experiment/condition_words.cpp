@@ -9,9 +9,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/error.hpp"
 #include "experiment/settings.hpp"
 #include "failures/failure_config.hpp"
 #include "policy/policy.hpp"
+#include "python/part_name.hpp"
 
 namespace clearway::experiment {
 std::string policy_words(const ConditionSpec& condition) {
@@ -35,11 +37,18 @@ bool loses_no_request(const ConditionSpec& condition) {
            static_cast<const failures::SignalRequestChannel&>(failure) == failures::SignalRequestChannel{};
 }
 
-std::vector<std::string> policies_without_messages(const ConditionSpec& condition) {
+std::string unsent_words(const ConditionSpec& condition) {
     const failures::FailureConfig failure = failures::failure_from(condition.failure);
-    if (static_cast<const failures::SignalRequestChannel&>(failure) == failures::SignalRequestChannel{})
+    const std::vector<std::string> silent = policies_with(condition, traffic::Trait::asks_without_radio);
+    const bool others_send = policies_with(condition, traffic::Trait::asks_signals).size() > silent.size() ||
+                             std::ranges::any_of(condition.policies, [](const std::string& one) {
+                                 return python::part_name_from(one).has_value();
+                             });
+    if (silent.empty() || others_send ||
+        static_cast<const failures::SignalRequestChannel&>(failure) == failures::SignalRequestChannel{})
         return {};
-    return policies_with(condition, traffic::Trait::asks_without_radio);
+    return fmt::format("{} {} no messages, so those that this failure loses stand for nothing",
+                       core::listed(silent), silent.size() == 1 ? "sends" : "send");
 }
 
 std::string failure_words(const ConditionSpec& condition) {

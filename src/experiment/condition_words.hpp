@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "experiment/condition.hpp"
 
@@ -14,9 +13,10 @@ std::string policy_words(const ConditionSpec& condition);
 /// Whether something fails in a condition with policies, and yet all requests of EVs arrive.
 bool loses_no_request(const ConditionSpec& condition);
 
-/// Policies that ask signals by detectors or light, where the failure loses messages to signals: they send
-/// none, so what the failure does to them stands for nothing. Empty elsewhere.
-std::vector<std::string> policies_without_messages(const ConditionSpec& condition);
+/// `check_in_out sends no messages, so those that this failure loses stand for nothing`: of policies that ask
+/// signals by detectors or light, where the failure loses messages to signals and no other policy sends any.
+/// Empty elsewhere.
+std::string unsent_words(const ConditionSpec& condition);
 
 /// What fails in a condition: `10 % of the messages between EVs and signals lost; dark_share=0.5`. Fields
 /// that were set stand as they are. Empty where nothing fails.

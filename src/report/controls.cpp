@@ -29,11 +29,6 @@ const char* words_of(Effect effect) {
     return ", no verdict";
 }
 
-/// Whether it is the condition while nothing fails.
-bool is_working(const ConditionFacts& other, const ConditionFacts& condition) {
-    return experiment::is_without_failure(other.condition, condition.condition);
-}
-
 /// EV travel time of the first minus that of the second.
 MaybeEstimate longer_in(const ConditionFacts& first, const ConditionFacts& second) {
     return analysis::estimate_paired(first.outcome(primary).values, second.outcome(primary).values,
@@ -60,7 +55,6 @@ std::string failing_words(const ConditionFacts& condition, const ConditionFacts&
     if (are_same(condition, working)) return "every run is the same";
     const MaybeEstimate longer = longer_in(condition, working);
     if (!longer) return "no complete pair of runs";
-    const auto is_clear = [](Effect effect) { return effect == Effect::better || effect == Effect::worse; };
     const Effect cost = effect_of(longer, Better::lower, condition.least_relevant(primary));
     const bool can_tell = is_clear(cost) || is_clear(effect_of(working, primary));
     return estimate(longer, {1, script, Sign::always}) +
@@ -68,14 +62,9 @@ std::string failing_words(const ConditionFacts& condition, const ConditionFacts&
            same_times_words(condition, working);
 }
 
-/// `nothing fails (corridor)`, or the title.
-std::string title_of(const ConditionFacts& condition, const ConditionFacts& control) {
-    return is_working(control, condition) ? fmt::format("nothing fails ({})", control.title) : control.title;
-}
-
 std::string words_of(const ConditionFacts& condition, const Control& control, Script script) {
     const ConditionFacts& other = *control.condition;
-    const std::string title = title_of(condition, other);
+    const std::string& title = other.title;
     if (!other.same_as.empty() && other.same_as == other.baseline)
         return title + ": every run is that of the baseline";
     if (are_same(condition, other))
@@ -102,7 +91,7 @@ std::vector<Control> controls_of(const ScenarioFacts& scenario, const ConditionF
 
 const ConditionFacts* working_of(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     const auto working = std::ranges::find_if(scenario.conditions, [&](const ConditionFacts& other) {
-        return other.is_compared() && is_working(other, condition);
+        return other.is_compared() && experiment::is_without_failure(other.condition, condition.condition);
     });
     return working == scenario.conditions.end() ? nullptr : &*working;
 }

@@ -20,10 +20,6 @@ bool blocks_the_way(const RoadMap& roads) {
     });
 }
 
-bool is_clear(Effect effect) {
-    return effect == Effect::better || effect == Effect::worse;
-}
-
 bool is_shown_alone(Effect effect, const analysis::Comparison& comparison) {
     return is_clear(effect) && comparison.holm_p && *comparison.holm_p > 1.0 - analysis::usual_level;
 }
@@ -82,25 +78,16 @@ std::string kept_requests_sentence(const ScenarioFacts& scenario) {
 }
 
 bool is_judged_by_messages(const ConditionFacts& condition) {
-    return experiment::policies_without_messages(condition.condition).empty();
+    return experiment::unsent_words(condition.condition).empty();
 }
 
 std::string unsent_messages_sentence(const ScenarioFacts& scenario) {
-    std::vector<std::string> policies;
-    std::vector<std::string> failures;
-    for (const ConditionFacts& one : scenario.conditions) {
-        if (is_judged_by_messages(one)) continue;
-        add_once(one.condition.failure, failures);
-        for (const std::string& policy : experiment::policies_without_messages(one.condition))
-            add_once(policy, policies);
-    }
-    return failures.empty()
-               ? ""
-               : fmt::format(
-                     "{} {} signals by a detector or by light and not by messages: results under "
-                     "{} mean nothing there.",
-                     core::listed(policies), policies.size() == 1 ? "calls" : "call",
-                     fmt::join(failures, "; "));
+    std::vector<std::string> sentences;
+    for (const ConditionFacts& one : scenario.conditions)
+        if (!is_judged_by_messages(one))
+            add_once(fmt::format("{}: {}.", one.condition.failure, experiment::unsent_words(one.condition)),
+                     sentences);
+    return fmt::format("{}", fmt::join(sentences, " "));
 }
 
 std::string survivors_words(const ConditionFacts& condition, Script script) {

@@ -31,8 +31,8 @@ std::string kept_requests_sentence(const ScenarioFacts& scenario);
 
 /// Whether its policies send the messages that its failure loses, if it loses any.
 bool is_judged_by_messages(const ConditionFacts& condition);
-/// `check_in_out calls signals by a detector or by light and not by messages: results under Q50 mean nothing
-/// there.` Empty where all are judged by messages.
+/// `Q50: check_in_out sends no messages, so those that this failure loses stand for nothing.` Empty where all
+/// are judged by messages.
 std::string unsent_messages_sentence(const ScenarioFacts& scenario);
 
 /// `EVs that arrived in both: -10.3 s [-30.1, 9.5], all but 1; median of the pairs -4.7 s`: the travel time

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiment/condition_words.hpp"
 #include "experiment/settings.hpp"
 #include "report/controls.hpp"
 #include "report/lease_words.hpp"
@@ -86,7 +87,7 @@ std::string collisions_of(const ScenarioFacts& scenario, const ConditionFacts& c
     const ConditionFacts* const baseline = scenario.baseline_of(condition);
     const Effect effect = effect_of(condition, Measure::collisions);
     const std::uint64_t count = condition.count("collisions");
-    if (baseline == nullptr || effect == Effect::better || effect == Effect::worse ||
+    if (baseline == nullptr || is_clear(effect) ||
         count * baseline->complete_runs <= baseline->count("collisions") * condition.complete_runs)
         return {};
     const std::string notes = collision_notes(scenario, condition);
@@ -252,8 +253,8 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     if (const std::size_t same = scenario.place_of(condition.same_as); same < scenario.conditions.size())
         words.facts.push_back(
             fmt::format("Every run is identical to that of {}.", scenario.conditions[same].label()));
-    if (!is_judged_by_messages(condition))
-        words.facts.emplace_back("Its policy sends no messages, so this failure means nothing here.");
+    if (const std::string unsent = experiment::unsent_words(condition.condition); !unsent.empty())
+        words.facts.push_back(unsent + ".");
     if (condition.is_unchecked())
         words.facts.push_back(
             "Safety checks of the simulator were off: vehicles may drive through each other.");

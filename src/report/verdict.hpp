@@ -31,6 +31,11 @@ constexpr core::Spellings<Effect, 7> spellings(Effect) {
              {Effect::undecided, "undecided"}}};
 }
 
+/// Whether an effect is claimed.
+constexpr bool is_clear(Effect effect) {
+    return effect == Effect::better || effect == Effect::worse;
+}
+
 /// A bound of exactly 0 counts as included. Objections are ignored.
 Effect effect_of(const MaybeEstimate& difference, Better better, double least_relevant = 0.0);
 /// The same, unless objections against the condition rule it out. All output uses this.

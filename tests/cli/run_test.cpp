@@ -389,6 +389,14 @@ TEST_F(RunTest, init_prints_a_command_that_works_as_it_stands) {
     EXPECT_THAT(read("stderr.txt"), HasSubstr("30/30"));
 }
 
+TEST_F(RunTest, a_dry_run_says_that_a_policy_sends_no_messages_which_could_be_lost) {
+    const auto planned = [&](const char* policy) {
+        return clearway({"run", "line", "--policy", policy, "--failure", "Q50", "--dry-run"}).out;
+    };
+    EXPECT_THAT(planned("check_in_out"), HasSubstr("check_in_out sends no messages, so those that"));
+    EXPECT_THAT(planned("corridor"), Not(HasSubstr("sends no messages")));
+}
+
 TEST_F(RunTest, init_copies_a_scenario_that_runs) {
     ASSERT_EQ(clearway({"scenario", "init", "mine", "--from", "line"}).code, 0);
     const Ended ended =

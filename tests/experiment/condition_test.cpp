@@ -58,11 +58,14 @@ TEST(FailureWords, KnowPoliciesThatSendNoMessagesWhereMessagesAreLost) {
     ConditionSpec condition;
     condition.policies = {"check_in_out", "clear_lane"};
     condition.failure = "B10";
-    EXPECT_TRUE(policies_without_messages(condition).empty());
+    EXPECT_EQ(unsent_words(condition), "");
     condition.failure = "B10,Q50";
-    EXPECT_THAT(policies_without_messages(condition), testing::ElementsAre("check_in_out"));
-    condition.policies = {"corridor"};
-    EXPECT_TRUE(policies_without_messages(condition).empty());
+    EXPECT_EQ(unsent_words(condition),
+              "check_in_out sends no messages, so those that this failure loses stand for nothing");
+    for (const char* const sends : {"corridor", "/home/mine.py:Green@0123456789abcdef0123456789abcdef"}) {
+        condition.policies = {"check_in_out", sends};
+        EXPECT_EQ(unsent_words(condition), "") << "the other one is judged";
+    }
 }
 
 TEST(BuiltInConditions, AreNotTheirPartsWhoseOptionIsNamed) {

@@ -428,12 +428,12 @@ TEST_F(Overview, SaysWhichPoliciesSendNoMessagesThatCouldBeLost) {
     corridor().condition.policies = {"check_in_out"};
     EXPECT_EQ(unsent_messages_sentence(scenario_), "");
     corridor().condition.failure = "Q50";
-    EXPECT_EQ(
-        unsent_messages_sentence(scenario_),
-        "check_in_out calls signals by a detector or by light and not by messages: results under Q50 mean "
-        "nothing there.");
+    scenario_.conditions.push_back(corridor());
+    EXPECT_EQ(unsent_messages_sentence(scenario_),
+              "Q50: check_in_out sends no messages, so those that this failure loses stand for nothing.")
+        << "once";
     EXPECT_THAT(verdict(scenario_, corridor(), Script::plain).text(),
-                HasSubstr("this failure means nothing here"));
+                HasSubstr("check_in_out sends no messages, so those that this failure loses"));
 }
 
 TEST_F(Overview, DoubtsAClaimThatHoldsAlone) {
