@@ -148,34 +148,36 @@ std::string no_effect_sentence(const EquipmentFacts& facts) {
                : "";
 }
 
-/// Ranks that decided nothing for an EV of the fresh seeds: which signal has them is chance.
-std::string unchanged_sentence(const EquipmentFacts& facts) {
+template <class Holds>
+std::vector<std::size_t> ranks_where(const EquipmentFacts& facts, const Holds& holds) {
     std::vector<std::size_t> ranks;
     for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
-        if (is_chance(facts, facts.ranked[rank])) ranks.push_back(rank + 1);
-    if (ranks.empty() || is_exactly_none(facts.ranked.back().so_far)) return "";
-    return fmt::format("Rank {} changed no trip of the fresh seeds: its place is chance.",
-                       fmt::join(ranks, ", "));
+        if (holds(facts.ranked[rank])) ranks.push_back(rank + 1);
+    return ranks;
 }
 
-/// Ranks of a pair that changed no trip beyond those before them: the other may have all of its gain.
-std::string nothing_added_sentence(const EquipmentFacts& facts) {
-    std::vector<std::size_t> ranks;
-    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
-        if (is_of_pair(facts, facts.ranked[rank]) && is_exactly_none(facts.ranked[rank].gain))
-            ranks.push_back(rank + 1);
-    if (ranks.empty() || is_exactly_none(facts.ranked.back().so_far)) return "";
-    return fmt::format("Rank {} added nothing to the ranks before it in the fresh seeds.",
-                       fmt::join(ranks, ", "));
+/// Ranks that decided nothing for an EV of the fresh seeds: which signal has them is chance, but of a pair
+/// the other may have all of its gain.
+std::string unchanged_sentence(const EquipmentFacts& facts) {
+    if (is_exactly_none(facts.ranked.back().so_far)) return "";
+    const auto by_chance = ranks_where(facts, [&](const auto& one) { return is_chance(facts, one); });
+    const auto of_pairs = ranks_where(
+        facts, [&](const auto& one) { return is_exactly_none(one.gain) && is_of_pair(facts, one); });
+    std::string text;
+    if (!by_chance.empty())
+        text = fmt::format("Rank {} changed no trip of the fresh seeds: its place is chance. ",
+                           fmt::join(by_chance, ", "));
+    if (!of_pairs.empty())
+        text += fmt::format("Rank {} added nothing to the ranks before it in the fresh seeds. ",
+                            fmt::join(of_pairs, ", "));
+    if (!text.empty()) text.pop_back();
+    return text;
 }
 
 std::string not_shown_sentence(const EquipmentFacts& facts) {
-    std::vector<std::size_t> ranks;
-    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank) {
-        const EquippedSignal& signal = facts.ranked[rank];
-        if (!is_shown(signal.gain) && !is_exactly_none(signal.gain) && !is_of_pair(facts, signal))
-            ranks.push_back(rank + 1);
-    }
+    const auto ranks = ranks_where(facts, [&](const auto& one) {
+        return !is_shown(one.gain) && !is_exactly_none(one.gain) && !is_of_pair(facts, one);
+    });
     if (ranks.empty()) return "";
     const std::string which = ranks.size() == facts.ranked.size()
                                   ? "of any of them"
@@ -242,7 +244,6 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts) {
         sentences.push_back(together_sentence(facts));
         sentences.push_back(not_shown_sentence(facts));
         sentences.push_back(unchanged_sentence(facts));
-        sentences.push_back(nothing_added_sentence(facts));
         sentences.push_back(few_trips_sentence(facts));
         sentences.push_back(seeds_sentence(facts));
     }

@@ -36,9 +36,9 @@ const char* width_class(const DataTable& table) {
     }
     constexpr double phone_px = 328.0;  // 360 px without margins
     if (needed_px <= phone_px) return "";
-    for (const TableWidth& width : table_widths)
-        if (&width == &table_widths.back() || needed_px <= width.needed_px) return width.name;
-    return "";
+    return std::ranges::find_if(table_widths,
+                                [&](const TableWidth& width) { return needed_px <= width.needed_px; })
+        ->name;
 }
 
 std::string table_element(const DataTable& table, const char* more) {

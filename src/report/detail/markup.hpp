@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,11 +26,14 @@ std::string coarse_step_note(double step_length_s);
 /// in `data-label`.
 struct TableWidth {
     const char* name;
-    int needed_px;
+    double needed_px;  ///< At most.
     int room_px;
 };
 inline constexpr std::array<TableWidth, 4> table_widths = {
-    {{"wide", 560, 560}, {"wider", 880, 880}, {"widest", 2000, 880}, {"list", 100000, 10000}}};
+    {{"wide", 560, 560},
+     {"wider", 880, 880},
+     {"widest", 2000, 880},
+     {"list", std::numeric_limits<double>::infinity(), 10000}}};
 
 /// A table of its own, not the data of a figure.
 struct Table {
