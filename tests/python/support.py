@@ -11,8 +11,15 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import clearway
+import numpy as np
+
 SOURCE = Path(__file__).resolve().parents[2]
 PROGRAMS = Path(os.environ["CLEARWAY_PROGRAMS"])
+
+
+def no_action(env: clearway.Env) -> np.ndarray:
+    return np.zeros(env.action_space.shape, dtype=np.int64)
 
 
 class FolderCase(unittest.TestCase):
