@@ -212,6 +212,8 @@ TEST_F(CityTest, check_says_whether_there_are_emergency_vehicles) {
 TEST_F(CityTest, check_tries_whether_a_scenario_locks) {
     write_line_scenario();
     const Ended tried = clearway({"scenario", "check", "line", "--seed", "7", "--lock-trials", "2"});
+    EXPECT_THAT(tried.err,
+                testing::ContainsRegex("4 runs more to look for locks, about [0-9]+:[0-9]+ \\(m:s\\)"));
     EXPECT_EQ(tried.code, 0) << tried.out << tried.err;
     EXPECT_THAT(tried.out, testing::ContainsRegex(
                                "ok +trials +without time.ignore_junction_blocker_s = 10, as here, none of"));

@@ -76,6 +76,10 @@ class ImportTest(FolderCase):
         ended = python("import clearway; help(clearway.torchscript)")
         self.assertIn("float32[vehicles, 8]", ended.stdout)
 
+    def test_has_the_modules_whose_constants_its_help_names(self) -> None:
+        ended = python("import clearway; print(clearway.parts.NO_LANE, clearway.recording.NONE)")
+        self.assertEqual((ended.stdout, ended.stderr), ("4294967295 4294967295\n", ""))
+
     def test_says_which_python_lacks_numpy(self) -> None:
         bare = self.folder / "bare"
         subprocess.run([sys.executable, "-m", "venv", "--without-pip", str(bare)], check=True)

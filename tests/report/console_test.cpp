@@ -125,6 +125,16 @@ TEST(ConsoleTables, mark_conditions_without_safety_checks_and_failed_runs) {
     EXPECT_THAT(text, HasSubstr("Same failures, no repair (!)"));
     EXPECT_THAT(text, HasSubstr("(!): the simulator's safety checks were off"));
     EXPECT_THAT(text, HasSubstr("Failed: GraphSAGE, corrected inputs: 1 run of 21; first: replication 7"));
+    const auto told = [&](const char* cause) {
+        study.scenarios[0].conditions[2].failed = {{7, cause}};
+        return console_tables(study);
+    };
+    EXPECT_THAT(told("bad.py failed\nTraceback\nKeyError: 'x'\n"),
+                testing::ContainsRegex("bad.py\\s+failed\\s+...\\s+KeyError:\\s+'x'\n"));
+    EXPECT_THAT(told("bad.py, line 8: no such signal\n    return [lease]\n"),
+                AllOf(testing::ContainsRegex("line\\s+8:\\s+no\\s+such\\s+signal\n"),
+                      Not(HasSubstr("return [lease]"))))
+        << "a line of code is no cause";
 }
 
 TEST(ConsoleTables, tell_the_first_and_the_last_line_of_a_traceback) {

@@ -105,14 +105,6 @@ class Harm(unittest.TestCase):
             self.assertEqual(harm.returncode, 0, said)
         self.assertTrue((out / "corridor/studies/roads.toml").read_text().startswith("# corrected"))
 
-    def test_a_misspelt_row_of_the_page_is_named(self):
-        tree = self.tree()
-        page = tree / "docs/reference/policies.md"
-        page.write_text(page.read_text().replace("| `corridor` |", "| `coridor` |"))
-        _, said = self.start(tree=tree, listed='{"policies": [{"name": "corridor"}], "scenarios": []}').communicate(timeout=60)
-        self.assertIn("policies.md does not say what corridor is for", said)
-        self.assertIn("The row of `coridor` is no policy's: misspelt?", said)
-
     def test_harm_that_the_page_does_not_name_comes_with_the_line_to_write(self):
         worse = {"difference": 4.0, "holm_p": 0.01}
         level = {"difference": 0.1, "holm_p": 0.9}
