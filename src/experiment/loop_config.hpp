@@ -33,21 +33,27 @@ struct LoopConfig : LinkSettings {
     double policy_period_s = 0.5;  ///< Time between two decisions of the policy.
     int ways_tried = 0;
     double ways_every_s = 120.0;
+    int best_way_taken = 0;
     int units_tried = 0;
 
     static constexpr void fields(const auto& table) {
-        table(core::Field{"policy_period_s", "s", &LoopConfig::policy_period_s, 0.1, 10.0,
-                          "Time between two decisions of the policy", "assumed: half a report interval"},
-              core::Field{"ways_tried", "1", &LoopConfig::ways_tried, 0, 16,
-                          "Ways of each EV that are driven to the end in copies of the run, "
-                          "which gives the regret of the chosen one; 0: none",
-                          "0: each costs the rest of a run"},
-              core::Field{"ways_every_s", "s", &LoopConfig::ways_every_s, 1.0, 86400.0,
-                          "Time between two such moments of an EV, from its departure on", "assumed"},
-              core::Field{"units_tried", "1", &LoopConfig::units_tried, 0, 16,
-                          "Stations, the nearest first, whose unit is driven to each call in a copy of the "
-                          "run, which gives the regret of the one that was sent; 0: none",
-                          "0: each costs the rest of a run"});
+        table(
+            core::Field{"policy_period_s", "s", &LoopConfig::policy_period_s, 0.1, 10.0,
+                        "Time between two decisions of the policy", "assumed: half a report interval"},
+            core::Field{"ways_tried", "1", &LoopConfig::ways_tried, 0, 16,
+                        "Ways of each EV that are driven to the end in copies of the run, "
+                        "which gives the regret of the chosen one; 0: none",
+                        "0: each costs the rest of a run"},
+            core::Field{"ways_every_s", "s", &LoopConfig::ways_every_s, 1.0, 86400.0,
+                        "Time between two such moments of an EV, from its departure on", "assumed"},
+            core::Field{"best_way_taken", "1", &LoopConfig::best_way_taken, 0, 1,
+                        "1: an EV takes the best of these ways where it beats its own, as one who knows the "
+                        "future",
+                        "0; 1 is the bound of every choice"},
+            core::Field{"units_tried", "1", &LoopConfig::units_tried, 0, 16,
+                        "Stations, the nearest first, whose unit is driven to each call in a copy of the "
+                        "run, which gives the regret of the one that was sent; 0: none",
+                        "0: each costs the rest of a run"});
         LinkSettings::fields(table);
     }
 };

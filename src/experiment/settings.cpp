@@ -173,17 +173,25 @@ void check_rerouting(const ConditionSpec& condition, const std::string& where,
 }
 
 /// A part in Python is another process, which a copy of the run would share with it.
-void check_ways(const ConditionSpec& condition, const std::string& where,
-                std::vector<core::Problem>& problems) {
+void check_copies(const ConditionSpec& condition, const std::string& where,
+                  std::vector<core::Problem>& problems) {
     std::vector<std::string> parts = condition.policies;
     parts.push_back(condition.predictor);
     const bool has_code = std::ranges::any_of(
         parts, [](const std::string& part) { return python::part_name_from(part).has_value(); });
-    if (has_code && loop_config(condition).ways_tried > 0)
-        problems.push_back({where + "loop.ways_tried",
-                            condition.settings.at("loop.ways_tried") +
-                                " copies of a run are to be made, and a part in Python cannot be copied",
-                            "0 with parts in Python", "Leave it out, or write the part in C++."});
+    const LoopConfig loop = loop_config(condition);
+    if (loop.best_way_taken > 0 && loop.ways_tried == 0)
+        problems.push_back({where + "loop.best_way_taken", "is 1, and no ways are tried",
+                            "1 with loop.ways_tried above 0", "Set loop.ways_tried, or leave it out."});
+    if (!has_code) return;
+    for (const char* const setting : {"loop.ways_tried", "loop.units_tried"}) {
+        const auto tried = condition.settings.find(setting);
+        if (tried == condition.settings.end() || tried->second == "0") continue;
+        problems.push_back(
+            {where + setting,
+             tried->second + " copies of a run are to be made, and a part in Python cannot be copied",
+             "0 with parts in Python", "Leave it out, or write the part in C++."});
+    }
 }
 
 /// A lease that is not renewed must outlive two decisions. The policies lengthen their usual lease when the
@@ -416,7 +424,7 @@ std::vector<core::Problem> check_settings(const ConditionSpec& condition, const 
     check_sublane(condition, where, problems);
     check_rerouting(condition, where, problems);
     if (problems.empty()) {
-        check_ways(condition, where, problems);
+        check_copies(condition, where, problems);
         check_leases(condition, where, problems);
         check_ask(condition, where, problems);
         detail::check_requests(condition, where, problems);

@@ -62,8 +62,8 @@ class ClosedLoop {
     /// `change` says that it cannot be done. Outputs go to `folder`.
     core::Seconds arrival_after(const std::function<bool()>& change, core::VehicleKey vehicle,
                                 core::Seconds horizon, const std::filesystem::path& folder);
-    /// In a copy of the run: the vehicle drives this way, which nothing changes any more. Returns whether
-    /// SUMO knows the way.
+    /// In a copy of the run, and for LoopConfig::best_way_taken: the vehicle drives this way, which nothing
+    /// changes any more. Returns whether SUMO knows the way.
     bool keep_to(const traffic::SetRoute& way);
     /// Releases everything that the controller holds. Returns what became of its leases.
     metrics::LeaseTotals finish();

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
+#include <map>
 #include <utility>
 
 #include "loop/closed_loop.hpp"
@@ -79,6 +79,7 @@ void Dispatcher::step(ClosedLoop& loop, core::Seconds horizon) {
         } else {
             ++next_call_;
             next_unit_ = 0;
+            sent_.clear();
         }
     }
 }
@@ -92,7 +93,10 @@ void Dispatcher::answer(ClosedLoop& loop, core::Seconds horizon) {
         return;
     }
     const scenario::Sending chosen = *best;
-    if (orders_.units_tried > 0 && found.size() > 1) try_units(loop, horizon, chosen, std::move(found));
+    const bool is_last = next_unit_ + 1 == orders_.calls.calls[next_call_].units;
+    // Before, the units of other stations may still be sent, too.
+    if (orders_.units_tried > 0 && is_last && found.size() > 1)
+        try_units(loop, horizon, chosen, std::move(found));
     send(loop, chosen);
 }
 
@@ -103,7 +107,7 @@ void Dispatcher::try_units(ClosedLoop& loop, core::Seconds horizon, const scenar
     std::ranges::stable_sort(others, {}, &scenario::Sending::cost);
     others.resize(std::min(others.size(), static_cast<std::size_t>(orders_.units_tried)));
     add_free_ways(call, others);
-    double best_s = std::numeric_limits<double>::infinity();
+    std::map<std::size_t, double> arrivals_s;  // by station
     std::uint64_t tried = 0;
     for (const scenario::Sending& each : others) {
         if (each.station == chosen.station) continue;
@@ -115,10 +119,17 @@ void Dispatcher::try_units(ClosedLoop& loop, core::Seconds horizon, const scenar
             };
             return loop.arrival_after(change, vehicle, horizon, orders_.folder);
         });
-        best_s = std::min(best_s, arrival.value);
+        const auto [known, is_new] = arrivals_s.try_emplace(each.station, arrival.value);
+        known->second = std::min(known->second, arrival.value);
         ++tried;
     }
-    if (tried > 0) trials_.add(vehicle, core::Seconds(best_s), tried);
+    if (tried == 0) return;
+    std::vector<double> others_s;
+    for (const auto& [station, arrival_s] : arrivals_s)
+        others_s.insert(others_s.end(), std::min(fleet_.stations()[station].units, call.units), arrival_s);
+    std::vector<core::VehicleKey> vehicles = sent_;
+    vehicles.push_back(vehicle);
+    trials_.add(std::move(vehicles), std::move(others_s), tried);
 }
 
 void Dispatcher::add_free_ways(const scenario::PlacedCall& call, std::vector<scenario::Sending>& others) {
@@ -144,6 +155,7 @@ void Dispatcher::send(ClosedLoop& loop, const scenario::Sending& sending) {
     departure.depart = core::Seconds(std::max(departure.depart.value, now_.value));
     loop.send(departure, call.before_incident);
     fleet_.send_from(sending.station);
+    sent_.push_back(core::vehicle_key(id));
     ++counts_.sent;
     ++next_unit_;
 }

@@ -38,8 +38,9 @@ struct DispatchOrders {
 /// each the way by which it was chosen. In a straight line and by free flow nothing of the traffic is asked;
 /// by believed and by true times, those of policy::EdgeTimes, and incidents that are known, or that last.
 ///
-/// With `units_tried`, units of other stations are driven to the call in copies of the run, whose future is
-/// the true one; what the first of them would have saved is the regret of the choice.
+/// With `units_tried`, units of stations that the choice leaves out are driven to the call in copies of the
+/// run, whose future is the true one, in place of the last one sent; what the first of all would have saved
+/// is the regret of the choice, of several units by their order of arrival.
 class Dispatcher {
   public:
     /// The network outlives it.
@@ -78,6 +79,7 @@ class Dispatcher {
     std::vector<traffic::KnownIncident> known_;
     std::size_t next_call_ = 0;
     std::uint32_t next_unit_ = 0;
+    std::vector<core::VehicleKey> sent_;  // to the next call
     core::Seconds now_, noted_;
     metrics::DispatchCounts counts_;
     Trials trials_;

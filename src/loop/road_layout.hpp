@@ -9,9 +9,6 @@
 
 namespace clearway::loop {
 
-/// Number of replications whose journeys are kept: the report draws one, the others are for inspection.
-inline constexpr std::uint32_t journeys_kept = 3;
-
 /// What the recorder of a run has to know of the map and of the routes of its emergency vehicles. A route
 /// ends where the network does not connect its edges; counts of unknown edges are left out. Approaches are in
 /// the order of the network's edges. The network outlives the layout.

@@ -16,17 +16,21 @@ class Trials {
   public:
     /// After each step of the run.
     void note(const truth::Events& events);
-    /// The fastest of `tried` others arrives at `best`.
-    void add(core::VehicleKey vehicle, core::Seconds best, std::uint64_t tried);
+    /// Of `tried` others, these arrive at `others_s`. Several vehicles were chosen together: the one that
+    /// arrives first is judged by the first of all, the second by the second, and so on.
+    void add(std::vector<core::VehicleKey> vehicles, std::vector<double> others_s, std::uint64_t tried);
     /// Once the run is over; a vehicle that did not arrive counts with `horizon`.
     metrics::TriedChoices result(core::Seconds horizon) const;
 
   private:
     struct Trial {
-        core::VehicleKey vehicle;
-        double best_s = 0.0;
+        std::vector<core::VehicleKey> vehicles;
+        std::vector<double> others_s;
         std::uint64_t tried = 0;
     };
+    /// Sorted.
+    std::vector<double> arrivals_s(const Trial& trial, core::Seconds horizon) const;
+
     std::map<core::VehicleKey, double> arrived_s_;
     std::vector<Trial> trials_;
 };

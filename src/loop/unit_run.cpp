@@ -251,7 +251,7 @@ metrics::RoadLayout UnitRun::layout() const {
         counts = metrics::read_counts(scenario::resolve(config_, config_.demand.counts));
     metrics::RoadLayout layout = road_layout(network_.network, prepared_.emergency, counts);
     layout.demand_until_s = prepared_.time.window_s;
-    layout.keep_journeys = unit_.replication < journeys_kept;
+    layout.keep_journeys = unit_.replication < metrics::journeys_kept;
     return layout;
 }
 

@@ -58,22 +58,24 @@ void WayTrials::try_ways(ClosedLoop& loop, std::uint32_t row, core::Seconds hori
         return search_.time_of(way, 0.0, free) > longest_share * least_s + longest_extra_s;
     });
     if (ways.size() < 2) return;
+    const std::vector<core::EdgeIndex>* best = nullptr;
     double best_s = std::numeric_limits<double>::infinity();
     for (std::vector<core::EdgeIndex>& way : ways) {
         if (fork > at) way.insert(way.begin(), route[at]);
-        best_s = std::min(best_s, arrival_s(loop, vehicle, way, horizon));
+        const double way_s = arrival_s(loop, vehicle, horizon, [&] { return loop.keep_to({vehicle, way}); });
+        if (way_s >= best_s) continue;
+        best_s = way_s;
+        best = &way;
     }
-    trials_.add(vehicle, core::Seconds(best_s), ways.size());
+    trials_.add({vehicle}, {best_s}, ways.size());
+    if (config_.best_way_taken == 0 || best == nullptr) return;
+    const double unchanged_s = arrival_s(loop, vehicle, horizon, [] { return true; });
+    if (best_s < unchanged_s) loop.keep_to({vehicle, *best});
 }
 
-double WayTrials::arrival_s(ClosedLoop& loop, core::VehicleKey vehicle,
-                            const std::vector<core::EdgeIndex>& way, core::Seconds horizon) {
-    return in_copy(folder_,
-                   [&] {
-                       const auto change = [&] { return loop.keep_to({vehicle, way}); };
-                       return loop.arrival_after(change, vehicle, horizon, folder_);
-                   })
-        .value;
+double WayTrials::arrival_s(ClosedLoop& loop, core::VehicleKey vehicle, core::Seconds horizon,
+                            const std::function<bool()>& change) {
+    return in_copy(folder_, [&] { return loop.arrival_after(change, vehicle, horizon, folder_); }).value;
 }
 
 }  // namespace clearway::loop

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -19,7 +20,7 @@ class ClosedLoop;
 /// Drives other ways of emergency vehicles to their ends in forked children of the run, whose future is the
 /// true one: the same vehicles, signals and drivers, and the condition's own policies for all but the choice
 /// of the way. What the best of them would have saved is the regret of the way that was chosen. The run
-/// itself does not notice.
+/// itself does not notice, unless LoopConfig::best_way_taken asks for the best one.
 class WayTrials {
   public:
     /// Keeps a reference to the network. Children write into `folder`, which is removed.
@@ -34,8 +35,9 @@ class WayTrials {
 
   private:
     void try_ways(ClosedLoop& loop, std::uint32_t row, core::Seconds horizon);
-    double arrival_s(ClosedLoop& loop, core::VehicleKey vehicle, const std::vector<core::EdgeIndex>& way,
-                     core::Seconds horizon);
+    /// In a copy of the run, after `change`.
+    double arrival_s(ClosedLoop& loop, core::VehicleKey vehicle, core::Seconds horizon,
+                     const std::function<bool()>& change);
 
     const roads::Network& network_;
     experiment::LoopConfig config_;

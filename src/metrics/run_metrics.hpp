@@ -359,16 +359,20 @@ struct RunMetrics {
         using M = RunMetrics;
         using core::Field;
         constexpr const char* from = "copies of the run, setting loop.units_tried";
-        table(Field{"units_sent", "1", &M::units_sent, 0.0, 1e9, "EVs that calls sent out",
-                    "calls of the scenario"},
-              Field{"units_missing", "1", &M::units_missing, 0.0, 1e9,
-                    "EVs called for that no station could send", "calls of the scenario"},
-              Field{"unit_decisions", "1", &M::unit_decisions, 0.0, 1e9,
-                    "EVs sent while units of other stations were driven there in copies of the run", from},
-              Field{"wrong_unit_share", "1", &M::wrong_unit_share, 0.0, 1.0,
-                    "Share of these: another unit would have been there more than 1 s earlier", from},
-              Field{"unit_regret_s", "s", &M::unit_regret_s, 0.0, 1e9,
-                    "Time lost against the first of the units, mean of these", from});
+        table(
+            Field{"units_sent", "1", &M::units_sent, 0.0, 1e9, "EVs that calls sent out",
+                  "calls of the scenario"},
+            Field{"units_missing", "1", &M::units_missing, 0.0, 1e9,
+                  "EVs called for that no station could send", "calls of the scenario"},
+            Field{"unit_decisions", "1", &M::unit_decisions, 0.0, 1e9,
+                  "EVs sent, judged by units left out, which were driven there in copies of the run", from},
+            Field{
+                "wrong_unit_share", "1", &M::wrong_unit_share, 0.0, 1.0,
+                "Share of these: with a unit left out, the first, second, ... EV would have been there more "
+                "than 1 s earlier",
+                from},
+            Field{"unit_regret_s", "s", &M::unit_regret_s, 0.0, 1e9,
+                  "Time lost against the fastest of all these units, mean of these", from});
     }
     static constexpr void request_fields(const auto& table) {
         using M = RunMetrics;
@@ -406,7 +410,7 @@ struct RunMetrics {
         table(Field{"signal_request_updates", "1", &M::signal_request_updates, 0.0, 1e12,
                     "Of those sent to signals: updates of an earlier one", "SRM"},
               Field{"signal_request_cancellations", "1", &M::signal_request_cancellations, 0.0, 1e12,
-                    "Of those sent to signals: cancellations, after the EV has passed", "SRM"},
+                    "Of those sent to signals: cancellations, after the EV has passed or turned off", "SRM"},
               Field{"signal_answers_sent", "1", &M::signal_answers_sent, 0.0, 1e12,
                     "Answers of signals, one for each message and open request", "SSM"},
               Field{"signal_answers_heard", "1", &M::signal_answers_heard, 0.0, 1e12,

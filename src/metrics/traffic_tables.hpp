@@ -132,6 +132,9 @@ struct LockRow {
     }
 };
 
+/// The first replications of a condition keep their emergency vehicles' journeys.
+inline constexpr std::uint32_t journeys_kept = 3;
+
 /// Where a run lost time, and how its emergency vehicles travelled.
 struct TrafficTables {
     std::vector<ApproachRow> approaches;  ///< By edge, then class; no rows without vehicles.

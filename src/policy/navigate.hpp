@@ -60,9 +60,10 @@ struct NavigateConfig {
             Field{"signal_share", "1", &C::signal_share, 0.0, 1.0,
                   "Share of the usual delay on an edge before a signal that the emergency vehicle has, too",
                   "1: no priority at signals"},
-            Field{"observes", "1", &C::observes, 0, 1,
-                  "0: traffic is not looked at, ways follow free flow and the signals' programs",
-                  "1; 0 is the control"},
+            Field{"observes", "1", &C::observes, 0, 2,
+                  "0: traffic is not looked at, ways follow free flow and the signals' programs; 2: what is "
+                  "seen on a road is taken for another road's",
+                  "1; 0 and 2 are controls"},
             Field{"heeds_incidents", "1", &C::heeds_incidents, 0, 1,
                   "0: what is known of incidents is not heard", "1; 0 is the control"},
             Field{"prior", "", &C::prior, 0, 0,

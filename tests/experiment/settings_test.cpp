@@ -415,6 +415,29 @@ TEST(Settings, APolicyThatNeedsTheSublaneModelIsRefusedWithoutIt) {
     EXPECT_THAT(problems_of(condition), IsEmpty());
 }
 
+TEST(Settings, PartsInPythonAreNotCopied) {
+    for (const char* const setting : {"loop.ways_tried", "loop.units_tried"}) {
+        ConditionSpec condition = corridor();
+        condition.settings[setting] = "4";
+        EXPECT_EQ(problems_of(condition), "") << setting;
+        condition.policies.emplace_back("mine.py:Mine");
+        EXPECT_THAT(
+            problems_of(condition),
+            testing::AllOf(HasSubstr(setting), HasSubstr("4 copies of a run are to be made, and a part in "
+                                                         "Python cannot be copied")));
+        condition.settings[setting] = "0";
+        EXPECT_EQ(problems_of(condition), "") << setting;
+    }
+}
+
+TEST(Settings, TheBestWayIsAmongThoseThatAreTried) {
+    ConditionSpec condition = corridor();
+    condition.settings["loop.best_way_taken"] = "1";
+    EXPECT_THAT(problems_of(condition), HasSubstr("loop.best_way_taken is 1, and no ways are tried"));
+    condition.settings["loop.ways_tried"] = "4";
+    EXPECT_EQ(problems_of(condition), "");
+}
+
 TEST(Settings, OfSumosDeviceNeedTheDevice) {
     ConditionSpec condition = corridor();
     condition.rerouting_signal_penalty = 1.0;

@@ -153,6 +153,19 @@ TEST(Dispatcher, CopiesTellWhichUnitWasWrongAndDoNotChangeTheRun) {
               wrong.record.provenance.trace_hash);
 }
 
+TEST(Dispatcher, AStationThatIsSentAnywayIsNoBetterOne) {
+    const auto counts = [](int units, Dispatch dispatch) {
+        const std::string call = fmt::format("{}units = {}\n", one_call, units);
+        return outcome_of(call, by(dispatch, {{"loop.units_tried", "2"}})).record.metrics;
+    };
+    // From the east twice, where the first could have come from the west.
+    const metrics::RunMetrics wrong = counts(2, Dispatch::straight_line);
+    EXPECT_EQ(wrong.unit_decisions, 2U);
+    EXPECT_GE(wrong.wrong_unit_share.value(), 0.5);
+    EXPECT_EQ(counts(2, Dispatch::free_flow).unit_decisions, 0U);
+    EXPECT_EQ(counts(3, Dispatch::straight_line).unit_decisions, 0U) << "all are sent";
+}
+
 TEST(Dispatcher, ACopyOfTheRunIsNotCopiedAgain) {
     const ConditionSpec tried = by(Dispatch::free_flow, {{"loop.units_tried", "2"}});
     EXPECT_EQ(outcome_of(one_call, tried).record.metrics.unit_decisions, 1U);

@@ -50,6 +50,20 @@ TEST(WayTrials, DoNotChangeTheRunAndGiveItsRegret) {
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "work" / "unit-0-standard"));
 }
 
+TEST(WayTrials, WhoTakesTheBestWayIsNoLaterAndRegretsNothing) {
+    core::Settings settings = {{"loop.ways_tried", "3"}, {"loop.ways_every_s", "3600"}};
+    const ConditionSpec plain = condition("plain", settings);
+    settings["loop.best_way_taken"] = "1";
+    const test::StudyFolder folder("city", {}, {plain, condition("clairvoyant", settings)});
+    ASSERT_TRUE(folder.run(folder.unit(0)).ok()) << core::tail(folder.log(), 20);
+    const metrics::RunMetrics before = metrics_of(folder, "plain");
+    const metrics::RunMetrics found = metrics_of(folder, "clairvoyant");
+    ASSERT_GT(before.way_regret_s.value(), 1.0) << "nothing to gain, nothing shown";
+    EXPECT_LT(found.way_regret_s.value(), 0.5 * before.way_regret_s.value());
+    EXPECT_LT(found.emergency_restricted_travel_time_s.value(),
+              before.emergency_restricted_travel_time_s.value());
+}
+
 /// Notes when vehicles arrive.
 class Arrivals : public trace::StepListener {
   public:

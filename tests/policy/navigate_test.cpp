@@ -49,6 +49,14 @@ TEST_F(Navigation, does_not_look_at_traffic_without_observes) {
     EXPECT_TRUE(act_for(navigate, 60.0).empty());
 }
 
+TEST_F(Navigation, goes_round_no_queue_that_it_takes_for_another_road_s) {
+    add_queue();
+    policy::Navigate navigate({short_square()}, {.observes = 2});
+    for (const traffic::Lease& lease : act_for(navigate, 60.0))
+        EXPECT_NE(std::get<traffic::TakeRoute>(lease.action).edges,
+                  edges({"left0A0", "A0A1", "A1B1", "B1right1"}));
+}
+
 TEST_F(Navigation, takes_the_way_that_is_faster_on_other_days) {
     std::vector<double> mean_s(short_square().edges().size(), 0.0);
     mean_s[edge("A0B0").value] = 60.0;
@@ -149,24 +157,29 @@ TEST_F(Navigation, keeps_the_next_edge_where_a_turn_is_too_near) {
         EXPECT_EQ(std::get<traffic::TakeRoute>(lease.action).edges[1], edge("A0B0"));
 }
 
-TEST_F(Navigation, does_not_go_back_and_forth_between_ways_that_are_level) {
-    add_queue();
-    policy::Navigate navigate({short_square()}, NavigateConfig{});
-    int changes = 0;
-    for (int decision = 0; decision < 60; ++decision) {
-        for (const traffic::Lease& lease : act_for(navigate, 5.0)) {
-            const auto& way = std::get<traffic::TakeRoute>(lease.action).edges;
-            traffic::Roster& roster = scene.roster();
-            roster.set_route(ev, roster.add_route(way));
-            ++changes;
+TEST_F(Navigation, goes_back_and_forth_between_ways_that_are_level_only_without_a_least_gain) {
+    add_queue(3);
+    const std::vector<traffic::BelievedVehicle> begin = scene.belief().vehicles;
+    /// The queue is seen on one way for ten seconds, then on the other.
+    const auto changes_with = [&](const NavigateConfig& config) {
+        scene.belief().vehicles = begin;
+        policy::Navigate navigate({short_square()}, config);
+        int changes = 0;
+        for (int decision = 0; decision < 60; ++decision) {
+            for (const traffic::Lease& lease : act_for(navigate, 5.0)) {
+                traffic::Roster& roster = scene.roster();
+                roster.set_route(ev, roster.add_route(std::get<traffic::TakeRoute>(lease.action).edges));
+                ++changes;
+            }
+            const core::EdgeIndex seen = edge(decision / 2 % 2 == 0 ? "A1B1" : "A0B0");
+            for (traffic::BelievedVehicle& vehicle : scene.belief().vehicles)
+                if (vehicle.vehicle_class == VehicleClass::human)
+                    vehicle.state.lane = short_square().lane_of(seen, 0);
         }
-        // The queue is seen on one way, then on the other, half as long.
-        for (traffic::BelievedVehicle& vehicle : scene.belief().vehicles)
-            if (vehicle.vehicle_class == VehicleClass::human && decision == 30)
-                vehicle.state.lane = short_square().lane_of(edge("A1B1"), 0);
-    }
-    EXPECT_GE(changes, 1);
-    EXPECT_LE(changes, 2);
+        return changes;
+    };
+    EXPECT_GE(changes_with({.gain_s = 0.0, .gain_share = 0.0}), 10);
+    EXPECT_LE(changes_with({}), 3);
 }
 
 }  // namespace

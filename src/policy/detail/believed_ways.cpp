@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "core/random.hpp"
 #include "policy/navigate.hpp"
 #include "roads/exits.hpp"
 
@@ -31,6 +32,19 @@ double common_share(const roads::Network& network, roads::Route way, roads::Rout
     return all_m > 0.0 ? common_m / all_m : 1.0;
 }
 
+/// Every road stands for another one, drawn once for a network.
+std::vector<core::EdgeIndex> mixed_up(const roads::Network& network) {
+    std::vector<core::EdgeIndex> roads;
+    for (std::uint32_t row = 0; row < network.edges().size(); ++row)
+        if (!network.edges()[row].internal) roads.push_back({row});
+    std::vector<core::EdgeIndex> drawn = roads;
+    std::ranges::sort(drawn, {}, [](core::EdgeIndex edge) { return core::mix64(edge.value + 1); });
+    std::vector<core::EdgeIndex> taken_for(network.edges().size());
+    for (std::size_t row = 0; row < roads.size(); ++row)
+        taken_for[drawn[row].value] = drawn[(row + 1) % drawn.size()];
+    return taken_for;
+}
+
 }  // namespace
 
 BelievedWays::BelievedWays(const PolicyContext& context, const NavigateConfig& config)
@@ -43,13 +57,27 @@ BelievedWays::BelievedWays(const PolicyContext& context, const NavigateConfig& c
              {.fade_s = config.fade_s,
               .prior_s = config.prior_s,
               .signal_share = config.signal_share,
-              .mean_times_s = usual_times(context, config.prior)}) {}
+              .mean_times_s = usual_times(context, config.prior)}) {
+    constexpr int spoiled = 2;
+    if (config.observes == spoiled) taken_for_ = mixed_up(context.network);
+}
 
 bool BelievedWays::see(const traffic::BelievedGraph& belief) {
-    if (observes_) times_.see(belief, period_);
+    if (observes_ && taken_for_.empty()) times_.see(belief, period_);
+    if (!taken_for_.empty()) see_spoiled(belief);
     const bool has_news = heeds_incidents_ && belief.incidents != known_;
     if (has_news) known_ = belief.incidents;
     return has_news;
+}
+
+void BelievedWays::see_spoiled(const traffic::BelievedGraph& belief) {
+    times_.turn_to(belief.time);
+    for (const traffic::BelievedVehicle& vehicle : belief.vehicles) {
+        if (vehicle.vehicle_class == traffic::VehicleClass::emergency || !vehicle.state.lane.exists())
+            continue;
+        const core::EdgeIndex edge = taken_for_[network_.lane(vehicle.state.lane).edge.value];
+        if (edge.exists()) times_.add(network_.lane_of(edge, 0), vehicle.state.speed_mps, period_);
+    }
 }
 
 bool BelievedWays::is_closed(core::EdgeIndex edge) const {

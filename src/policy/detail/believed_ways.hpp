@@ -73,6 +73,8 @@ class BelievedWays {
     }
 
   private:
+    /// Each vehicle on the road that its own is taken for.
+    void see_spoiled(const traffic::BelievedGraph& belief);
     bool is_closed(core::EdgeIndex edge) const;
     /// Past an incident that leaves a lane open, no faster than its limit.
     double open_s(core::EdgeIndex edge, double entered_s, double pace) const;
@@ -82,6 +84,7 @@ class BelievedWays {
     const roads::Network& network_;
     core::Seconds period_;
     bool observes_, heeds_incidents_;
+    std::vector<core::EdgeIndex> taken_for_;  ///< By edge; empty: each for itself.
     roads::RouteSearch search_;
     EdgeTimes times_;
     std::vector<traffic::KnownIncident> known_;  ///< Of the last belief.
