@@ -288,7 +288,27 @@ Finding collisions_finding(const metrics::RunMetrics& run, double step_length_s,
                 : compare};
 }
 
-std::vector<Finding> findings_of(const results::RunRecord& record, const Checked& checked) {
+/// Seeds whose EV trips are held against incidents; only the first of them is run.
+constexpr std::uint32_t planned_seeds = 10;
+
+/// The EV trips of `planned_seeds`, each with its replication; none where there is no incident.
+std::vector<detail::EmergencyTrip> planned_trips(const scenario::ScenarioConfig& scenario,
+                                                 const scenario::BuiltNetwork& built, std::uint64_t seed) {
+    std::vector<detail::EmergencyTrip> trips;
+    if (scenario.incidents.empty()) return trips;
+    for (std::uint32_t replication = 0; replication < planned_seeds; ++replication) {
+        const core::TemporaryFolder folder;
+        const scenario::Prepared prepared = scenario::prepare(scenario, built, core::StudySeed{seed},
+                                                              core::Replication{replication}, folder.path());
+        for (const traffic::EmergencyDeparture& departure : prepared.emergency)
+            trips.push_back(
+                {fmt::format("{} in replication {}", departure.id, replication), departure.edges});
+    }
+    return trips;
+}
+
+std::vector<Finding> findings_of(const results::RunRecord& record, const Checked& checked,
+                                 const std::vector<detail::EmergencyTrip>& planned) {
     const metrics::RunMetrics& run = record.metrics;
     const RoadUse use = road_use(run, checked.config.time, lane_km(checked.network));
     const std::string less = density_advice(checked, use.factor < 1.0 ? use.factor : 0.8);
@@ -301,25 +321,10 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
                                      jams_finding(run, use, checked),
                                      detail::locks_finding(record, record.traffic.locks, checked, less),
                                      signals_finding(checked.network, trips)};
-    std::ranges::move(detail::way_findings(checked.config, checked.network, trips),
+    std::ranges::move(detail::way_findings(checked.config, checked.network, trips, planned),
                       std::back_inserter(findings));
     findings.push_back(collisions_finding(run, checked.config.time.step_length_s, less));
     return findings;
-}
-
-/// Whether EVs come to where the incidents of a scenario are, in seeds of which only the first is run.
-Finding met_finding(const scenario::ScenarioConfig& scenario, const scenario::BuiltNetwork& built,
-                    std::uint64_t seed) {
-    constexpr std::uint32_t replications = 10;
-    std::vector<detail::EmergencyTrip> trips;
-    for (std::uint32_t replication = 0; replication < replications; ++replication) {
-        const core::TemporaryFolder folder;
-        const scenario::Prepared prepared = scenario::prepare(scenario, built, core::StudySeed{seed},
-                                                              core::Replication{replication}, folder.path());
-        for (const traffic::EmergencyDeparture& departure : prepared.emergency)
-            trips.push_back({departure.id, departure.edges});
-    }
-    return detail::passing_finding(scenario, built.network, trips, replications);
 }
 
 Finding error_finding(const results::RunError& error, const std::filesystem::path& folder) {
@@ -390,9 +395,13 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double a
         record->traffic = store.read_traffic(key);
         const std::filesystem::path& roads = plan.units.front().unit.network_folder;
         const scenario::BuiltNetwork built = scenario::open_network(scenario, roads);
-        findings = findings_of(*record, {scenario, built.network, asked_density,
-                                         store.scenario_folder(scenario.name) / "demand" / "0"});
-        if (!scenario.incidents.empty()) findings.push_back(met_finding(scenario, built, seed));
+        const std::vector<detail::EmergencyTrip> planned = planned_trips(scenario, built, seed);
+        findings = findings_of(
+            *record,
+            {scenario, built.network, asked_density, store.scenario_folder(scenario.name) / "demand" / "0"},
+            planned);
+        if (!scenario.incidents.empty())
+            findings.push_back(detail::passing_finding(scenario, built.network, planned, planned_seeds));
         findings.push_back({"speed", Grade::ok,
                             fmt::format("{:.1f} s a run, {:.1f} times real time, including loading", wall_s,
                                         record->metrics.simulated_s / wall_s)});

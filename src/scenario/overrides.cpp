@@ -102,6 +102,9 @@ void apply_incidents(const Override&, const Given& given, ScenarioConfig& config
     config.incidents.clear();
     std::erase_if(config.origins, [](const auto& origin) { return origin.first.starts_with("incident["); });
     if (given.text == "none") return;
+    if (given.text.empty())
+        problems.push_back(
+            {given.where, "is empty", "edge=ID, ... or none", "give the edge, or leave it out"});
     std::istringstream rows(given.text);
     for (std::string row; std::getline(rows, row, ';');) {
         config.origins[fmt::format("incident[{}]", config.incidents.size())] = given.where;

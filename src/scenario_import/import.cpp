@@ -242,8 +242,7 @@ void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
                      "a map with crossings or with such roads", "leave it out"});
     config.network.attribution = "Map data (c) OpenStreetMap contributors, ODbL 1.0";
     detail::choose_trips(import, config, network);
-    import.findings.map_signals = map.signals.size();
-    detail::account_for_signals(map.signals, network, import.left_out);
+    import.findings.map_signals = detail::account_for_signals(map.signals, network, import.left_out);
     if (!network.signals().empty())
         import.findings.changes.push_back(
             fmt::format("programs of {} are netconvert's, of a fixed cycle: the map has none. netedit enters "

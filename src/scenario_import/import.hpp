@@ -50,7 +50,7 @@ struct Findings {
     double road_km = 0.0;       ///< Length of the edges open to cars.
     double lane_km = 0.0;
     std::size_t signals = 0;      ///< Of the network.
-    std::size_t map_signals = 0;  ///< Nodes of the map that are signals; a junction may have several.
+    std::size_t map_signals = 0;  ///< Nodes of the map that they stand for; a junction may have several.
     /// Share of the car edges that are in the largest set whose edges reach each other.
     double connected_share = 0.0;
     bool left_hand = false;

@@ -27,6 +27,13 @@ class WayFindings : public testing::Test {
                                                more));
     }
 
+    /// Of the incidents, judged by one run and the trips of more seeds.
+    Finding cut_off(const std::string& incidents, const std::vector<EmergencyTrip>& run,
+                    const std::vector<EmergencyTrip>& more) const {
+        const Roads way = roads(incidents);
+        return way_findings(way.config, way.built.network, run, more)[1];
+    }
+
     Finding passing(const std::string& incident, const std::vector<EmergencyTrip>& trips) const {
         const Roads way = roads("[[incident]]\n" + incident);
         return passing_finding(way.config, way.built.network, trips, 2);
@@ -164,6 +171,19 @@ TEST_F(WayFindings, name_those_whom_an_incident_cuts_off) {
     EXPECT_EQ(off[2].grade, Grade::note);
     EXPECT_THAT(off[2].advice, HasSubstr("time_to_teleport_s = -1"));
     EXPECT_EQ(findings("[[incident]]\nedge = \"far\"\nemergency_passes = 1\n")[1].grade, Grade::ok);
+}
+
+TEST_F(WayFindings, look_for_whom_an_incident_cuts_off_in_more_seeds_than_are_run) {
+    const std::string block = "[[incident]]\nedge = \"far\"\n";
+    const std::vector<EmergencyTrip> run = {{"one", {"gate", "main", "goal"}}};
+    std::vector<EmergencyTrip> more;
+    for (int replication = 0; replication < 8; ++replication)
+        more.push_back({fmt::format("one in replication {}", replication), {"gate", "far"}});
+    EXPECT_EQ(cut_off(block, run, {}).grade, Grade::ok);
+    const Finding found = cut_off(block, run, more);
+    EXPECT_EQ(found.grade, Grade::falls_short);
+    EXPECT_THAT(found.text, HasSubstr("for one in replication 0, one in replication 1, "));
+    EXPECT_THAT(found.text, HasSubstr("one in replication 5 and 2 more"));
 }
 
 TEST_F(WayFindings, those_who_are_called_to_an_incident_are_not_cut_off) {

@@ -103,6 +103,8 @@ TEST_F(IncidentTest, an_override_replaces_those_of_the_file) {
     EXPECT_THAT(placed("[[incident]]\nedge = \"stub\"\n", options), IsEmpty());
     options.set("incident", "edge=on,form_s=20");
     EXPECT_THAT(wrong("", options), ElementsAre("--incident form_s is unknown"));
+    options.set("incident", "");
+    EXPECT_THAT(wrong("[[incident]]\nedge = \"stub\"\n", options), ElementsAre("--incident is empty"));
     options.set("incident", "edge=nowhere");
     EXPECT_THAT(wrong("[[incident]]\nedge = \"stub\"\n", options),
                 ElementsAre("--incident.edge the network has no edge \"nowhere\""));

@@ -84,9 +84,17 @@ Finding incident_finding(roads::RouteSearch& search, const std::vector<Trip>& tr
         core::texts_of(incidents, [&](const auto& one) { return place_words(network, one.closed); });
     const std::string count =
         fmt::format("{} on {}", core::counted(incidents.size(), "incident"), core::listed(places));
-    if (cut_off.empty()) return {"incidents", Grade::ok, count + ", with a way round for every EV"};
+    if (cut_off.empty())
+        return {
+            "incidents", Grade::ok,
+            fmt::format("{}, with a way round for all {}", count, core::counted(trips.size(), "EV trip"))};
+    constexpr std::size_t most_named = 6;
+    std::string named =
+        core::listed({cut_off.begin(),
+                      cut_off.begin() + static_cast<std::ptrdiff_t>(std::min(most_named, cut_off.size()))});
+    if (cut_off.size() > most_named) named += fmt::format(" and {} more", cut_off.size() - most_named);
     return {"incidents", Grade::falls_short,
-            fmt::format("{}: no way round while all last for {}", count, core::listed(cut_off)),
+            fmt::format("{}: no way round while all last for {}", count, named),
             "another edge, other lanes, or emergency_passes = 1; else these EVs wait until it is over"};
 }
 
@@ -230,7 +238,8 @@ std::string road_words(const roads::Edge& edge, const std::string& more) {
 }
 
 std::vector<Finding> way_findings(const scenario::ScenarioConfig& config, const roads::Network& network,
-                                  const std::vector<EmergencyTrip>& planned) {
+                                  const std::vector<EmergencyTrip>& planned,
+                                  const std::vector<EmergencyTrip>& of_more_seeds) {
     const std::vector<Trip> trips = trips_of(network, planned);
     roads::RouteSearch search(network, roads::Driver::emergency);
     std::vector<Finding> findings = {choice_finding(search, trips)};
@@ -243,7 +252,8 @@ std::vector<Finding> way_findings(const scenario::ScenarioConfig& config, const 
     const scenario::Calls calls = scenario::place_calls(config, network, incidents);
     if (!calls.calls.empty()) findings.push_back(call_finding(search, calls, network));
     if (incidents.empty()) return findings;
-    findings.push_back(incident_finding(search, trips, incidents, network));
+    findings.push_back(incident_finding(
+        search, of_more_seeds.empty() ? trips : trips_of(network, of_more_seeds), incidents, network));
     findings.push_back(teleport_finding(config, incidents));
     return findings;
 }

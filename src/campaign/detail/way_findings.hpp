@@ -13,9 +13,10 @@ std::string road_words(const roads::Edge& edge, const std::string& more = "");
 
 /// What the network leaves emergency vehicles to choose: how many have two ways or more within a fifth of the
 /// fastest by free flow; which station is nearest to calls; and, where there are incidents, whom they cut
-/// off.
+/// off, of the trips of more seeds where they are given.
 std::vector<Finding> way_findings(const scenario::ScenarioConfig& config, const roads::Network& network,
-                                  const std::vector<EmergencyTrip>& planned);
+                                  const std::vector<EmergencyTrip>& planned,
+                                  const std::vector<EmergencyTrip>& of_more_seeds = {});
 
 /// How many emergency vehicles' trips pass a road that an incident blocks, at whatever time; where few do,
 /// up to three roads that most of them pass near their middles, with a way round. `planned`: of all

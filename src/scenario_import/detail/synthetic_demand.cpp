@@ -51,8 +51,9 @@ std::string describe(const scenario::ScenarioConfig& config, const DemandLevel& 
         "lane, {}, {:.0f} waiting to enter; all have arrived after {:.0f} minutes; carried {}",
         level.cars, demand_window_s, places, load.running, load.running < 10.0 ? 1 : 0,
         load.running / std::max(0.001, lane_km), speed, load.waiting, std::ceil(load.end_s / 60.0),
-        level.demands > 1 ? fmt::format("in {} demands", level.demands)
-                          : std::string("with room to spare, so one demand was tried"));
+        level.demands > 1
+            ? fmt::format("in {} demands", level.demands)
+            : std::string("with room to spare in the one demand that was tried; others may lock"));
 }
 
 }  // namespace

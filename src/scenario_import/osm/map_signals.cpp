@@ -27,13 +27,14 @@ double distance_m(const roads::Point& one, const roads::Point& other) {
 
 }  // namespace
 
-void account_for_signals(const std::vector<roads::Coordinates>& signals, const roads::Network& network,
-                         LeftOut& left_out) {
+std::size_t account_for_signals(const std::vector<roads::Coordinates>& signals, const roads::Network& network,
+                                LeftOut& left_out) {
     const auto geography = roads::Geography::of(network.location());
-    if (!geography) return;
+    if (!geography) return signals.size();
     const std::vector<bool> controlled = controlled_lanes(network);
     const roads::LaneGrid lanes(network);
     std::vector<roads::LanePlace> near;
+    std::size_t known = 0;
     for (const roads::Coordinates& signal : signals) {
         const roads::Point place = geography->point(signal);
         lanes.near(place, signal_reach, near);
@@ -41,12 +42,16 @@ void account_for_signals(const std::vector<roads::Coordinates>& signals, const r
             return controlled[found.lane.value] &&
                    distance_m(network.lane(found.lane).shape.back(), place) <= signal_reach.value;
         });
-        if (is_known) continue;
+        if (is_known) {
+            ++known;
+            continue;
+        }
         const auto nearest = std::ranges::min_element(near, {}, &roads::LanePlace::distance_m);
         left_out.add("signals of the map between junctions, such as at crossings for pedestrians",
                      nearest == near.end() ? "" : network.edge(network.lane(nearest->lane).edge).name,
                      LeftOut::all);
     }
+    return known;
 }
 
 }  // namespace clearway::scenario_import::detail
