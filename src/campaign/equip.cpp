@@ -19,6 +19,7 @@
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
 #include "report/equipment.hpp"
+#include "report/read_facts.hpp"
 #include "report/text.hpp"
 
 namespace clearway::campaign {
@@ -100,7 +101,9 @@ report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipReq
     facts.scenario = config.scenarios.front().name;
     facts.title = config.scenarios.front().title;
     facts.attribution = config.scenarios.front().network.attribution;
-    facts.programs = report::programs_words(facts.attribution);
+    facts.assumptions =
+        report::simulated_sentence(scenario::to_toml(config.scenarios.front()),
+                                   !signals.built.network.signals().empty(), experiment::ConditionSpec{});
     facts.condition = request.condition.name;
     facts.command = request.run.command;
     facts.seed = config.seed;

@@ -97,8 +97,8 @@ std::string short_plan(const EquipRounds& rounds, const EquipRequest& request, s
     for (std::size_t budget = std::min(request.budget, candidates); budget > 0; --budget) {
         for (std::uint32_t seeds = request.replications; seeds >= analysis::fewest_for_interval; --seeds)
             if (fits(rounds.forecast(budget, seeds)))
-                return fmt::format(" A first look, in {} minutes: --seeds {} --budget {}.{}", minutes, seeds,
-                                   budget, few_seeds_warning(seeds));
+                return fmt::format(" A first look, within {} minutes: --seeds {} --budget {}.{}", minutes,
+                                   seeds, budget, few_seeds_warning(seeds));
     }
     // Which signals trips pass is known for the seeds that were asked for: more take as much each.
     const auto known = std::min<std::uint32_t>(request.replications, analysis::fewest_for_interval);
@@ -181,7 +181,9 @@ core::ExitCode equip_dry_run(EquipRequest request) {
                                 ? fmt::format(" The budget is {}, and {} could gain.", request.budget,
                                               report::counted(candidates, "signal"))
                                 : "";
-    const std::string shorter = cost.wall_s ? short_plan(search.rounds, request, candidates, run_s) : "";
+    // Who gives a time has chosen how long it may take.
+    const std::string shorter =
+        cost.wall_s && request.within_s <= 0.0 ? short_plan(search.rounds, request, candidates, run_s) : "";
     const report::SignalsMet& met = search.signals.candidates.met;
     print({{{"folder", request.run.folder.string()},
             {"share_of_trips_with_signals", core::to_json_value(met.share())},

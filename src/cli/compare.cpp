@@ -218,7 +218,7 @@ core::ExitCode compare(CompareArguments arguments) {
         if (reference.is_best())
             fmt::print("{}", best_text(summary, arguments.metrics, titles.conditions));
         else if (!arguments.against.empty())
-            fmt::print("diff.: minus {} (here the baseline), paired by scenario and replication.\n",
+            fmt::print("diff.: minus {}, paired by scenario and replication.\n",
                        report::printable(titles.reference));
     }
     if (!arguments.publication.file.empty())

@@ -61,6 +61,11 @@ std::string label_of(const ConditionTitleMap& titles, const ScenarioSummary& sce
                 (is_unsafe(condition) ? " (!)" : ""));
 }
 
+/// As wide as its column: a d of 10 is as good as infinite.
+std::string effect_size_words(const std::optional<double>& d) {
+    return number_or_dash(d, {.decimals = std::abs(d.value_or(0.0)) < 9.995 ? 2 : 1});
+}
+
 std::string numbers_of(const Comparison& comparison) {
     const NumberStyle style{.decimals = 2};
     const NumberStyle with_sign{.decimals = 2, .sign = Sign::always};
@@ -80,7 +85,7 @@ std::string numbers_of(const Comparison& comparison) {
                        difference ? number(difference->mean, with_sign) : missing(Script::plain), interval,
                        relative ? number(100.0 * relative->mean, {.decimals = 0, .sign = Sign::always})
                                 : missing(Script::plain),
-                       few ? missing(Script::plain) : number_or_dash(comparison.effect_size, style),
+                       few ? missing(Script::plain) : effect_size_words(comparison.effect_size),
                        few ? missing(Script::plain) : p_words(comparison.holm_p, Script::plain),
                        few ? missing(Script::plain) : p_words(comparison.wilcoxon_p, Script::plain));
 }
@@ -292,7 +297,8 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
                            "p Holm", "Wilcoxon");
             fmt::format_to(out, "{:-<{}}\n{}\n", "", comparison_width, rows);
         }
-        text += response_text(scenario, titles);
+        const auto is_travel_time = [](const std::string& name) { return name.ends_with("travel_time_s"); };
+        if (std::ranges::any_of(metrics, is_travel_time)) text += response_text(scenario, titles);
     }
     for (const analysis::Unpaired& lost : summary.unpaired)
         text += unpaired_line(lost);

@@ -336,16 +336,24 @@ ScenarioFacts without_levels(const StudyFacts& study, const ScenarioFacts& scena
     return kept;
 }
 
-/// Of a control the answer alone: the rest is told under the condition of which a part is off in it.
+void append_verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Tables tables,
+                    std::string& text) {
+    const Verdict words = verdict(scenario, condition, Script::plain);
+    append_wrapped(fmt::format("{}{}: {}", condition.control_of.empty() ? "" : "For comparison, ",
+                               label(condition), printable(words.answer())),
+                   text);
+    if (tables == Tables::essential && !condition.control_of.empty()) return;
+    for (const std::string& fact : words.facts)
+        append_wrapped("  - " + printable(fact), text);
+}
+
+/// Controls come after the others and have the answer alone: the rest is told under the condition of which a
+/// part is off in them.
 void append_verdicts(const ScenarioFacts& scenario, Tables tables, std::string& text) {
-    for (const ConditionFacts& condition : scenario.conditions) {
-        if (!condition.is_compared()) continue;
-        const Verdict words = verdict(scenario, condition, Script::plain);
-        append_wrapped(fmt::format("{}: {}", label(condition), printable(words.answer())), text);
-        if (tables == Tables::essential && !condition.control_of.empty()) continue;
-        for (const std::string& fact : words.facts)
-            append_wrapped("  - " + printable(fact), text);
-    }
+    for (const bool control : {false, true})
+        for (const ConditionFacts& condition : scenario.conditions)
+            if (condition.is_compared() && condition.control_of.empty() != control)
+                append_verdict(scenario, condition, tables, text);
 }
 
 void append_measures(const ScenarioFacts& scenario, Tables tables, std::string& text) {

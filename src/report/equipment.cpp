@@ -36,8 +36,9 @@ SheetCell count_or_nothing(std::size_t count) {
 std::vector<detail::SheetColumn> ranked_columns() {
     return {{"equipped", "#"},
             {"number", "No."},
-            {"signal", "Signal"},
-            {"streets", "Streets", Where::not_on_terminal},
+            {"signal", "", Where::in_data},
+            {"streets", "", Where::in_data},
+            {"", "Signal"},
             {"gain_s", "Gain, s"},
             {"shown", "Effect"},
             {"gain_so_far_s", "So far, s"},
@@ -46,16 +47,28 @@ std::vector<detail::SheetColumn> ranked_columns() {
             {"gain_chosen_by_s", "", Where::in_data}};
 }
 
+/// What people call a signal.
+template <class Facts>
+const std::string& name_of(const Facts& one) {
+    return one.streets.empty() ? one.signal : one.streets;
+}
+
 /// `equipped`: with how many signals the row ends.
 std::vector<SheetCell> ranked_row(const EquipmentFacts& facts, std::size_t equipped,
                                   const EquippedSignal& signal) {
     const bool is_signal = signal.number > 0;
     const std::optional<double> share = share_of_all(facts, signal);
-    return {equipped,      count_or_nothing(signal.number),
-            signal.signal, signal.streets,
-            signal.gain,   is_signal ? SheetCell(is_shown(signal.gain)) : SheetCell(),
-            signal.so_far, share ? SheetCell(Share{*share}) : SheetCell(),
-            signal.others, signal.chosen_by};
+    return {equipped,
+            count_or_nothing(signal.number),
+            signal.signal,
+            signal.streets,
+            name_of(signal),
+            signal.gain,
+            is_signal ? SheetCell(is_shown(signal.gain)) : SheetCell(),
+            signal.so_far,
+            share ? SheetCell(Share{*share}) : SheetCell(),
+            signal.others,
+            signal.chosen_by};
 }
 
 template <class Facts>
@@ -103,19 +116,20 @@ Sheet ranked_sheet(const EquipmentFacts& facts, LastRow last) {
 
 Sheet candidate_sheet(const EquipmentFacts& facts) {
     Sheet sheet{{{"number", "No."},
-                 {"signal", "Signal"},
-                 {"streets", "Streets", Where::not_on_terminal},
+                 {"signal", "", Where::in_data},
+                 {"streets", "", Where::in_data},
+                 {"", "Signal"},
                  {"share_of_trips", "EVs, %"},
                  {"gain_s", "Gain alone, s"},
                  {"shown", "Effect"},
-                 {"pairs", "Pairs"},
+                 {"pairs", "Seeds"},
                  {"left_race", "", Where::in_data},
                  {"rank", "Rank"}},
                 {}};
     std::vector<EquipCandidateFacts> candidates = facts.candidates;
     std::ranges::stable_sort(candidates, std::greater{}, gain_or_least<EquipCandidateFacts>);
     for (const EquipCandidateFacts& one : candidates)
-        sheet.rows.push_back({one.number, one.signal, one.streets, Share{one.trips}, one.gain,
+        sheet.rows.push_back({one.number, one.signal, one.streets, name_of(one), Share{one.trips}, one.gain,
                               is_shown(one.gain), one.gain ? one.gain->n : std::size_t{0}, one.left_race,
                               count_or_nothing(one.rank.value_or(0))});
     return sheet;
@@ -126,7 +140,7 @@ Sheet pair_sheet(const EquipmentFacts& facts) {
                  {"with", "with"},
                  {"gain_a_signal_s", "Gain a signal, s"},
                  {"shown", "Effect"},
-                 {"pairs", "Pairs"},
+                 {"pairs", "Seeds"},
                  {"left_race", "", Where::in_data},
                  {"chosen", "", Where::in_data}},
                 {}};

@@ -76,7 +76,7 @@ struct EquipmentFacts {
     std::string scenario;
     std::string title;
     std::string attribution;  ///< Credit that the map requires; may be empty.
-    std::string programs;     ///< As programs_words says.
+    std::string assumptions;  ///< As simulated_sentence says.
     std::string condition;
     std::string command;
     std::uint64_t seed = 0;        ///< Of the runs that decide.

@@ -170,7 +170,9 @@ Figure candidates_figure(const EquipmentFacts& facts) {
     plot.vertical(0.0);
     double y = top_edge + 0.5 * row_height;
     for (const EquipCandidateFacts& one : drawn) {
-        plot.text(names_end, y + 4.0, fmt::format("{} {}", one.number, short_signal_name(one.signal)),
+        plot.text(names_end, y + 4.0,
+                  fmt::format("{} {}", one.number,
+                              short_signal_name(one.streets.empty() ? one.signal : one.streets)),
                   Canvas::Anchor::end, "tick");
         plot.estimate(one.gain, shown_interval(one.gain), y,
                       {is_shown(one.gain) ? std::size_t{1} : std::size_t{2}});
@@ -211,7 +213,8 @@ void write_equipment_page(const EquipmentFacts& facts, std::ostream& page) {
     using detail::to_html;
     const std::vector<std::string> findings = detail::findings_of(facts);
     const std::string answer =
-        paragraphs({findings.front()}, "headline") + detail::coarse_step_note(facts.step_length_s) +
+        paragraphs({findings.front()}, "headline") + note(facts.assumptions) +
+        detail::coarse_step_note(facts.step_length_s) +
         paragraphs({findings.begin() + 1, findings.end()}, "") +
         figures({detail::equipment_map_figure(facts), detail::curve_figure(facts)}) +
         to_html(detail::data_table_of(detail::ranked_sheet(facts, detail::LastRow::all))) +

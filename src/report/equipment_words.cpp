@@ -18,16 +18,29 @@ namespace {
 using analysis::EquipEnd;
 using detail::great_share;
 
+bool is_exactly_none(const analysis::MaybeEstimate& gain) {
+    return gain && gain->mean == 0.0 && gain->deviation == 0.0;
+}
+
+/// Ranks that changed a trip of the fresh seeds; all where the first did not, as there is no order then.
+std::vector<std::size_t> telling_ranks(const EquipmentFacts& facts) {
+    std::vector<std::size_t> telling;
+    std::vector<std::size_t> all;
+    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank) {
+        all.push_back(rank);
+        if (!is_exactly_none(facts.ranked[rank].gain)) telling.push_back(rank);
+    }
+    return telling.empty() || telling.front() != 0 ? all : telling;
+}
+
 /// `1) Via Po / Via Roma, 2) S5`, numbered as the map and the table of ranks are.
 std::string names_of(const EquipmentFacts& facts) {
     std::vector<std::string> names;
-    for (const EquippedSignal& signal : facts.ranked)
-        names.push_back(fmt::format("{}) {}", names.size() + 1, signal_words(signal.signal, signal.streets)));
+    for (const std::size_t rank : telling_ranks(facts)) {
+        const EquippedSignal& signal = facts.ranked[rank];
+        names.push_back(fmt::format("{}) {}", rank + 1, signal_words(signal.signal, signal.streets)));
+    }
     return fmt::format("{}", fmt::join(names, ", "));
-}
-
-bool is_exactly_none(const analysis::MaybeEstimate& gain) {
-    return gain && gain->mean == 0.0 && gain->deviation == 0.0;
 }
 
 bool most_are_held_up(const UnsoundRuns& unsound) {
@@ -132,11 +145,11 @@ std::string few_trips_sentence(const EquipmentFacts& facts) {
                        counted(facts.met.trips, "trip"), fmt::join(words, ", "));
 }
 
-/// What a further study sets to equip all ranks; a line of its own can be copied.
+/// What a further study sets to equip the ranks that are named; a line of its own can be copied.
 std::vector<std::string> setting_lines(const EquipmentFacts& facts) {
     std::vector<std::string> signals = facts.equipped_today;
-    for (const EquippedSignal& rank : facts.ranked)
-        signals.push_back(fmt::format("#{}", rank.number));
+    for (const std::size_t rank : telling_ranks(facts))
+        signals.push_back(fmt::format("#{}", facts.ranked[rank].number));
     return {"For a study of them, by the numbers of the signals:",
             "--set actuation.equipped=" + printable(fmt::format("{}", fmt::join(signals, ",")))};
 }
@@ -271,7 +284,7 @@ std::vector<std::string> circumstances_of(const EquipmentFacts& facts) {
         fmt::format("EV time, s: baseline {}, {} {}, all signals {}, alone {}. Gains count from {}.",
                     estimate_or_dash(facts.baseline_s), start_of(facts), estimate_or_dash(facts.none_s),
                     estimate_or_dash(facts.all_s), estimate_or_dash(facts.alone_s), start_of(facts)),
-        facts.programs.empty() ? "" : fmt::format("Rests on {}.", facts.programs),
+        facts.assumptions,
         fmt::format("{}.", counted(facts.runs, "run"))};
     std::erase(sentences, "");
     return sentences;
@@ -302,8 +315,8 @@ std::string ranked_legend(const EquipmentFacts& facts) {
 
 std::string SignalsMet::words() const {
     if (trips == 0) return "No EV has a trip in these seeds.";
-    return fmt::format("{:.0f} % of the EVs' trips pass at least one signal; a trip meets {:.1f} on average.",
-                       100.0 * *share(), *mean());
+    return fmt::format("{:.0f} % of the EVs' {} pass at least one signal; a trip meets {:.1f} on average.",
+                       100.0 * *share(), core::counted(trips, "trip"), *mean());
 }
 
 }  // namespace clearway::report

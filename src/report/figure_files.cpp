@@ -155,7 +155,8 @@ class FileWriter : public detail::Writer {
     }
     std::string with_scenario(const std::string& caption, const std::string& name) const {
         for (const ScenarioFacts& scenario : study_.scenarios) {
-            if (caption == scenario.name) return topic_ + ": " + caption;
+            if (caption == scenario.name || caption.starts_with(scenario.name + " ("))
+                return topic_ + (topic_.ends_with('?') ? " " : ": ") + caption;
             if (name.ends_with("-" + plain_name(scenario.name)) && !caption.starts_with(scenario.name))
                 return scenario.name + ": " + caption;
         }

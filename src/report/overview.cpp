@@ -160,8 +160,11 @@ struct TileWords {
 Tile time_tile(const TileWords& words, const ConditionFacts& condition, Measure measure, Script script) {
     const MaybeEstimate& difference = condition.difference(measure);
     const Effect effect = effect_of(condition, measure);
-    Tile tile{words.subject, difference ? signed_seconds(difference->mean, script) : missing(script),
-              words_of(effect, words.better, words.worse), tone_of(effect)};
+    Tile tile{words.subject,
+              difference ? signed_seconds(difference->mean, script) : missing(script),
+              words_of(effect, words.better, words.worse),
+              {},
+              tone_of(effect)};
     tile.meaning = joined(std::move(tile.meaning), interval_words(difference, script));
     if (const std::string doubts = doubts_of(condition, measure, script); !doubts.empty()) {
         tile.meaning += "; doubtful: " + doubts;
@@ -182,6 +185,21 @@ std::string what_shows_the_seen(const analysis::Estimate& difference, double cou
         std::max(analysis::fewest_replications, analysis::replications_to_show(difference.deviation, seen_s));
     return fmt::format(". Likely (80 %), {} show the {} s seen", asked_words(pairs),
                        number(seen_s, {1, script}));
+}
+
+/// `; likely (80 %), about 24 do`: so many show the effect that is seen among all comparisons of the
+/// scenario, each at its share of the level (Bonferroni, which is no less strict than Holm).
+std::string what_shows_it_among_all(const ScenarioFacts& scenario, const analysis::Estimate& difference) {
+    const auto is_tested = [](const ConditionFacts& condition) {
+        const auto& comparison = condition.outcome(primary).comparison;
+        return comparison && comparison->t_p.has_value();
+    };
+    const auto tests = static_cast<double>(std::ranges::count_if(scenario.conditions, is_tested));
+    if (tests == 0.0 || difference.mean == 0.0) return "";
+    const double level = 1.0 - (1.0 - analysis::usual_level) / tests;
+    return fmt::format(
+        "; likely (80 %), {} do",
+        asked_words(analysis::replications_to_show(difference.deviation, std::abs(difference.mean), level)));
 }
 
 /// Whether a headline may be about it: a control is told under another condition, and one in which something
@@ -240,12 +258,13 @@ const ConditionFacts* featured_condition(const StudyFacts& study, const Scenario
 
 std::string scenario_headline(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     const std::string unmet = unmet_incident_sentence(scenario, condition);
+    const std::string cut_off = cut_off_words(condition);
     std::string words = emergency_clause(scenario, condition, script);
     words = joined(std::move(words), others_clause(condition, script));
     words = joined(std::move(words), collisions_clause(scenario, condition));
     words = joined(std::move(words), missing_clause(condition));
     if (condition.is_unchecked()) words = joined(std::move(words), "the simulator's safety checks were off");
-    return (unmet.empty() ? unmet : unmet + " ") + words + ".";
+    return (unmet.empty() ? unmet : unmet + " ") + (cut_off.empty() ? cut_off : cut_off + ". ") + words + ".";
 }
 
 std::string worst_trips(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
@@ -354,9 +373,9 @@ Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& conditi
     } else {
         tile.meaning = joined(std::move(tile.meaning), survivors);
     }
-    tile.meaning = joined(std::move(tile.meaning), working_words(scenario, condition, script));
-    tile.meaning = joined(std::move(tile.meaning), trip_changes_words(condition, script));
-    tile.meaning = joined(std::move(tile.meaning), signal_trips_words(scenario, condition, script));
+    tile.details = {working_words(scenario, condition, script), trip_changes_words(condition, script),
+                    signal_trips_words(scenario, condition, script)};
+    std::erase(tile.details, "");
     return tile;
 }
 
@@ -368,7 +387,9 @@ Tile incident_tile(const ScenarioFacts& scenario, const ConditionFacts& conditio
     const Effect effect = effect_of(difference, Better::lower, condition.least_relevant(primary));
     Tile tile{"Those that met the incident",
               difference ? signed_seconds(difference->mean, script) : missing(script),
-              words_of(effect, "faster trips", "slower trips"), tone_of(effect)};
+              words_of(effect, "faster trips", "slower trips"),
+              {},
+              tone_of(effect)};
     tile.meaning = joined(std::move(tile.meaning), interval_words(difference, script));
     const ConditionFacts* const baseline = scenario.baseline_of(condition);
     tile.meaning += fmt::format("; they are {} of {} in {}", grouped(met.vehicles),
@@ -395,7 +416,7 @@ Tile others_tile(const ScenarioFacts& /*scenario*/, const ConditionFacts& condit
 }
 
 Tile safety_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
-    Tile tile{"Safety", missing(script), "no complete run", Tile::Tone::neutral};
+    Tile tile{"Safety", missing(script), "no complete run"};
     if (condition.complete_runs == 0) return tile;
     const std::uint64_t count = condition.count("collisions");
     tile.figure = count == 0 ? "no collision" : counted(count, "collision");
@@ -432,8 +453,8 @@ Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, S
             if (is_shown_alone(condition, primary))
                 return {Badge::Runs::too_few,
                         fmt::format("Not enough runs: {} show the direction of one comparison alone, not "
-                                    "among so many (Holm)",
-                                    pairs)};
+                                    "among so many (Holm){}",
+                                    pairs, what_shows_it_among_all(scenario, *difference))};
             if (is_held_up(*condition.outcome(primary).comparison))
                 return {
                     Badge::Runs::too_few,

@@ -38,6 +38,7 @@ struct Tile {
     const char* subject = "";
     std::string figure;
     std::string meaning;
+    std::vector<std::string> details = {};  ///< What else is known of it, a line each.
     enum class Tone : std::uint8_t { neutral, better, worse } tone = Tone::neutral;
 };
 Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/units.hpp"
 #include "experiment/condition_words.hpp"
 #include "report/safety.hpp"
 
@@ -117,6 +118,9 @@ std::string collision_counts(const ScenarioFacts& scenario, const ConditionFacts
     return words;
 }
 
+/// Coarser ones make contacts of their own: docs/guides/your-study.md.
+constexpr double step_for_safety_s = 0.1;
+
 bool baseline_collides_by_model(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     const ConditionFacts* const baseline = scenario.baseline_of(condition);
     return baseline != nullptr &&
@@ -133,6 +137,12 @@ std::string collision_notes(const ScenarioFacts& scenario, const ConditionFacts&
                                     baseline == nullptr ? "" : ", baseline " + grouped(hit_before)));
     if (baseline_collides_by_model(scenario, condition))
         notes.emplace_back("so many in the baseline that they say nothing about safety");
+    else if (baseline != nullptr && baseline->count("collisions") > 0 &&
+             scenario.step_length_s > step_for_safety_s + core::clock_tolerance_s)
+        notes.push_back(
+            fmt::format("at steps of {:g} s they compare conditions; a claim about safety needs "
+                        "--step-length {:g}",
+                        scenario.step_length_s, step_for_safety_s));
     return fmt::format("{}", fmt::join(notes, "; "));
 }
 
@@ -205,6 +215,12 @@ std::string unmet_incident_sentence(const ScenarioFacts& scenario, const Conditi
     const std::string words = unmet_incident_words(scenario, condition);
     if (words.empty()) return {};
     return fmt::format("No EV met the block ({}): these runs say nothing about it.", words);
+}
+
+std::string cut_off_words(const ConditionFacts& condition) {
+    const double cut_off = condition.total("emergency_cut_off");
+    if (cut_off == 0.0) return {};
+    return counted(static_cast<std::uint64_t>(cut_off), "EV") + " cut off by an incident";
 }
 
 std::optional<double> percent_of_baseline(const ScenarioFacts& scenario, const ConditionFacts& condition) {

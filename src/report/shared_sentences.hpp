@@ -61,7 +61,7 @@ std::string collision_counts(const ScenarioFacts& scenario, const ConditionFacts
 /// Whether the baseline collides so often that its model of drivers makes the collisions (collide_by_model).
 bool baseline_collides_by_model(const ScenarioFacts& scenario, const ConditionFacts& condition);
 /// `2 with an EV, baseline 0; so many in the baseline that they say nothing about safety`: what such counts
-/// hide.
+/// hide, and at coarse steps what a claim needs.
 std::string collision_notes(const ScenarioFacts& scenario, const ConditionFacts& condition);
 
 /// `0 of 30 in the baseline`: EVs that met an incident which blocks their way; empty where one did.
@@ -71,6 +71,9 @@ std::string unmet_incident_words(const ScenarioFacts& scenario, const ConditionF
 /// where no incident closes a road to EVs on their way, and without a complete run of the baseline. Plain
 /// text.
 std::string unmet_incident_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition);
+
+/// `2 EVs cut off by an incident`, or empty. Plain text.
+std::string cut_off_words(const ConditionFacts& condition);
 
 /// Difference in the primary measure as a share of the baseline's, %.
 std::optional<double> percent_of_baseline(const ScenarioFacts& scenario, const ConditionFacts& condition);

@@ -212,13 +212,6 @@ std::string unmet_of(const ScenarioFacts& scenario, const ConditionFacts& condit
     return fmt::format("no EV met the block ({}), of which nothing is shown; ", words);
 }
 
-/// `2 EVs cut off by an incident; `, or empty.
-std::string cut_off_of(const ConditionFacts& condition) {
-    const double cut_off = condition.total("emergency_cut_off");
-    if (cut_off == 0.0) return {};
-    return counted(static_cast<std::uint64_t>(cut_off), "EV") + " cut off by an incident; ";
-}
-
 }  // namespace
 
 Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
@@ -229,7 +222,9 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     if (condition.missing_runs > 0)
         absent += fmt::format("{} of {} are missing; ", condition.missing_runs, counted(all, "run"));
     Verdict words = lead(scenario, condition, script);
-    words.finding = absent + unmet_of(scenario, condition) + cut_off_of(condition) + words.finding;
+    const std::string cut_off = cut_off_words(condition);
+    words.finding =
+        absent + unmet_of(scenario, condition) + (cut_off.empty() ? "" : cut_off + "; ") + words.finding;
     if (const std::string survivors = survivors_words(condition, script); !survivors.empty())
         words.facts.push_back(fmt::format("{}; one that did not arrive counts with {} s.", survivors,
                                           number(scenario.horizon_s, {0, script})));

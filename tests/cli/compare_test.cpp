@@ -71,13 +71,15 @@ TEST_F(CompareTest, compares_with_a_condition_that_is_named) {
     EXPECT_DOUBLE_EQ(pair["metrics"][metric]["difference"].get<double>(),
                      -usual["comparisons"][0]["metrics"][metric]["difference"].get<double>());
     EXPECT_THAT(clearway({"compare", "one", "--against", "graph_simulation"}).out,
-                HasSubstr("diff.: minus Graph made by simulation attributes (here the baseline)"));
+                HasSubstr("diff.: minus Graph made by simulation attributes, paired"));
     EXPECT_EQ(clearway({"compare", "one", "--against", "Graph made by simulation attributes"}).out,
               clearway({"compare", "one", "--against", "graph_simulation"}).out)
         << "by the title that tables show";
     const Ended unknown = clearway({"compare", "one", "--against", "graph_simulatoin"});
     EXPECT_EQ(unknown.code, 3);
     EXPECT_THAT(unknown.err, HasSubstr("Did you mean 'graph_simulation'?"));
+    EXPECT_THAT(clearway({"compare", "one", "--against", "Graph made by simulation attribute"}).err,
+                HasSubstr("Did you mean 'Graph made by simulation attributes'?"));
     EXPECT_EQ(clearway({"compare", "one", "one", "--against", "baseline"}).code, 3);
     const Ended rows = clearway({"compare", "one", "--against", "baseline", "--publish", "results/x.csv"});
     EXPECT_EQ(rows.code, 3);
@@ -104,10 +106,10 @@ TEST_F(CompareTest, compares_with_the_same_at_another_level_of_a_factor) {
                   condition.find("B10") == std::string::npos ? "Ours, perfect sensors" : "Ours, B10");
     }
     EXPECT_EQ(tables.at("conditions").size(), 5U) << "titles of all, also of the baseline";
-    EXPECT_THAT(clearway({"compare", "runs/mine", "--against", "policy=geocast"}).out,
-                AllOf(HasSubstr("\nOurs, B10           "), HasSubstr("\nOurs, perfect sensors\n"),
-                      HasSubstr("diff.: minus the same with policy Today (here the baseline)"),
-                      Not(HasSubstr("geocast"))));
+    EXPECT_THAT(
+        clearway({"compare", "runs/mine", "--against", "policy=geocast"}).out,
+        AllOf(HasSubstr("\nOurs, B10           "), HasSubstr("\nOurs, perfect sensors\n"),
+              HasSubstr("diff.: minus the same with policy Today, paired"), Not(HasSubstr("geocast"))));
     const Ended figures = clearway({"export", "figures", "runs/mine", "--out", "figures", "--svg-only",
                                     "--against", "condition.policy=geocast"});
     ASSERT_EQ(figures.code, 0) << figures.err;

@@ -209,7 +209,8 @@ analysis::Summary summary_with_response() {
 }
 
 TEST(ComparisonText, HasResponseTimesAndTheShareInTime) {
-    const std::string text = comparison_text(summary_with_response(), {"collisions"});
+    EXPECT_THAT(comparison_text(summary_with_response(), {"collisions"}), Not(HasSubstr("response time")));
+    const std::string text = comparison_text(summary_with_response(), {"emergency_travel_time_s"});
     EXPECT_THAT(text, HasSubstr("city: EV response time, 90th percentile, s, and trips within 85 s, %\n"));
     EXPECT_THAT(text, HasSubstr("92.0  -21.5 [-30.0, -14.0]"));
     EXPECT_THAT(text, HasSubstr("75.0  +25.0 [12.5, 37.5]"));

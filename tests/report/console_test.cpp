@@ -322,11 +322,12 @@ TEST(ConsoleTables, answer_for_a_control_tell_of_it_under_its_condition_and_name
     control.control_of = scenario.conditions[1].name();
     control.same_as = scenario.conditions[0].name();
     const std::string fact = "  - Every run is identical";
+    const std::string beside = "\nFor comparison, " + control.label() + ": ";
     EXPECT_THAT(
         console_tables(study, Tables::essential),
-        AllOf(HasSubstr(verdict), HasSubstr("Controls: with one part of it off"), Not(HasSubstr(fact))))
+        AllOf(HasSubstr(beside), HasSubstr("Controls: with one part of it off"), Not(HasSubstr(fact))))
         << "the answer alone";
-    EXPECT_THAT(console_tables(study, Tables::all), AllOf(HasSubstr(verdict), HasSubstr(fact)));
+    EXPECT_THAT(console_tables(study, Tables::all), AllOf(HasSubstr(beside), HasSubstr(fact)));
 }
 
 StudyFacts study_with_response() {

@@ -263,6 +263,17 @@ TEST(Page, claims_no_recovery_where_no_interval_is_known) {
                                       Not(HasSubstr("recovered after")), Not(HasSubstr("not recovered in"))));
 }
 
+TEST(Page, draws_at_most_six_recoveries_in_a_figure) {
+    StudyFacts study = tests::study({"merge"});
+    std::vector<ConditionFacts>& conditions = study.scenarios[0].conditions;
+    while (std::ranges::count_if(conditions, [](const auto& one) { return one.recovery.has_value(); }) < 7)
+        conditions.push_back(conditions[1]);
+    const std::string page = page_of(study);
+    EXPECT_THAT(page, AllOf(HasSubstr("id=\"recovery-merge-1\""), HasSubstr("merge (2 of 2)")));
+    EXPECT_THAT(page, Not(HasSubstr("id=\"recovery-merge\"")));
+    EXPECT_EQ(count_of(page, "recovered after 75 s"), 7u);
+}
+
 TEST(Page, lists_at_most_fifty_failures_of_a_condition_and_counts_the_rest) {
     StudyFacts study = tests::study({"merge"});
     for (std::uint32_t replication = 0; replication < 120; ++replication) {

@@ -165,6 +165,11 @@ TEST(Assumptions, say_where_traffic_comes_from_and_what_red_means) {
               "EVs of "
               "the baseline stop at red (policy red_privilege: they pass it).");
     EXPECT_THAT(assumptions_of(drawn + "[[flow]]\nfrom = 'a'\n", scenario), HasSubstr("drawn flows of"));
+    const std::string hospital = drawn + "[[emergency_site]]\nkind = 'hospital'\n";
+    EXPECT_THAT(assumptions_of(hospital, scenario),
+                HasSubstr("no ambulance station, so that ambulances start at hospitals"));
+    EXPECT_THAT(assumptions_of(hospital + "[[emergency_site]]\nkind = 'ambulance_station'\n", scenario),
+                testing::Not(HasSubstr("no ambulance station")));
     EXPECT_THAT(assumptions_of(drawn + "[privilege]\npass_red = 1\n", scenario),
                 HasSubstr("EVs of the baseline may pass red"));
     scenario.conditions[0].condition.settings = {{"privilege.pass_red", "1"}};

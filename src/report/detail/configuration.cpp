@@ -8,6 +8,7 @@
 #include <toml++/toml.h>
 
 #include "core/strict_table.hpp"
+#include "report/read_facts.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report::detail {
@@ -33,25 +34,40 @@ double automated_share(const toml::table& scenario) {
     return all > 0.0 ? automated / all : -1.0;
 }
 
-bool passes_red(const toml::table& scenario, const ConditionFacts& baseline) {
-    const auto own = baseline.condition.settings.find("privilege.pass_red");
-    if (own != baseline.condition.settings.end()) return own->second != "0";
+bool passes_red(const toml::table& scenario, const experiment::ConditionSpec& baseline) {
+    const auto own = baseline.settings.find("privilege.pass_red");
+    if (own != baseline.settings.end()) return own->second != "0";
     return scenario["privilege"]["pass_red"].value_or(0.0) > 0.0;
 }
 
-/// How demand came about, how much of it there is, and whether EVs of the baseline stop at red. Plain text.
-std::string assumptions_sentence(const toml::table& table, const ScenarioFacts& scenario) {
+/// Where ambulances start, if the scenario has sites and no station for them; else empty.
+std::string stand_in_words(const toml::table& scenario) {
+    const toml::array* const sites = scenario["emergency_site"].as_array();
+    if (sites == nullptr || sites->empty() || scenario["emergency_trip"].is_array()) return "";
+    bool has_fire_station = false;
+    for (const toml::node& site : *sites) {
+        const toml::table* const row = site.as_table();
+        const std::string kind = row == nullptr ? "" : (*row)["kind"].value_or(std::string());
+        if (kind == "ambulance_station") return "";
+        has_fire_station = has_fire_station || kind == "fire_station";
+    }
+    return fmt::format("no ambulance station, so that ambulances start at {}",
+                       has_fire_station ? "fire stations" : "hospitals");
+}
+
+std::string sentence_of(const toml::table& table, bool has_signals,
+                        const experiment::ConditionSpec* baseline) {
     if (!table["demand"].is_table()) return "";
     std::vector<std::string> words = {demand_words(table)};
     if (const double density = table["demand"]["density"].value_or(1.0); density != 1.0)
         words.push_back(fmt::format("density {:g}", density));
     if (const double share = automated_share(table); share >= 0.0)
         words.push_back(fmt::format("automated share {:.2g}", share));
-    const bool has_signals = scenario.roads && !scenario.roads->signals.empty();
+    if (const std::string stand_in = stand_in_words(table); !stand_in.empty()) words.push_back(stand_in);
     const std::string programs = programs_words(table["network"]["attribution"].value_or(std::string()));
     if (has_signals && !programs.empty()) words.push_back(programs);
-    if (has_signals && !scenario.conditions.empty())
-        words.emplace_back(passes_red(table, scenario.conditions.front())
+    if (has_signals && baseline != nullptr)
+        words.emplace_back(passes_red(table, *baseline)
                                ? "EVs of the baseline may pass red"
                                : "EVs of the baseline stop at red (policy red_privilege: they pass it)");
     return fmt::format("Simulated: {}.", fmt::join(words, ", "));
@@ -65,7 +81,18 @@ void add_configuration(const std::string& configuration, ScenarioFacts& scenario
     scenario.step_length_s = time["step_length_s"].value_or(0.0);
     scenario.horizon_s = time["horizon_s"].value_or(0.0);
     if (time["ignore_junction_blocker_s"].value_or(-1.0) >= 0.0) scenario.blockers = Blockers::ignored;
-    scenario.assumptions = assumptions_sentence(table, scenario);
+    scenario.assumptions =
+        sentence_of(table, scenario.roads && !scenario.roads->signals.empty(),
+                    scenario.conditions.empty() ? nullptr : &scenario.conditions.front().condition);
 }
 
 }  // namespace clearway::report::detail
+
+namespace clearway::report {
+
+std::string simulated_sentence(const std::string& configuration, bool has_signals,
+                               const experiment::ConditionSpec& baseline) {
+    return detail::sentence_of(core::parse_toml(configuration, "scenario.toml"), has_signals, &baseline);
+}
+
+}  // namespace clearway::report

@@ -218,8 +218,9 @@ Figure gain_map_figure(const ScenarioFacts& scenario) {
     canvas.legend(entries_of(roads, map, !losing.empty()));
     std::string note = fmt::format(
         "Seconds that an emergency vehicle gains on an edge and the junction behind it under {}: means over "
-        "all passages that it shares with the baseline. Single edges have no interval; the sum over a trip "
-        "is in the tables.",
+        "all passages that it shares with the baseline. Single edges have no interval; those passed too "
+        "seldom to "
+        "say may hold much of the gain, which the tables sum over a trip.",
         condition.label());
     if (!map.changed_ways.empty())
         note += fmt::format(" {} of {} took another way than under the baseline.",

@@ -135,7 +135,7 @@ Json json_of(const Sheet& sheet) {
     for (const std::vector<SheetCell>& row : sheet.rows) {
         Json& object = rows.emplace_back(Json::object());
         for (std::size_t at = 0; at < row.size(); ++at)
-            object[sheet.columns[at].key] = json_cell(row[at]);
+            if (!sheet.columns[at].key.empty()) object[sheet.columns[at].key] = json_cell(row[at]);
     }
     return rows;
 }
@@ -144,6 +144,7 @@ std::string csv_of(const Sheet& sheet) {
     std::vector<std::string> head;
     for (std::size_t at = 0; at < sheet.columns.size(); ++at) {
         const std::string& key = sheet.columns[at].key;
+        if (key.empty()) continue;
         head.push_back(key);
         if (!is_estimate(sheet, at)) continue;
         const std::string stem = key.substr(0, key.size() - 2);
@@ -152,8 +153,9 @@ std::string csv_of(const Sheet& sheet) {
     std::string csv = fmt::format("{}\n", fmt::join(head, ","));
     for (const std::vector<SheetCell>& row : sheet.rows) {
         std::vector<std::string> cells;
-        for (const SheetCell& cell : row)
-            std::ranges::move(csv_cells(cell), std::back_inserter(cells));
+        for (std::size_t at = 0; at < row.size(); ++at)
+            if (!sheet.columns[at].key.empty())
+                std::ranges::move(csv_cells(row[at]), std::back_inserter(cells));
         csv += fmt::format("{}\n", fmt::join(cells, ","));
     }
     return csv;

@@ -21,7 +21,7 @@ struct Share {
 using SheetCell = std::variant<std::monostate, std::size_t, std::string, bool, Share, MaybeEstimate>;
 
 struct SheetColumn {
-    std::string key;    ///< In JSON and CSV; ends in `_s` for estimates.
+    std::string key;    ///< In JSON and CSV; ends in `_s` for estimates. Empty: not there.
     std::string title;  ///< In tables for people.
     enum class Shown : std::uint8_t {
         everywhere,

@@ -97,15 +97,16 @@ Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& con
     return {
         "trip-" + scenario.name, "One trip with and without", plot.finish(),
         fmt::format(
-            "Vehicle {}, replication {}: {} s {}.{} A level piece is a stop. {}", with->vehicle,
-            with->replication, number(std::abs(saved_s), typeset(1)), saved_s >= 0.0 ? "sooner" : "later",
-            ways,
+            "Vehicle {}, replication {}: {} s {}.{} A level piece is a stop. {} the first {}, its gain is "
+            "nearest to the mean gain of all trips.",
+            with->vehicle, with->replication, number(std::abs(saved_s), typeset(0)),
+            saved_s >= 0.0 ? "sooner" : "later", ways,
             without->signals.empty() && with->signals.empty()
-                ? "No signal stands on its route. Its gain is nearest to the mean of the first replications."
+                ? "No signal stands on its route. Of the trips of"
                 : "Signals on its route are drawn twice: without the condition above the stop "
                   "line, with it below; a vehicle may stand at green behind one whose turn has red. "
-                  "Its gain is nearest to the mean of the trips of the first replications that pass "
-                  "signals."),
+                  "Of the trips that pass signals in",
+            counted(std::min<std::uint64_t>(metrics::journeys_kept, scenario.replications), "replication")),
         std::move(data)};
 }
 

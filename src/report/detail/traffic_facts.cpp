@@ -82,17 +82,13 @@ void add_candidates(std::uint32_t replication, const std::vector<Journeys>& runs
     }
 }
 
-/// The one whose gain is nearest to the mean, as most gains may be 0; of trips that pass signals, if there
-/// are any: the others tell nothing of what was asked of signals. Candidates may not be empty.
-Candidate typical_of(std::vector<Candidate> candidates) {
+/// The one whose gain is nearest to the mean of all, as most gains may be 0; of trips that pass signals, if
+/// there are any: the others tell nothing of what was asked of signals. Candidates may not be empty.
+Candidate typical_of(std::vector<Candidate> candidates, double mean_gain_s) {
     const auto passes = [](const Candidate& one) { return one.passes_signals; };
     if (std::ranges::any_of(candidates, passes)) std::erase_if(candidates, std::not_fn(passes));
-    double sum_s = 0.0;
-    for (const Candidate& one : candidates)
-        sum_s += one.gain_s;
-    const double mean_s = sum_s / static_cast<double>(candidates.size());
-    return *std::ranges::min_element(candidates, {},
-                                     [&](const Candidate& one) { return std::abs(one.gain_s - mean_s); });
+    return *std::ranges::min_element(
+        candidates, {}, [&](const Candidate& one) { return std::abs(one.gain_s - mean_gain_s); });
 }
 
 }  // namespace
@@ -106,8 +102,8 @@ const metrics::TrafficTables& RunTraffic::of(const experiment::RunKey& key) {
 std::vector<JourneyFacts> journeys_in(RunTraffic& traffic, const ScenarioFacts& scenario) {
     const std::vector<const ConditionFacts*> conditions = shown_conditions(scenario);
     if (conditions.empty()) return {};
-    constexpr std::uint32_t looked_at = 3;  // as many replications as keep journeys
-    std::vector<std::vector<Journeys>> runs(std::min<std::uint64_t>(looked_at, scenario.replications));
+    std::vector<std::vector<Journeys>> runs(
+        std::min<std::uint64_t>(metrics::journeys_kept, scenario.replications));
     std::vector<Candidate> candidates;
     for (std::uint32_t replication = 0; replication < runs.size(); ++replication) {
         for (const ConditionFacts* condition : conditions)
@@ -116,7 +112,8 @@ std::vector<JourneyFacts> journeys_in(RunTraffic& traffic, const ScenarioFacts& 
         add_candidates(replication, runs[replication], candidates);
     }
     if (candidates.empty()) return {};
-    const Candidate shown = typical_of(std::move(candidates));
+    const double mean_gain_s = conditions.size() < 2 ? 0.0 : -mean_difference_s(conditions[1]);
+    const Candidate shown = typical_of(std::move(candidates), mean_gain_s);
     std::vector<JourneyFacts> journeys;
     for (std::size_t row = 0; row < conditions.size(); ++row) {
         JourneyFacts& journey =

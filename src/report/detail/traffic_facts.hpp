@@ -20,9 +20,9 @@ class RunTraffic {
     std::map<experiment::RunKey, metrics::TrafficTables> tables_;
 };
 
-/// One emergency vehicle's journey under the baseline and the conditions that help most: the one whose
-/// gain is nearest to the mean of all that were kept, or of those that pass signals, if any does. Empty if
-/// none was kept.
+/// One emergency vehicle's journey under the baseline and the conditions that help most: of those that were
+/// kept, or of those of them that pass signals, if any does, the one whose gain is nearest to the mean of
+/// all trips. Empty if none was kept.
 std::vector<JourneyFacts> journeys_in(RunTraffic& traffic, const ScenarioFacts& scenario);
 
 }  // namespace clearway::report::detail

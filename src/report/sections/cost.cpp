@@ -3,6 +3,9 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <span>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -120,24 +123,16 @@ void draw_recovery(Plot& plot, const ConditionFacts& condition, const Series& se
               Plot::Anchor::start, "label");
 }
 
-Figure recovery_figure(const ScenarioFacts& scenario, const Looks& looks) {
-    Range offsets;
-    Range halted;
-    halted.include(0.0);
-    std::vector<std::size_t> numbers;
+/// Of the conditions `numbers`; all figures of a scenario have the same axes.
+Figure recovery_figure(const ScenarioFacts& scenario, const Looks& looks,
+                       std::span<const std::size_t> numbers, const Range& offsets, const Range& halted) {
     DataTable data{{"Condition", "s after the EV", "more halted vehicles [95 %]"}, {}};
-    for (std::size_t number = 0; number < scenario.conditions.size(); ++number) {
+    for (const std::size_t number : numbers) {
         const ConditionFacts& condition = scenario.conditions[number];
-        if (!condition.recovery) continue;
-        numbers.push_back(number);
-        for (const analysis::RecoveryPoint& point : condition.recovery->points) {
-            offsets.include(point.offset_s);
-            halted.include_all(point.difference);
+        for (const analysis::RecoveryPoint& point : condition.recovery->points)
             data.rows.push_back({condition.label(), report::number(point.offset_s, typeset(0)),
                                  estimate(point.difference, typeset(2, Sign::always))});
-        }
     }
-    if (offsets.empty() || offsets.high <= offsets.low) return {};
     return {"recovery-" + scenario.name, scenario.name,
             panels({fmt::format("{}: halted vehicles on the other approaches after an EV", scenario.name),
                     "more halted vehicles, number; across: time after an EV, s"},
@@ -149,6 +144,40 @@ Figure recovery_figure(const ScenarioFacts& scenario, const Looks& looks) {
             "the passages of the baseline, with 95 % intervals. Recovered: from then on no interval lies "
             "above 0 for 30 s.",
             std::move(data)};
+}
+
+void add_recovery_figures(const ScenarioFacts& scenario, const Looks& looks, std::vector<Figure>& figures) {
+    Range offsets;
+    Range halted;
+    halted.include(0.0);
+    std::vector<std::size_t> numbers;
+    for (std::size_t number = 0; number < scenario.conditions.size(); ++number) {
+        if (!scenario.conditions[number].recovery) continue;
+        numbers.push_back(number);
+        for (const analysis::RecoveryPoint& point : scenario.conditions[number].recovery->points) {
+            offsets.include(point.offset_s);
+            halted.include_all(point.difference);
+        }
+    }
+    if (offsets.empty() || offsets.high <= offsets.low) return;
+    constexpr std::size_t most_panels = 6;  // a page of a paper holds so many
+    const std::size_t count = (numbers.size() + most_panels - 1) / most_panels;
+    for (std::size_t part = 0; part < count; ++part) {
+        const std::size_t first = part * most_panels;
+        const std::size_t size = std::min(most_panels, numbers.size() - first);
+        figures.push_back(
+            recovery_figure(scenario, looks, std::span(numbers).subspan(first, size), offsets, halted));
+        if (count == 1) continue;
+        figures.back().name += fmt::format("-{}", part + 1);
+        figures.back().caption += fmt::format(" ({} of {})", part + 1, count);
+    }
+}
+
+std::vector<Figure> recovery_figures(const StudyFacts& study) {
+    std::vector<Figure> figures;
+    for (const ScenarioFacts& scenario : study.scenarios)
+        add_recovery_figures(scenario, looks_of(study, scenario), figures);
+    return figures;
 }
 
 }  // namespace
@@ -166,7 +195,7 @@ void cost_section(const StudyFacts& study, Writer& writer) {
     });
     if (!has_recovery) return;
     writer.heading("Recovery after an EV");
-    writer.figures(figures_of(study, recovery_figure));
+    writer.figures(recovery_figures(study));
 }
 
 }  // namespace clearway::report::detail

@@ -20,8 +20,11 @@ std::string tile_markup(const Tile& tile) {
     const char* const tone = tile.tone == Tile::Tone::better  ? " better"
                              : tile.tone == Tile::Tone::worse ? " worse"
                                                               : "";
-    return fmt::format("<div class=\"tile{}\"><h4>{}</h4><p class=\"figure\">{}</p><p>{}</p></div>\n", tone,
-                       tile.subject, escaped(tile.figure), escaped(tile.meaning));
+    std::string lines;
+    for (const std::string& detail : tile.details)
+        lines += fmt::format("<p class=\"note\">{}</p>", escaped(detail));
+    return fmt::format("<div class=\"tile{}\"><h4>{}</h4><p class=\"figure\">{}</p><p>{}</p>{}</div>\n", tone,
+                       tile.subject, escaped(tile.figure), escaped(tile.meaning), lines);
 }
 
 void write_notes(std::initializer_list<std::string> notes, Writer& writer) {
