@@ -72,9 +72,7 @@ class Conditions:
         return next((level for level in levels if self._given.get(str(level)) == value), value)
 
     def title_of(self, name: str) -> str:
-        """What tables call a condition that factors made; the name of another one, and where there is no title of its own."""
-        if "+" not in name:
-            return name
+        """What tables call a condition; its name where there is no title of its own."""
         try:
             return next((title for title, names in self.titles.items() if names == {name}), name)
         except _program.ClearwayError:  # nothing to compare yet
@@ -119,6 +117,13 @@ class Conditions:
         known = self._known("condition")
         return ",".join(f"{name}={next(level for level in known[name] if _is(level, value))}"
                         for name, value in self._checked(against).items())
+
+    def with_level(self, factor: str, value: Any) -> list[str] | None:
+        """The conditions that have this level of a factor; None where it is no factor of conditions."""
+        if factor not in self._known("condition"):
+            return None
+        given = self._checked({factor: value})
+        return [name for name, factors in self._factors["condition"].items() if _have(factors, given)]
 
     def _checked(self, given: Mapping[str, Any]) -> dict[str, Any]:
         """Those factors that are of conditions. Raises for factors and levels that the study does not have."""

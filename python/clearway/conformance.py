@@ -139,6 +139,8 @@ class Judgement:
         """Whether there is anything to judge by: an answer, and for most rules of policies one that asks for something."""
         if rule is ANSWERS_RULE:
             return True
+        if rule.needs_all_scenes and any(told.failure for told in self.first):
+            return False  # that it asked for nothing there follows from its failure
         return self.asks() if rule.judges_leases else any(told.answers for told in self.first)
 
     def asks(self) -> bool:
@@ -234,6 +236,7 @@ class Rule:
     problems: Callable[[Judgement], Iterator[str]]
     cure: str
     judges_leases: bool = True  #: says nothing of a policy that asked for nothing
+    needs_all_scenes: bool = False  #: says nothing of a part that failed in one
 
 
 ANSWERS_RULE = Rule("answers", "answers in every scene", does_not_answer,
@@ -249,15 +252,16 @@ RULES = {
         Rule("no_ev", "asks for nothing while no EV is there", asks_without_emergency, "act for each of belief.emergency_vehicles"),
         Rule("no_need", "asks for nothing where nothing is in an EV's way", asks_without_need, "look at ev.ahead() and ev.approaches"),
         Rule("acts", "acts in a scene made for policies", never_asks, "print what it is shown, or leave this rule out and try a run",
-             judges_leases=False),
+             judges_leases=False, needs_all_scenes=True),
         Rule("lost", "serves an EV whose reports are lost", forgets_the_unreported,
-             "find EVs by belief.emergency_vehicles: belief.vehicles lacks those whose reports are lost"),
-        Rule("two", "serves an EV that another one crosses", forgets_one_of_two, "serve each of belief.emergency_vehicles"),
+             "find EVs by belief.emergency_vehicles: belief.vehicles lacks those whose reports are lost", needs_all_scenes=True),
+        Rule("two", "serves an EV that another one crosses", forgets_one_of_two, "serve each of belief.emergency_vehicles",
+             needs_all_scenes=True),
         SAME_RULE],
     "predictor": [
         ANSWERS_RULE,
         Rule("links", "takes some pairs for links (0.5 or more) and others for none", tells_no_pair, "run it, and look at links evaluate",
-             judges_leases=False),
+             judges_leases=False, needs_all_scenes=True),
         SAME_RULE],
 }
 

@@ -87,7 +87,7 @@ def _pair(bounds: list[float] | None) -> tuple[float, float] | None:
 
 class Results(_program.Told):
     """A run folder (``clearway.open``). Its tables are read once, when they are first asked for. ``folder`` is its path, ``tables``
-    the names of its tables.
+    the names of its tables, each of which is an attribute, too: ``results.signal_events``.
 
     Where a condition is asked for, it is given by its name, by the title that tables show (``"Ours, B10"``), or by factors that
     choose one: ``{"condition.policy": "corridor", "condition.failure": "B10"}``.
@@ -118,6 +118,11 @@ class Results(_program.Told):
                 raise _program.InputError(f"{database}: cannot be read: {error}. Give the same call again, in case the machine "
                                          "failed to read it; otherwise remove it: `clearway report` on the folder writes it again") from None
         return self._read[name]
+
+    def __getattr__(self, name: str) -> Any:
+        if name in self.__dict__.get("tables", ()):
+            return self.table(name)
+        return super().__getattr__(name)
 
     @property
     def study(self) -> dict[str, Any]:

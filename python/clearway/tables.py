@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 #: Rows of a table that are shown.
 SHOWN_ROWS = 10
 #: Columns that say which run, or which score of links, a row is of.
-_KEYS = ("scenario", "condition", "replication", "failure", "predictor", "against")
+_KEYS = ("scenario", "condition", "replication", "id", "failure", "predictor", "against")
 #: Columns for which a table is looked at: they are shown before others, and before what else says which run a row is of.
 _TELLING = ("cause", "message", "outcome", "reason", "leases", "action", "policy")
 #: What a condition is made of, which is no column where it is no factor.
@@ -98,13 +98,19 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
         return self.row_count
 
     def where(self, **values: Any) -> "Table":
-        """The rows whose columns have these values: ``runs.where(scenario="city", condition="corridor")``, with a factor
-        ``runs.where(**{"condition.failure": "B10"})``. A condition is given by its name or by the title that tables show.
+        """The rows whose columns have these values: ``runs.where(scenario="city", condition="corridor")``, with a factor of
+        conditions, in every table, ``leases.where(**{"condition.failure": "B10"})``. A condition is given by its name or by the
+        title that tables show.
 
         Raises InputError for a scenario or condition that the study does not have.
         """
         chosen = np.ones(self.row_count, dtype=bool)
         for column, value in values.items():
+            if column not in self._columns and self._conditions is not None and "condition" in self._columns:
+                named = self._conditions.with_level(column, value)
+                if named is not None:
+                    chosen &= np.isin(self._columns["condition"], named)
+                    continue
             if column not in self._columns:
                 raise _program.InputError(self._without(column, value))
             array = self._columns[column]
@@ -128,13 +134,18 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
         return next((f". {_call_of(name, value)} chooses by factor" for name in factors), "")
 
     def to_pandas(self) -> "pandas.DataFrame":
-        """The same as a DataFrame. Needs pandas (Debian: python3-pandas)."""
+        """The same as a DataFrame, with a column ``title`` beside ``condition``: what tables call it. Needs pandas (Debian:
+        python3-pandas)."""
         try:
             import pandas
         except ImportError as error:
             raise _program.EnvironmentFault("pandas is not installed (Debian: python3-pandas); tables are numpy arrays without it"
                                             ) from error
-        return pandas.DataFrame(self._columns)
+        frame = pandas.DataFrame(self._columns)
+        if "condition" in self._columns and self._conditions is not None:
+            titles = {name: self._conditions.title_of(name) for name in set(self._columns["condition"].tolist())}
+            frame.insert(frame.columns.get_loc("condition") + 1, "title", frame["condition"].map(titles))
+        return frame
 
     def head(self, count: int = 5, *columns: str) -> "Table":
         """The first rows; with names of columns, of these and of those that say which run a row is of."""
@@ -154,7 +165,8 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
         telling = [name for name in _TELLING if name in others] if {"reason", "message"} & set(others) else []
         if telling:
             others = [name for name in others if name not in telling]
-            keys = ["condition", *telling, *(name for name in keys if name != "condition")]
+            first = [name for name in ("condition", "replication") if name in keys]
+            keys = [*first, *telling, *(name for name in keys if name not in first)]
         tells = {name: self._differs(name) and not ("." in name and "condition" in keys) for name in others}
         return [*keys, *(name for name in others if tells[name]), *(name for name in others if not tells[name])]
 
@@ -180,9 +192,12 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
         for name in order:
             array = self._columns[name][:SHOWN_ROWS]
             if name == "condition" and self._conditions is not None:
-                array = np.array([self._conditions.title_of(str(value)) for value in array], dtype=str)
+                array = np.array([self._conditions.title_of(value) if "+" in value else value for value in array.tolist()], dtype=str)
+            gap = 2 * bool(shown)
             cells = _lined(name, array, max(12, width // 2 - 6))
-            needed = len(cells[0]) + 2 * bool(shown)
+            if len(cells[0]) + gap > left >= 24 and array.dtype.kind == "U":  # enough for the end of a message
+                cells = _lined(name, array, left - gap)
+            needed = len(cells[0]) + gap
             if needed <= left or name in self._asked or not shown:
                 shown[name] = cells
                 left -= needed

@@ -38,6 +38,12 @@ class OneAtATime(clearway.Policy):
     def act(self, belief):
         return [lease for lease in Green().act(belief)] if len(belief.emergency_vehicles) == 1 else []
 
+class NeedsReports(clearway.Policy):
+    def act(self, belief):
+        if belief.emergency_vehicles and not (belief.vehicles.vehicle_class == 2).any():
+            raise KeyError("no EV reports")
+        return Green().act(belief)
+
 class Idle(clearway.Policy):
     def __init__(self, within_m=0.0):
         self.within_m = within_m
@@ -106,6 +112,10 @@ class ConformanceTest(FolderCase):
         self.assertEqual(set.union(*found), {rule.name for rule in RULES["policy"]})
         self.assertIn("it asked for nothing in any scene", self.said)
         self.assertRegex(self.said, r"- +lost +serves an EV whose reports are lost \(not judged\)")
+
+    def test_what_follows_from_a_failure_is_not_held_against_a_part(self) -> None:
+        self.assertEqual(self.broken("parts.py:NeedsReports"), {"answers"})
+        self.assertRegex(self.said, r"- +lost .* \(not judged\)")
 
     def test_what_cannot_be_is_told_with_its_value_and_what_is_allowed(self) -> None:
         self.assertEqual(self.broken("parts.py:Careless", "--leave-out", "humans", "lost", "same"), {"possible"})

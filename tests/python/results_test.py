@@ -32,6 +32,7 @@ class ResultsTest(FolderCase):
             lines = list(csv.DictReader(io.StringIO(program("export", "results", str(self.results.folder), name, "--csv"))))
             table = self.results.table(name)
             self.assertEqual((table.row_count, list(table)), (len(lines), list(lines[0])), name)
+            self.assertIs(getattr(self.results, name), table)
             for column, array in table.items():
                 for cell, value in zip((line[column] for line in lines), array):
                     if array.dtype.kind == "U":
@@ -64,6 +65,11 @@ class ResultsTest(FolderCase):
         self.assertEqual(results.runs.where(**{"condition.failure": "B10", "scenario.friction": 0.4}).row_count, 1)
         with self.assertRaisesRegex(clearway.InputError, "no condition.failure 'B1O'; it has B10, perfect"):
             results.runs.where(**{"condition.failure": "B1O"})
+        failing = results.vehicles.where(**{"condition.failure": "B10"})  # no column there
+        self.assertEqual(set(failing["condition"]), set(results.runs.where(**{"condition.failure": "B10"})["condition"]))
+        self.assertGreater(failing.row_count, 0)
+        with self.assertRaisesRegex(clearway.InputError, "no condition.failure 'B1O'"):
+            results.vehicles.where(**{"condition.failure": "B1O"})
 
     def check_factor(self, results: clearway.Results, column: str, kind: type, values: set[str]) -> None:
         """A column of factors has the same values in each row of each table, and all of ``values``."""
@@ -115,11 +121,15 @@ class ResultsTest(FolderCase):
                                  "outcome": np.array(["refused"] * rows), "reason": np.array(["not_controllable", ""] * 6),
                                  "leases": np.arange(rows)}, conditions=Titles())  # type: ignore[arg-type]
         names, first, *_ = self.printed(leases)
-        self.assertEqual(names.split()[:4], ["condition", "outcome", "reason", "leases"])
+        self.assertEqual(names.split()[:5], ["condition", "replication", "outcome", "reason", "leases"])
         self.assertTrue(first.startswith("Ours, B10  "), first)
         self.assertEqual(leases["condition"][0], "p+failure=B10+policy=my.py_Mine")
         errors = clearway.Table({**keys, "cause": np.array(["python"] * rows), "message": np.array(["TypeError: " + "x" * 90] * rows)})
-        self.assertEqual(self.printed(errors)[0].split(), ["condition", "cause", "message"])
+        names, first, *_ = self.printed(errors)
+        self.assertEqual(names.split(), ["condition", "replication", "cause", "message"])
+        self.assertRegex(first, r"0  python +TypeError: x+\.\.x+$")
+        vehicles = clearway.Table({**keys, "class": np.array(["EV"] * rows), "id": np.array(["emergency.0", "human.1"] * 6)})
+        self.assertEqual(self.printed(vehicles.head())[0].split()[3], "id")
 
     def test_an_array_of_truth_values_chooses_rows(self) -> None:
         runs = self.results.runs
@@ -200,8 +210,12 @@ class ResultsTest(FolderCase):
         self.assertIn("the study has no condition 'coridor'; it has baseline, corridor",
                       self.message_of(clearway.InputError, lambda: self.results.runs.where(condition="coridor")))
         frame = self.results.vehicles.to_pandas()
-        self.assertEqual(list(frame.columns), list(self.results.vehicles))
+        self.assertEqual([name for name in frame.columns if name != "title"], list(self.results.vehicles))
         self.assertEqual(len(frame), self.results.vehicles.row_count)
+        titled = clearway.run("merge", [clearway.Condition("mine", policy="clear_lane", title="Ours")], seeds=1, out="titled")
+        frame = titled.runs.to_pandas()
+        self.assertEqual(list(frame.columns)[:3], ["scenario", "condition", "title"])
+        self.assertEqual(dict(zip(frame["condition"], frame["title"])), {"mine": "Ours", "baseline": "Baseline"})
 
     def test_a_paired_difference_is_the_mean_with_its_interval(self) -> None:
         metric = "emergency_travel_time_s"
