@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -104,6 +106,49 @@ Chosen chosen_run(const std::string& name) {
                                   failure ? "failed: " + failure->message : "has not been made yet"));
 }
 
+/// As equally many runs of each condition in each scenario as possible, of different replications; where they
+/// are fewer than these, of conditions over the whole range. `count` is below the number of runs.
+std::vector<experiment::RunKey> sample_of(const std::vector<experiment::RunKey>& runs, std::size_t count) {
+    std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> cells;  // places of their runs
+    for (std::size_t at = 0; at < runs.size(); ++at)
+        cells[{runs[at].scenario, runs[at].condition}].push_back(at);
+    std::vector<std::size_t> places;
+    for (std::size_t round = 0; places.size() < count; ++round) {
+        std::vector<std::size_t> offered;
+        std::size_t turn = round;  // other replications of other cells
+        for (const auto& [name, cell] : cells) {
+            if (round < cell.size()) offered.push_back(cell[turn % cell.size()]);
+            ++turn;
+        }
+        const std::size_t taken = std::min(count - places.size(), offered.size());
+        for (std::size_t i = 0; i < taken; ++i)
+            places.push_back(offered[i * offered.size() / taken]);
+    }
+    std::ranges::sort(places);
+    std::vector<experiment::RunKey> sample;
+    for (const std::size_t at : places)
+        sample.push_back(runs[at]);
+    return sample;
+}
+
+/// `Not sampled: Ours, corridor. --sample 17 takes a run of each condition.`, or empty.
+std::string left_out_text(const results::Store& store, const std::vector<experiment::RunKey>& keys) {
+    std::vector<std::string> left_out;
+    std::set<std::pair<std::string, std::string>> cells;
+    for (const experiment::RunKey& key : store.manifest().runs()) {
+        cells.emplace(key.scenario, key.condition);
+        const bool is_in =
+            std::ranges::find(keys, key.condition, &experiment::RunKey::condition) != keys.end();
+        if (!is_in && std::ranges::find(left_out, key.condition) == left_out.end())
+            left_out.push_back(key.condition);
+    }
+    if (left_out.empty()) return "";
+    return core::wrapped(fmt::format("Not sampled: {}. --sample {} takes a run of each condition.",
+                                     core::listed(left_out), cells.size()),
+                         4) +
+           "\n";
+}
+
 std::vector<experiment::RunKey> complete_runs(const results::Store& store, const VerifyRequest& request) {
     std::vector<experiment::RunKey> complete = store.manifest().runs();
     std::erase_if(complete, [&](const experiment::RunKey& key) { return !store.complete(key); });
@@ -112,10 +157,7 @@ std::vector<experiment::RunKey> complete_runs(const results::Store& store, const
             core::ExitCode::incomplete,
             fmt::format("{}: no run is complete; there is nothing to compare with", store.folder().string()));
     if (request.sample == 0 || request.sample >= complete.size()) return complete;
-    std::vector<experiment::RunKey> sample;
-    for (std::size_t i = 0; i < request.sample; ++i)
-        sample.push_back(complete[i * complete.size() / request.sample]);
-    return sample;
+    return sample_of(complete, request.sample);
 }
 
 Chosen chosen_runs(const VerifyRequest& request) {
@@ -366,7 +408,9 @@ core::ExitCode verify_runs(const VerifyRequest& request) {
     std::vector<Verification> verifications;
     for (const experiment::RunKey& key : keys)
         verifications.push_back(verify(stored, again, key));
-    print(printout_of(verifications), request.printing);
+    Printout printout = printout_of(verifications);
+    if (request.sample > 0) printout.text += left_out_text(stored, keys);
+    print(printout, request.printing);
     return code_of(verifications);
 }
 

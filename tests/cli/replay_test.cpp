@@ -1,5 +1,6 @@
 // Recordings and runs made again, as a user meets them.
 #include <cstdlib>
+#include <set>
 #include <sstream>
 #include <tuple>
 
@@ -391,6 +392,28 @@ TEST_F(ReplayTest, verify_finds_runs_the_same) {
     EXPECT_EQ(json.at("runs").size(), 3U);
     EXPECT_EQ(
         nlohmann::json::parse(clearway({"verify", "out", "--sample", "1", "--json"}).out).at("verified"), 1);
+}
+
+TEST_F(ReplayTest, verify_samples_each_condition_or_names_those_left_out) {
+    ASSERT_EQ(clearway({"run", "line", "--seeds", "4", "--out", "out", "--no-solo", "--policy",
+                        "dissertation", "--failure", "B10", "--predictor", "none", "--name", "mine"})
+                  .code,
+              0);
+    const auto sampled = [](const Ended& ended) {
+        std::multiset<std::string> conditions;
+        const auto rows = nlohmann::json::parse(ended.out).at("runs");
+        for (const auto& row : rows) {
+            const std::string name = row.at("run");
+            conditions.insert(name.substr(0, name.rfind('/')));
+        }
+        return conditions;
+    };
+    const std::multiset<std::string> six = sampled(clearway({"verify", "out", "--sample", "6", "--json"}));
+    EXPECT_EQ(six.size(), 6U);
+    for (const std::string& condition : six)
+        EXPECT_EQ(six.count(condition), 2U) << condition;
+    const Ended two = clearway({"verify", "out", "--sample", "2"});
+    EXPECT_THAT(two.out, testing::ContainsRegex("Not sampled: .*\\. --sample 3 takes a run of each"));
 }
 
 TEST_F(ReplayTest, verify_tells_where_a_run_differs) {
