@@ -58,9 +58,9 @@ std::uint32_t seeds_within(EquipRequest request, const scenario::BuiltNetwork& b
     if (least_s > request.within_s)
         core::print_message(fmt::format(
             "clearway: the least, {} seeds, takes about {} from nothing, more than the {} given ({}), and is "
-            "made "
-            "all the same; a smaller --budget or fewer --candidates take less\n",
-            request.replications, clock_words(least_s), clock_words(request.within_s), words(cost.basis)));
+            "made all the same; {}fewer --candidates take less\n",
+            request.replications, clock_words(least_s), clock_words(request.within_s), words(cost.basis),
+            request.budget > 1 ? "a smaller --budget or " : ""));
     return static_cast<std::uint32_t>(std::clamp<double>(request.replications * request.within_s / least_s,
                                                          request.replications,
                                                          analysis::most_equip_replications));

@@ -39,7 +39,7 @@ std::string words_of(std::string_view what) {
 
 /// What to do about an error at this line, of which `what` is the parser's word.
 std::string cure_of_line(const std::string& line, const std::string& what) {
-    constexpr const char* usual = "Correct this line; texts stand in quotes";
+    constexpr const char* usual = "Correct this line; texts stand in quotes, numbers do not";
     constexpr std::size_t longest = 200;  // std::regex recurses for each letter
     if (line.size() > longest) return usual;
     static const std::regex comma(R"(=\s*([+-]?\d+),(\d+)\s*(#.*)?$)");

@@ -397,11 +397,11 @@ void append_legend(std::string& text) {
     append_wrapped(
         "here: mean and half width of its 95 % interval; (<x): upper end of an asymmetric interval, as none "
         "reaches below 0. Travel time of emergency vehicles (EV), all: the measure of the verdicts; an EV "
-        "that "
-        "did not arrive counts with the horizon. lost EVs, hit EVs, unchecked: more EVs than in the baseline "
-        "did not "
-        "arrive or collided, or safety checks were off, so neither a benefit nor the absence of an effect "
-        "can be claimed. diff.: mean of the paired differences to the baseline of the same replication; "
+        "that did not arrive counts with the horizon. lost EVs, hit EVs, unchecked: more EVs than in the "
+        "baseline did not arrive, they are shown to collide more often (the interval lies above 0), or "
+        "safety "
+        "checks were off, so neither a benefit nor the absence of an effect can be claimed. diff.: mean of "
+        "the paired differences to the baseline of the same replication; "
         "better or worse when its interval excludes 0; negligible when an EV's time changes by less than "
         "--least-difference.",
         text);

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/labels.hpp"
+#include "core/terminal.hpp"
 #include "report/detail/axes.hpp"
 #include "report/detail/equipment_sheets.hpp"
 #include "report/detail/figures.hpp"
@@ -151,7 +152,8 @@ Figure curve_figure(const EquipmentFacts& facts) {
 
 Figure candidates_figure(const EquipmentFacts& facts) {
     constexpr double row_height = 18.0;
-    constexpr double names_end = 170.0;
+    constexpr double names_end = 226.0;
+    constexpr std::size_t longest_name = 34;  // before it
     std::vector<EquipCandidateFacts> drawn;
     for (const EquipCandidateFacts& one : facts.candidates)
         if (one.gain) drawn.push_back(one);
@@ -170,10 +172,10 @@ Figure candidates_figure(const EquipmentFacts& facts) {
     plot.vertical(0.0);
     double y = top_edge + 0.5 * row_height;
     for (const EquipCandidateFacts& one : drawn) {
-        plot.text(names_end, y + 4.0,
-                  fmt::format("{} {}", one.number,
-                              short_signal_name(one.streets.empty() ? one.signal : one.streets)),
-                  Canvas::Anchor::end, "tick");
+        std::string name = printable(one.streets.empty() ? one.signal : one.streets);
+        if (core::characters_in(name) > longest_name)
+            name = core::cut_to_columns(name, longest_name - 2) + "..";
+        plot.text(names_end, y + 4.0, fmt::format("{} {}", one.number, name), Canvas::Anchor::end, "tick");
         plot.estimate(one.gain, shown_interval(one.gain), y,
                       {is_shown(one.gain) ? std::size_t{1} : std::size_t{2}});
         y += row_height;

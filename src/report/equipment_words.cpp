@@ -223,7 +223,7 @@ const char* answer_of(const EquipmentFacts& facts) {
     if (shows_any(facts)) return "Equip first";
     return is_chance(facts, facts.ranked.front())
                ? "No gain is shown, and the first changed no trip, so no order"
-               : "No gain is shown yet; likely best";
+               : "No gain is shown, so no order; highest in these runs";
 }
 
 /// What gains count from.

@@ -46,8 +46,16 @@ std::string joined(std::string words, const std::string& more) {
     return words.empty() ? more : words + "; " + more;
 }
 
+/// What a headline calls a condition: one in which something fails says so, if its title does not.
+std::string headline_name(const ConditionFacts& condition) {
+    const std::string& failure = condition.condition.failure;
+    const std::string preset = failure.substr(0, failure.find(','));
+    if (failure == "perfect" || condition.title.find(preset) != std::string::npos) return condition.title;
+    return fmt::format("{} (with failure {})", condition.title, failure);
+}
+
 std::string emergency_clause(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
-    const std::string name = condition.title;
+    const std::string name = headline_name(condition);
     const std::string& noun = scenario.emergency_noun;
     if (condition.objections.on_emergency())
         return fmt::format("{} {}", name, analysis::emergency_objections(condition.objections));
@@ -110,7 +118,9 @@ std::string collisions_clause(const ScenarioFacts& scenario, const ConditionFact
     if (!shown && baseline_collides_by_model(scenario, condition)) return {};
     const char* const more = effect == Effect::worse    ? "more collisions than the baseline"
                              : effect == Effect::better ? "fewer collisions than the baseline"
-                                                        : "collisions";
+                             : scenario.baseline_of(condition) == nullptr
+                                 ? "collisions"
+                                 : "no difference in collisions is shown";
     return fmt::format("{} ({})", more, collision_counts(scenario, condition));
 }
 

@@ -198,7 +198,8 @@ TEST_F(Overview, CountsCollisionsAgainstTheBaseline) {
     tests::set_total(corridor(), "collisions", 7);
     tests::set_total(corridor(), "emergency_collisions", 2);
     tests::set_total(scenario_.conditions[0], "collisions", 5);
-    EXPECT_THAT(headline(), HasSubstr("collisions (7 in 20 runs; baseline 5 in 20)"));
+    EXPECT_THAT(headline(),
+                HasSubstr("no difference in collisions is shown (7 in 20 runs; baseline 5 in 20)"));
     EXPECT_EQ(safety().figure, "7 collisions");
     EXPECT_EQ(safety().tone, Tile::Tone::neutral);  // no difference is shown
     EXPECT_THAT(safety().meaning, HasSubstr("2 with an EV, baseline 0"));
@@ -227,6 +228,13 @@ TEST_F(Overview, tells_those_apart_that_met_an_incident) {
     corridor().condition.policies = {"navigate"};
     EXPECT_THAT(incident_tile(scenario_, corridor(), Script::plain).meaning,
                 HasSubstr("studies/accident.toml"));
+}
+
+TEST_F(Overview, says_of_what_fails_where_a_title_does_not) {
+    corridor().condition.failure = "Q50,B10";
+    EXPECT_THAT(headline(), HasSubstr("corridor (with failure Q50,B10) "));
+    corridor().title = "corridor_Q50_B10";
+    EXPECT_THAT(headline(), Not(HasSubstr("with failure")));
 }
 
 TEST_F(Overview, says_before_all_else_whom_an_incident_cut_off) {

@@ -25,10 +25,6 @@ void include(const JourneyFacts& journey, Range& times, Range& distances);
 /// Distance over time.
 Points way_of(const JourneyFacts& journey);
 
-/// Time and distance of one emergency vehicle of one replication, with and without a condition in one
-/// drawing, and what the signals on its route showed in both.
-Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& condition);
-
 /// Map of the roads with the ways of the emergency vehicles in the colour and width of the seconds gained on
 /// each edge, the ways that some took instead of others, the signals held, and the approaches on which others
 /// lose time.
@@ -80,6 +76,10 @@ using Looks = std::vector<Series>;
 Looks looks_of(const StudyFacts& study, const ScenarioFacts& scenario);
 /// The places of conditions in the order in which they are drawn: what leads comes last, on top.
 std::vector<std::size_t> drawing_order(const Looks& looks);
+
+/// Time and distance of one emergency vehicle of one replication, with and without a condition in one
+/// drawing, and what the signals on its route showed in both.
+Figure timespace_figure(const ScenarioFacts& scenario, const Looks& looks, const ConditionFacts& condition);
 
 /// One figure per scenario.
 std::vector<Figure> figures_of(const StudyFacts& study,

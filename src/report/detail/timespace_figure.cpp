@@ -61,7 +61,7 @@ Points way_of(const JourneyFacts& journey) {
     return points;
 }
 
-Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+Figure timespace_figure(const ScenarioFacts& scenario, const Looks& looks, const ConditionFacts& condition) {
     const ConditionFacts* const baseline = scenario.baseline_of(condition);
     if (baseline == nullptr) return {};
     const JourneyFacts* const without = journey_under(scenario, *baseline);
@@ -76,8 +76,8 @@ Figure timespace_figure(const ScenarioFacts& scenario, const ConditionFacts& con
                times, "time since departure, s", distances, "distance along the route, m");
     draw_signals(plot, *without, -offset);
     draw_signals(plot, *with, offset);
-    const Series baseline_series{scenario.place_of(condition.baseline)};
-    const Series series{scenario.place_of(condition.name()), Series::Weight::lead};
+    const Series& baseline_series = looks[scenario.place_of(condition.baseline)];
+    const Series& series = looks[scenario.place_of(condition.name())];
     plot.line(way_of(*without), baseline_series);
     plot.line(way_of(*with), series);
     std::vector<LegendEntry> legend = {line_entry(baseline_series, baseline->label()),

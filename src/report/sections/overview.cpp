@@ -71,7 +71,8 @@ void overview_section(const StudyFacts& study, Writer& writer) {
         if (condition == nullptr) continue;
         writer.markup("<div class=\"glance\">\n");
         write_words(study, scenario, *condition, writer);
-        writer.figures({gain_map_figure(scenario), timespace_figure(scenario, *condition),
+        writer.figures({gain_map_figure(scenario),
+                        timespace_figure(scenario, looks_of(study, scenario), *condition),
                         ways_figure(scenario), tradeoff_figure(study, scenario), reach_figure(scenario)});
         writer.markup("</div>\n");
     }
