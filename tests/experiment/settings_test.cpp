@@ -433,7 +433,7 @@ TEST(Settings, PartsInPythonAreNotCopied) {
 TEST(Settings, TheBestWayIsAmongThoseThatAreTried) {
     ConditionSpec condition = corridor();
     condition.settings["loop.best_way_taken"] = "1";
-    EXPECT_THAT(problems_of(condition), HasSubstr("loop.best_way_taken is 1, and no ways are tried"));
+    EXPECT_THAT(problems_of(condition), HasSubstr("loop.best_way_taken: is 1, and no ways are tried"));
     condition.settings["loop.ways_tried"] = "4";
     EXPECT_EQ(problems_of(condition), "");
 }
