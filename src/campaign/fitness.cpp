@@ -308,7 +308,7 @@ std::vector<detail::EmergencyTrip> planned_trips(const scenario::ScenarioConfig&
 }
 
 std::vector<Finding> findings_of(const results::RunRecord& record, const Checked& checked,
-                                 const std::vector<detail::EmergencyTrip>& planned) {
+                                 const std::vector<detail::EmergencyTrip>& of_seeds) {
     const metrics::RunMetrics& run = record.metrics;
     const RoadUse use = road_use(run, checked.config.time, lane_km(checked.network));
     const std::string less = density_advice(checked, use.factor < 1.0 ? use.factor : 0.8);
@@ -321,7 +321,7 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
                                      jams_finding(run, use, checked),
                                      detail::locks_finding(record, record.traffic.locks, checked, less),
                                      signals_finding(checked.network, trips)};
-    std::ranges::move(detail::way_findings(checked.config, checked.network, trips, planned),
+    std::ranges::move(detail::way_findings(checked.config, checked.network, trips, of_seeds),
                       std::back_inserter(findings));
     findings.push_back(collisions_finding(run, checked.config.time.step_length_s, less));
     return findings;
@@ -395,13 +395,13 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double a
         record->traffic = store.read_traffic(key);
         const std::filesystem::path& roads = plan.units.front().unit.network_folder;
         const scenario::BuiltNetwork built = scenario::open_network(scenario, roads);
-        const std::vector<detail::EmergencyTrip> planned = planned_trips(scenario, built, seed);
+        const std::vector<detail::EmergencyTrip> of_seeds = planned_trips(scenario, built, seed);
         findings = findings_of(
             *record,
             {scenario, built.network, asked_density, store.scenario_folder(scenario.name) / "demand" / "0"},
-            planned);
+            of_seeds);
         if (!scenario.incidents.empty())
-            findings.push_back(detail::passing_finding(scenario, built.network, planned, planned_seeds));
+            findings.push_back(detail::passing_finding(scenario, built.network, of_seeds, planned_seeds));
         findings.push_back({"speed", Grade::ok,
                             fmt::format("{:.1f} s a run, {:.1f} times real time, including loading", wall_s,
                                         record->metrics.simulated_s / wall_s)});

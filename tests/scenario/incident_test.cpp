@@ -1,5 +1,6 @@
 #include "scenario/incident.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "roads/closure.hpp"
