@@ -18,9 +18,8 @@
 #include "core/leftovers.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
+#include "report/configuration.hpp"
 #include "report/equipment.hpp"
-#include "report/read_facts.hpp"
-#include "report/text.hpp"
 
 namespace clearway::campaign {
 

@@ -127,10 +127,10 @@ analysis::Reference reference_from(const std::string& against,
             unknown_name(option, against, names, "clearway study status " + folder.string());
         problem.allowed += "; or best, each with the best of the others";
         if (!levels.empty()) problem.allowed += "; or a factor and its level, as " + example_of(levels);
-        std::vector<std::string> known;
-        for (const auto& [name, title] : titles)
-            known.push_back(title);
-        problem.cure = core::did_you_mean(against, known, problem.cure);
+        if (core::nearest(against, names).empty()) {
+            const auto shown = core::texts_of(titles, [](const auto& title) { return title.second; });
+            problem.cure = core::did_you_mean(against, shown, problem.cure);
+        }
         throw core::InputError(std::move(problem));
     }
     const core::Settings given_titles = report::given_titles_of(store);

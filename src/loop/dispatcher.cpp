@@ -79,7 +79,6 @@ void Dispatcher::step(ClosedLoop& loop, core::Seconds horizon) {
         } else {
             ++next_call_;
             next_unit_ = 0;
-            sent_.clear();
         }
     }
 }
@@ -127,8 +126,9 @@ void Dispatcher::try_units(ClosedLoop& loop, core::Seconds horizon, const scenar
     std::vector<double> others_s;
     for (const auto& [station, arrival_s] : arrivals_s)
         others_s.insert(others_s.end(), std::min(fleet_.stations()[station].units, call.units), arrival_s);
-    std::vector<core::VehicleKey> vehicles = sent_;
-    vehicles.push_back(vehicle);
+    std::vector<core::VehicleKey> vehicles;
+    for (std::uint32_t unit = 0; unit <= next_unit_; ++unit)  // where one is missing, all later ones are
+        vehicles.push_back(core::vehicle_key(call.vehicle(unit)));
     trials_.add(std::move(vehicles), std::move(others_s), tried);
 }
 
@@ -155,7 +155,6 @@ void Dispatcher::send(ClosedLoop& loop, const scenario::Sending& sending) {
     departure.depart = core::Seconds(std::max(departure.depart.value, now_.value));
     loop.send(departure, call.before_incident);
     fleet_.send_from(sending.station);
-    sent_.push_back(core::vehicle_key(id));
     ++counts_.sent;
     ++next_unit_;
 }

@@ -79,7 +79,6 @@ class Dispatcher {
     std::vector<traffic::KnownIncident> known_;
     std::size_t next_call_ = 0;
     std::uint32_t next_unit_ = 0;
-    std::vector<core::VehicleKey> sent_;  // to the next call
     core::Seconds now_, noted_;
     metrics::DispatchCounts counts_;
     Trials trials_;

@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 
 #include "core/labels.hpp"
-#include "core/terminal.hpp"
 #include "report/detail/axes.hpp"
 #include "report/detail/equipment_sheets.hpp"
 #include "report/detail/figures.hpp"
@@ -172,9 +171,8 @@ Figure candidates_figure(const EquipmentFacts& facts) {
     plot.vertical(0.0);
     double y = top_edge + 0.5 * row_height;
     for (const EquipCandidateFacts& one : drawn) {
-        std::string name = printable(one.streets.empty() ? one.signal : one.streets);
-        if (core::characters_in(name) > longest_name)
-            name = core::cut_to_columns(name, longest_name - 2) + "..";
+        const std::string name =
+            shortened(printable(one.streets.empty() ? one.signal : one.streets), longest_name);
         plot.text(names_end, y + 4.0, fmt::format("{} {}", one.number, name), Canvas::Anchor::end, "tick");
         plot.estimate(one.gain, shown_interval(one.gain), y,
                       {is_shown(one.gain) ? std::size_t{1} : std::size_t{2}});

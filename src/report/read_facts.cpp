@@ -14,8 +14,8 @@
 #include "core/files.hpp"
 #include "experiment/settings.hpp"
 #include "prediction/predictor.hpp"
+#include "report/configuration.hpp"
 #include "report/detail/aspects.hpp"
-#include "report/detail/configuration.hpp"
 #include "report/detail/map_facts.hpp"
 #include "report/detail/side_files.hpp"
 #include "report/detail/traffic_facts.hpp"
@@ -227,7 +227,7 @@ void add_files(const results::Store& store, const results::Results& results, Sce
     for (const results::ScenarioEntry& entry : results.manifest.scenarios) {
         if (entry.name != scenario.name) continue;
         scenario.attribution = entry.attribution;
-        detail::add_configuration(entry.configuration, scenario);
+        add_configuration(entry.configuration, scenario);
     }
 }
 

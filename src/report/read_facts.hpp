@@ -14,12 +14,6 @@
 
 namespace clearway::report {
 
-/// `Simulated: random trips of 1,159 vehicles in 15 min, ...`: how demand came about and how much of it there
-/// is, what stands in for stations, and whether EVs of the baseline stop at red. Empty for an old
-/// configuration, which says nothing of demand. Plain text.
-std::string simulated_sentence(const std::string& configuration, bool has_signals,
-                               const experiment::ConditionSpec& baseline);
-
 /// What the tables and the report show of a run folder:
 ///
 ///     what results::Store holds                      runs, failures, manifest

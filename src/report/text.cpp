@@ -5,15 +5,14 @@
 
 #include <fmt/format.h>
 
+#include "core/terminal.hpp"
+
 namespace clearway::report {
 
 std::string short_signal_name(const std::string& id) {
     constexpr std::size_t most = 24;
-    if (id.size() <= most) return printable(id);
-    std::size_t end = most - 3;
-    while (end > 0 && (static_cast<unsigned char>(id[end]) & 0xc0) == 0x80)  // inside a letter of UTF-8
-        --end;
-    return printable(id.substr(0, end) + "...");
+    if (core::characters_in(id) <= most) return printable(id);
+    return printable(core::cut_to_columns(id, most - 3) + "...");
 }
 
 std::string signal_words(const std::string& id, const std::string& streets) {

@@ -184,6 +184,8 @@ TEST_F(EquipTest, chooses_its_seeds_by_the_time_that_is_given) {
     const Ended short_time = planned("1s");
     EXPECT_THAT(short_time.err, AllOf(HasSubstr("the least, 5 seeds, takes about"), HasSubstr("is made"),
                                       Not(HasSubstr("allow"))));
+    EXPECT_THAT(short_time.err, AllOf(HasSubstr("all the same; fewer --candidates take less"),
+                                      Not(HasSubstr("smaller --budget"))));
     EXPECT_THAT(short_time.out, AllOf(Not(HasSubstr("first look")), Not(HasSubstr("smallest plan"))));
     const Ended long_time = planned("5min");
     EXPECT_EQ(long_time.code, 0);

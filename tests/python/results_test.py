@@ -210,7 +210,9 @@ class ResultsTest(FolderCase):
         self.assertIn("the study has no condition 'coridor'; it has baseline, corridor",
                       self.message_of(clearway.InputError, lambda: self.results.runs.where(condition="coridor")))
         frame = self.results.vehicles.to_pandas()
-        self.assertEqual([name for name in frame.columns if name != "title"], list(self.results.vehicles))
+        columns = list(self.results.vehicles)
+        columns.insert(columns.index("condition") + 1, "title")
+        self.assertEqual(list(frame.columns), columns)
         self.assertEqual(len(frame), self.results.vehicles.row_count)
         titled = clearway.run("merge", [clearway.Condition("mine", policy="clear_lane", title="Ours")], seeds=1, out="titled")
         frame = titled.runs.to_pandas()

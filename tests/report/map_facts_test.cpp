@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.hpp"
-#include "report/detail/configuration.hpp"
+#include "report/configuration.hpp"
 #include "report/frozen_study.hpp"
 #include "report/read_facts.hpp"
 #include "report/shared_sentences.hpp"
@@ -150,7 +150,7 @@ TEST_F(MapFacts, StandBesideTheTripsThatChangedAndTheWorstOnes) {
 }
 
 std::string assumptions_of(const std::string& configuration, ScenarioFacts scenario) {
-    detail::add_configuration(configuration, scenario);
+    add_configuration(configuration, scenario);
     return scenario.assumptions;
 }
 
@@ -170,6 +170,9 @@ TEST(Assumptions, say_where_traffic_comes_from_and_what_red_means) {
                 HasSubstr("no ambulance station, so that ambulances start at hospitals"));
     EXPECT_THAT(assumptions_of(hospital + "[[emergency_site]]\nkind = 'ambulance_station'\n", scenario),
                 testing::Not(HasSubstr("no ambulance station")));
+    EXPECT_THAT(assumptions_of(hospital + "[kinds.emergency]\nambulance = 0\npolice_car = 1\n", scenario),
+                testing::Not(HasSubstr("ambulance")))
+        << "none is drawn";
     EXPECT_THAT(assumptions_of(drawn + "[privilege]\npass_red = 1\n", scenario),
                 HasSubstr("EVs of the baseline may pass red"));
     scenario.conditions[0].condition.settings = {{"privilege.pass_red", "1"}};

@@ -78,6 +78,7 @@ class Harm(unittest.TestCase):
             _, said = harm.communicate(timeout=60)
             self.assertEqual(harm.returncode, 128 + number)
             self.assertNotIn("Traceback", said)
+            self.assertIn("check-harm: interrupted; with --out, this same command continues", said)
             self.assertEqual(list((self.root / "tmp").iterdir()), [])
         self.assertEqual((self.root / "ended").read_text(), "ended\n" * 3)
 

@@ -34,13 +34,12 @@ double common_share(const roads::Network& network, roads::Route way, roads::Rout
 
 /// Every road stands for another one, drawn once for a network.
 std::vector<core::EdgeIndex> mixed_up(const roads::Network& network) {
-    std::vector<core::EdgeIndex> roads;
+    std::vector<core::EdgeIndex> drawn;
     for (std::uint32_t row = 0; row < network.edges().size(); ++row)
-        if (!network.edges()[row].internal) roads.push_back({row});
-    std::vector<core::EdgeIndex> drawn = roads;
+        if (!network.edges()[row].internal) drawn.push_back({row});
     std::ranges::sort(drawn, {}, [](core::EdgeIndex edge) { return core::mix64(edge.value + 1); });
     std::vector<core::EdgeIndex> taken_for(network.edges().size());
-    for (std::size_t row = 0; row < roads.size(); ++row)
+    for (std::size_t row = 0; row < drawn.size(); ++row)
         taken_for[drawn[row].value] = drawn[(row + 1) % drawn.size()];
     return taken_for;
 }
@@ -63,8 +62,10 @@ BelievedWays::BelievedWays(const PolicyContext& context, const NavigateConfig& c
 }
 
 bool BelievedWays::see(const traffic::BelievedGraph& belief) {
-    if (observes_ && taken_for_.empty()) times_.see(belief, period_);
-    if (!taken_for_.empty()) see_spoiled(belief);
+    if (!taken_for_.empty())
+        see_spoiled(belief);
+    else if (observes_)
+        times_.see(belief, period_);
     const bool has_news = heeds_incidents_ && belief.incidents != known_;
     if (has_news) known_ = belief.incidents;
     return has_news;

@@ -1,4 +1,4 @@
-#include "report/detail/configuration.hpp"
+#include "report/configuration.hpp"
 
 #include <cmath>
 #include <vector>
@@ -8,10 +8,9 @@
 #include <toml++/toml.h>
 
 #include "core/strict_table.hpp"
-#include "report/read_facts.hpp"
 #include "report/text.hpp"
 
-namespace clearway::report::detail {
+namespace clearway::report {
 namespace {
 
 /// `random trips of 1,159 vehicles in 15 min`.
@@ -43,7 +42,10 @@ bool passes_red(const toml::table& scenario, const experiment::ConditionSpec& ba
 /// Where ambulances start, if the scenario has sites and no station for them; else empty.
 std::string stand_in_words(const toml::table& scenario) {
     const toml::array* const sites = scenario["emergency_site"].as_array();
-    if (sites == nullptr || sites->empty() || scenario["emergency_trip"].is_array()) return "";
+    const bool has_drawn_ambulances = scenario["demand"]["emergency"].value_or(1.0) > 0.0 &&
+                                      scenario["kinds"]["emergency"]["ambulance"].value_or(1.0) > 0.0 &&
+                                      !scenario["emergency_trip"].is_array();
+    if (sites == nullptr || sites->empty() || !has_drawn_ambulances) return "";
     bool has_fire_station = false;
     for (const toml::node& site : *sites) {
         const toml::table* const row = site.as_table();
@@ -86,13 +88,9 @@ void add_configuration(const std::string& configuration, ScenarioFacts& scenario
                     scenario.conditions.empty() ? nullptr : &scenario.conditions.front().condition);
 }
 
-}  // namespace clearway::report::detail
-
-namespace clearway::report {
-
 std::string simulated_sentence(const std::string& configuration, bool has_signals,
                                const experiment::ConditionSpec& baseline) {
-    return detail::sentence_of(core::parse_toml(configuration, "scenario.toml"), has_signals, &baseline);
+    return sentence_of(core::parse_toml(configuration, "scenario.toml"), has_signals, &baseline);
 }
 
 }  // namespace clearway::report
