@@ -2,7 +2,7 @@
 // median and the 99th percentile of 1,000 searches, ms, after one to each destination that pays for its
 // backward tree; then what a decision adds for a policy in Python (believed times of all edges) and for an
 // environment that offers 8 ways.
-//     netgenerate --grid --grid.number 60 --grid.length 100 -o grid.net.xml       (14,160 edges)
+// benchmarks/route_search.py makes grids and runs it.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -76,6 +76,7 @@ struct Actuator::State {
     std::map<core::SignalIndex, detail::Clearance> clearances;  ///< Of signals that were ever asked for.
     std::optional<core::Seconds> last_step;
     std::vector<core::VehicleKey> heeding;
+    std::vector<core::EdgeIndex> closed = {};    ///< Ordered.
     std::vector<core::VehicleKey> keeping = {};  ///< Vehicles whose way no lease changes.
 
     void watch(const traffic::SignalStates& shown, core::Seconds now) {
@@ -203,6 +204,11 @@ void Actuator::keep_way(core::VehicleKey vehicle) {
     if (found != state_->vehicles.end()) found->second.drop_way();
 }
 
+void Actuator::close(std::vector<core::EdgeIndex> edges) {
+    assert(std::ranges::is_sorted(edges));
+    state_->closed = std::move(edges);
+}
+
 void Actuator::heed(std::span<const core::VehicleKey> drivers) {
     assert(std::ranges::is_sorted(drivers));
     state_->heeding.assign(drivers.begin(), drivers.end());
@@ -216,8 +222,15 @@ void Actuator::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
     const core::Seconds step = state.last_step ? now - *state.last_step : core::Seconds(0.0);
     state.last_step = now;
     const detail::VehicleContext around{
-        state.network, snapshot,      roster, self, state.config.safety_checks, state.config.lateral_model,
-        step,          state.heeding,
+        state.network,
+        snapshot,
+        roster,
+        self,
+        state.config.safety_checks,
+        state.config.lateral_model,
+        step,
+        state.heeding,
+        state.closed,
     };
     for (auto& [key, vehicle] : state.vehicles)
         vehicle.step(around, state.ledger, commands);

@@ -47,6 +47,10 @@ class Actuator {
     /// From now on no lease sends this vehicle another way; running ones are dropped.
     void keep_way(core::VehicleKey vehicle);
 
+    /// Roads that are known to be closed to emergency vehicles from now on, ordered: no lease sends one over
+    /// them, unless it is there or called there.
+    void close(std::vector<core::EdgeIndex> edges);
+
     /// Human drivers who take leases from now on, ordered by key. At first there are none.
     void heed(std::span<const core::VehicleKey> drivers);
 

@@ -16,6 +16,7 @@ struct EdgeTimesConfig {
     double fade_s = 120.0;      ///< Time constant with which what was seen fades, > 0.
     double prior_s = 10.0;      ///< Weight of the prior, as time of vehicles on the edge, > 0.
     double signal_share = 1.0;  ///< Share of the delay before a signal that counts.
+    bool are_asked = false;     ///< Signals are asked for green before emergency vehicles arrive.
     /// What an edge usually takes, s, by core::EdgeIndex, 0 where that is not known; empty: for none. Used by
     /// the constructor alone.
     std::span<const double> mean_times_s = {};
@@ -24,7 +25,8 @@ struct EdgeTimesConfig {
 /// Believed times along edges. The speed on an edge is the distance over the time of the vehicles that are
 /// seen there (Edie 1963), both fading exponentially, with a prior: what the edge usually takes, or, where
 /// that is not known, the limit, and before a signal the mean wait of its program (red^2 / (2 cycle), Webster
-/// 1958, without its random terms).
+/// 1958, without its random terms). A signal that is asked is waited for only until it has changed and what
+/// stands before it has left.
 class EdgeTimes {
   public:
     /// Network and search outlive the object.
@@ -48,6 +50,7 @@ class EdgeTimes {
         double at_s = 0.0;  ///< When they were last brought up to date.
     };
     double fading(double lasting_s) const;
+    double ready_s(core::EdgeIndex edge, double vehicle_s) const;
     double mean_wait_s(core::EdgeIndex index) const;
 
     const roads::Network& network_;

@@ -22,6 +22,15 @@ constexpr core::Spellings<Prior, 2> spellings(Prior) {
     return {{{Prior::free_flow, "free_flow"}, {Prior::mean_times, "mean_times"}}};
 }
 
+/// What is assumed of signals.
+enum class Waits : std::uint8_t {
+    program,    ///< Their programs run.
+    requested,  ///< Another policy asks them for green.
+};
+constexpr core::Spellings<Waits, 2> spellings(Waits) {
+    return {{{Waits::program, "program"}, {Waits::requested, "requested"}}};
+}
+
 /// Settings of Navigate.
 struct NavigateConfig {
     double replan_s = 5.0;
@@ -30,6 +39,7 @@ struct NavigateConfig {
     double fade_s = 120.0;
     double prior_s = 10.0;
     double signal_share = 1.0;
+    Waits waits = Waits::program;
     int observes = 1;
     int heeds_incidents = 1;
     Prior prior = Prior::free_flow;
@@ -60,6 +70,11 @@ struct NavigateConfig {
             Field{"signal_share", "1", &C::signal_share, 0.0, 1.0,
                   "Share of the usual delay on an edge before a signal that the emergency vehicle has, too",
                   "1: no priority at signals"},
+            Field{"waits", "", &C::waits, 0, 0,
+                  "What is waited for at signals: program, as they run by themselves, or requested, where "
+                  "another policy asks for green: until a signal asked now has changed (10 s) and the "
+                  "vehicles before it have left (2 s each)",
+                  "program: in trials beside corridor better in a grid, level in a city"},
             Field{"observes", "1", &C::observes, 0, 2,
                   "0: traffic is not looked at, ways follow free flow and the signals' programs; 2: what is "
                   "seen on a road is taken for another road's",

@@ -11,6 +11,7 @@ namespace clearway::traffic {
 enum class Refusal : std::uint8_t {
     above_allowed_speed,       ///< Faster than the road limit or the vehicle allows.
     cannot_stop_comfortably,   ///< The stop needs more than the vehicle's usual deceleration.
+    closed,                    ///< A way over a road that is known to be closed.
     exit_phase,                ///< The signal has an exit phase of its own (traffic::Preemption).
     expired_on_arrival,        ///< Never legal.
     hold_cap,                  ///< The hold lasted as long as holds may.
@@ -47,10 +48,11 @@ enum class Refusal : std::uint8_t {
     vehicle_gone,             ///< Not on the road (any more).
     wrong_target,             ///< Never legal: a signal cannot drive, a vehicle shows no green.
 };
-constexpr core::Spellings<Refusal, 37> spellings(Refusal) {
+constexpr core::Spellings<Refusal, 38> spellings(Refusal) {
     using R = Refusal;
     return {{{R::above_allowed_speed, "above_allowed_speed"},
              {R::cannot_stop_comfortably, "cannot_stop_comfortably"},
+             {R::closed, "closed"},
              {R::exit_phase, "exit_phase"},
              {R::expired_on_arrival, "expired_on_arrival"},
              {R::hold_cap, "hold_cap"},

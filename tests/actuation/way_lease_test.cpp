@@ -103,5 +103,24 @@ TEST_F(WayLease, with_a_turn_too_near_to_stop_before_is_refused_until_there_is_r
     EXPECT_EQ(bench.only<traffic::SetRoute>(bench.step()).size(), 1U) << "it stands at the line";
 }
 
+TEST_F(WayLease, over_a_road_known_to_be_closed_is_refused_until_it_is_open) {
+    bench.scene = CrossingScene(100.0, short_square());
+    const core::VehicleKey vehicle = add();
+    bench.actuator.close(edges({"A0A1"}));
+    EXPECT_TRUE(ask(vehicle, over_a1).empty());
+    EXPECT_EQ(refused(Refusal::closed), 1U);
+    bench.actuator.close({});
+    EXPECT_EQ(bench.only<traffic::SetRoute>(bench.step()).size(), 1U);
+}
+
+TEST_F(WayLease, from_a_closed_road_or_to_it_is_not_refused) {
+    bench.scene = CrossingScene(100.0, short_square());
+    const core::VehicleKey vehicle = add();
+    std::vector<core::EdgeIndex> closed = edges({"left0A0", "B1right1"});
+    std::ranges::sort(closed);
+    bench.actuator.close(closed);
+    EXPECT_EQ(ask(vehicle, over_a1).size(), 1U);
+}
+
 }  // namespace
 }  // namespace clearway::testing

@@ -25,6 +25,7 @@ struct VehicleContext {
     traffic::LateralModel lateral_model = traffic::LateralModel::lane;
     core::Seconds step;                         ///< Time since the last step; 0 at the first.
     std::span<const core::VehicleKey> heeding;  ///< Human drivers who take leases, ordered.
+    std::span<const core::EdgeIndex> closed;    ///< Roads known to be closed, ordered.
 };
 
 /// A lane that a vehicle is kept on.

@@ -56,6 +56,7 @@ BelievedWays::BelievedWays(const PolicyContext& context, const NavigateConfig& c
              {.fade_s = config.fade_s,
               .prior_s = config.prior_s,
               .signal_share = config.signal_share,
+              .are_asked = config.waits == Waits::requested,
               .mean_times_s = usual_times(context, config.prior)}) {
     constexpr int spoiled = 2;
     if (config.observes == spoiled) taken_for_ = mixed_up(context.network);
