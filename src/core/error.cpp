@@ -5,6 +5,7 @@
 #include <cctype>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -100,37 +101,43 @@ std::vector<std::string> parts_of(const std::string& word) {
     return parts;
 }
 
-/// `Did you mean 'a', 'b' or 'c'?` with candidates that contain all parts of the word, three at most; empty
-/// without one.
+/// Letters to insert, leave out, replace or exchange with the next one (optimal string alignment), row by
+/// row.
+std::size_t edit_distance(const std::string& left, const std::string& right) {
+    std::vector<std::size_t> before, last, row(right.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= left.size(); ++i) {
+        before = std::exchange(last, row);
+        row[0] = i;
+        for (std::size_t j = 1; j <= right.size(); ++j) {
+            const std::size_t substituted = last[j - 1] + (left[i - 1] == right[j - 1] ? 0 : 1);
+            row[j] = std::min({last[j] + 1, row[j - 1] + 1, substituted});
+            if (i > 1 && j > 1 && left[i - 1] == right[j - 2] && left[i - 2] == right[j - 1])
+                row[j] = std::min(row[j], before[j - 2] + 1);
+        }
+    }
+    return row.back();
+}
+
+/// `Did you mean 'a', 'b' or 'c'?` with candidates that contain all parts of the word, but for a letter of a
+/// long one; three at most. Empty without one.
 std::string question_of_parts(const std::string& word, const std::vector<std::string>& candidates) {
     constexpr std::size_t least_letters = 4;
     constexpr std::size_t most_candidates = 3;
     const std::vector<std::string> parts = parts_of(word);
     std::vector<std::string> found;
     for (const std::string& candidate : candidates) {
+        const std::vector<std::string> own = parts_of(candidate);
         const bool has_all = !parts.empty() && std::ranges::all_of(parts, [&](const std::string& part) {
-            return candidate.find(part) != std::string::npos;
+            return candidate.find(part) != std::string::npos ||
+                   (part.size() > least_letters && std::ranges::any_of(own, [&](const std::string& one) {
+                        return edit_distance(part, one) <= 1;
+                    }));
         });
         if (word.size() >= least_letters && has_all && found.size() < most_candidates)
             found.push_back("'" + candidate + "'");
     }
     return found.empty() ? "" : fmt::format("Did you mean {}?", fmt::join(found, " or "));
-}
-
-/// Levenshtein distance, one row at a time.
-std::size_t edit_distance(const std::string& left, const std::string& right) {
-    std::vector<std::size_t> row(right.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= left.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= right.size(); ++j) {
-            const std::size_t substituted = diagonal + (left[i - 1] == right[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-        }
-    }
-    return row.back();
 }
 
 /// `157719652#0` for `157719652`: the first part of a road that imports cut; empty if there is none.
@@ -192,7 +199,7 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
         near = same == candidates.end() ? "" : *same;
     }
     if (!near.empty()) return fmt::format("Did you mean '{}'?", near);
-    const std::string question = question_of_parts(word, candidates);
+    const std::string question = counts_runs(word) ? "" : question_of_parts(word, candidates);
     return question.empty() ? otherwise : question;
 }
 

@@ -44,7 +44,9 @@ std::string cure_of_line(const std::string& line, const std::string& what) {
     if (line.size() > longest) return usual;
     static const std::regex comma(R"(=\s*([+-]?\d+),(\d+)\s*(#.*)?$)");
     static const std::regex table(R"(^\s*\[\s*([\w.-]+)\s*\])");
+    static const std::regex open(R"(^\s*\[\s*([\w.-]+)\s*(#.*)?$)");
     std::smatch found;
+    if (std::regex_search(line, found, open)) return fmt::format("Write [{}]", found.str(1));
     if (std::regex_search(line, found, comma))
         return fmt::format("Write {}.{}: decimals have a point", found.str(1), found.str(2));
     if (what.find("redefine") != std::string::npos && std::regex_search(line, found, table))

@@ -486,7 +486,10 @@ StudyConfig read_study(const std::filesystem::path& name, Extent extent, std::ui
     detail::read_controls(root, untouched, config);
     resolve_parts(reading, config);
     detail::read_plan(root, extent, config);
+    // A key that is misspelt is the cause of others, and comes first.
+    const auto others = static_cast<std::ptrdiff_t>(reading.problems.size());
     root.finish();
+    std::ranges::rotate(reading.problems, reading.problems.begin() + others);
     if (!reading.problems.empty()) throw core::InputError(reading.problems);
     return config;
 }

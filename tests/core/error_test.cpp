@@ -56,6 +56,7 @@ TEST(Nearest, LeavesHalfOfAShortWord) {
     EXPECT_EQ(nearest("on", {"ab", "off"}), "");
     EXPECT_EQ(nearest("gta", {"run", "gcn"}), "");
     EXPECT_EQ(nearest("gan", {"run", "gcn"}), "gcn");
+    EXPECT_EQ(nearest("B01", {"B10", "B40"}), "B10") << "two letters exchanged";
     EXPECT_EQ(nearest("lst", {"run", "list"}), "list");
     EXPECT_EQ(nearest("x", {"y"}), "");
 }
@@ -78,6 +79,7 @@ TEST(DidYouMean, NamesWhatContainsTheWordWhereNothingIsNear) {
               "Did you mean 'emergency_travel_time_s' or 'others_travel_time_s'?");
     EXPECT_EQ(did_you_mean("tim", metrics, "no"), "no") << "three letters are in too many words";
     EXPECT_EQ(did_you_mean("ev_time", metrics), "Did you mean 'emergency_travel_time_s'?");
+    EXPECT_EQ(did_you_mean("travl", metrics), did_you_mean("travel", metrics)) << "but for a letter";
 }
 
 TEST(DidYouMean, PrefersThePartsOfARoadThatWasCut) {

@@ -19,6 +19,7 @@ TEST(TomlErrors, TellHowToWriteADecimalComma) {
                 AllOf(HasSubstr("city.toml:2:"), HasSubstr("Write 43.7: decimals have a point")));
     EXPECT_THAT(refusal("x = -0,25  # west\r\n"), HasSubstr("Write -0.25"));
     EXPECT_THAT(refusal("x = y\n"), HasSubstr("texts stand in quotes"));
+    EXPECT_THAT(refusal("[network\nfile = \"a\"\n"), HasSubstr("Write [network]"));
 }
 
 TEST(TomlErrors, DoNotTakeABareWordForABooleanOrANumber) {

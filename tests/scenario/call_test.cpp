@@ -168,6 +168,10 @@ TEST_F(CallTest, contradicting_and_missing_keys_are_all_reported) {
                                   "call[3] 6 units of kind ambulance are called, and 3 wait at all sites")));
 }
 
+TEST_F(CallTest, a_time_that_is_given_and_wrong_is_not_missing_too) {
+    EXPECT_THAT(wrong("[[call]]\nedge = \"place\"\nat_s = -5.0\n"), SizeIs(1));
+}
+
 TEST_F(CallTest, places_that_cannot_be_reached_are_refused) {
     EXPECT_THAT(wrong("[[call]]\nedge = \"plaec\"\nat_s = 100.0\n"),
                 ElementsAre("call[0].edge the network has no edge \"plaec\""));

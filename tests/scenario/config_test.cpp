@@ -190,6 +190,11 @@ TEST_F(Config, unknown_key_is_reported_with_line_column_and_nearest_key) {
     EXPECT_THAT(problem.cure, HasSubstr("warm_up_s"));
 }
 
+TEST_F(Config, a_misspelt_key_is_told_without_what_its_default_would_break) {
+    EXPECT_THAT(only_problem("[time]\nwindw_s = 900.0\nwarm_up_s = 3000.0\n").where,
+                EndsWith("time.windw_s"));
+}
+
 TEST_F(Config, negative_count_is_refused) {
     const core::Problem problem = only_problem("[demand]\nhuman = -3\n");
     EXPECT_THAT(problem.where, EndsWith("scenario.toml:7:1: demand.human"));

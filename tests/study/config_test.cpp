@@ -33,6 +33,12 @@ class StudyFile : public testing::Test {
     support::TemporaryFolder folder_;
 };
 
+TEST_F(StudyFile, TellsAMisspeltKeyBeforeWhatFollowsFromIt) {
+    EXPECT_THAT(problems("scenarios = [\"merge\"]\nconditions = [\"baseline\"]\n[factor]\n"
+                         "condition.failure = [\"B10\"]\n[titles]\nB10 = \"outages\"\n"),
+                testing::MatchesRegex("[^\n]*unknown key[^\n]*\n.*is no condition.*"));
+}
+
 TEST_F(StudyFile, GivesScenariosConditionsAndOverrides) {
     const StudyConfig config = read(R"(
 name = "outages"
