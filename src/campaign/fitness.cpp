@@ -217,17 +217,20 @@ std::string conclusion_of(const std::string& scenario, const std::vector<Finding
     }
     if (!failed.empty()) return fmt::format("{} cannot be run: {}.", scenario, core::listed(failed));
     if (short_of.empty() && noted.empty()) return scenario + " is fit for a study.";
-    if (short_of.empty() && std::ranges::find(noted, detail::locks_name) != noted.end() && !has_trials)
-        return fmt::format(
-            "{} may be fit for a study: its one run locks, and others may more; --lock-trials 6 "
-            "tells. Noted: {}.",
-            scenario, core::listed(noted));
-    const bool lacks_signals = std::ranges::find(noted, signals_name) != noted.end();
-    if (short_of.empty())
-        return fmt::format(
-            "{} is fit for a study, with what is noted: {}.{}", scenario, core::listed(noted),
-            lacks_signals ? " Few EVs pass a signal, so a study of signals can show little." : "");
-    return fmt::format("{} is not fit for a study as it is: {}.", scenario, core::listed(short_of));
+    if (!short_of.empty())
+        return fmt::format("{} is not fit for a study as it is: {}.", scenario, core::listed(short_of));
+    const auto is_noted = [&](const char* name) { return std::ranges::find(noted, name) != noted.end(); };
+    const bool may_lock = is_noted(detail::locks_name) && !has_trials;
+    const char* const is = may_lock ? "may be" : "is";
+    const std::string begin =
+        is_noted(signals_name)
+            ? fmt::format("A study of signals can show little in {}: few EVs pass one. For others it {} fit",
+                          scenario, is)
+            : fmt::format("{} {} fit for a study", scenario, is);
+    if (may_lock)
+        return fmt::format("{}: its one run locks, and others may more; --lock-trials 6 tells. Noted: {}.",
+                           begin, core::listed(noted));
+    return fmt::format("{}, with what is noted: {}.", begin, core::listed(noted));
 }
 
 const char* word_of(Grade grade) {

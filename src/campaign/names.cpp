@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -70,8 +71,10 @@ Levels levels_of(const std::vector<experiment::ConditionSpec>& conditions) {
 
 namespace {
 
+constexpr std::string_view condition_prefix = "condition.";
+
 Levels::const_iterator factor_named(const std::string& name, const Levels& levels) {
-    return levels.contains(name) ? levels.find(name) : levels.find("condition." + name);
+    return levels.contains(name) ? levels.find(name) : levels.find(std::string(condition_prefix) + name);
 }
 
 /// `policy=corridor,failure=B40,dark_share=0.5`: what follows a comma and is no factor belongs to the level
@@ -138,9 +141,12 @@ analysis::Reference reference_from(const std::string& against,
     for (const auto& [factor, level] : chosen_levels(against, levels)) {
         const auto found = factor_named(factor, levels);
         if (found == levels.end()) {
+            const bool is_whole = factor.starts_with(condition_prefix);
             std::vector<std::string> factors;
             for (const auto& [name, known] : levels)
-                factors.push_back(name);
+                factors.push_back(!is_whole && name.starts_with(condition_prefix)
+                                      ? name.substr(condition_prefix.size())
+                                      : name);
             throw core::InputError(unknown_name(fmt::format("{}: factor", option), factor, factors));
         }
         const std::string* const meant = level_of(level, found->second, given_titles);

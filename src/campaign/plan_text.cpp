@@ -19,6 +19,7 @@
 #include "experiment/code_parts.hpp"
 #include "experiment/condition_titles.hpp"
 #include "experiment/condition_words.hpp"
+#include "experiment/loop_config.hpp"
 #include "experiment/settings.hpp"
 #include "report/read_facts.hpp"
 #include "results/store.hpp"
@@ -117,6 +118,12 @@ Rest rest_of(const std::vector<Cell>& cells, unsigned workers) {
     return rest;
 }
 
+/// Whether choices are tried in copies of the run, whose cost no estimate knows.
+bool drives_copies(const experiment::ConditionSpec& condition) {
+    const experiment::LoopConfig loop = experiment::loop_config(condition);
+    return loop.ways_tried > 0 || loop.units_tried > 0;
+}
+
 std::string size_text(double bytes) {
     if (bytes < 1e6) return fmt::format("{:.0f} kB", bytes / 1e3);
     return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
@@ -132,9 +139,10 @@ std::string precision_text(const results::PrecisionTarget& target) {
 /// What the study sets out to show, a line for each comparison.
 std::string analysis_plan_text(const results::AnalysisPlan& plan, const core::Settings& titles) {
     std::string text =
-        core::wrapped(fmt::format("plan: {}, paired; {}, all true with probability {:g} (Holm)", plan.metric,
-                                  core::counted(plan.comparisons.size(), "claim"), 1.0 - plan.alpha),
-                      4) +
+        core::wrapped(
+            fmt::format("plan: {}, paired; {}, any false finding with probability {:g} at most (Holm)",
+                        plan.metric, core::counted(plan.comparisons.size(), "claim"), plan.alpha),
+            4) +
         "\n";
     for (const results::PlannedComparison& one : plan.comparisons)
         text += core::wrapped(fmt::format("  {}: {} against {}{}, {}", one.name, titles.at(one.condition),
@@ -219,7 +227,10 @@ Printout plan_printout(const study::Plan& plan, const RunOptions& options) {
     std::string text = "the rest: ";
     text += rest.wall_s ? fmt::format("about {}", clock_words(*rest.wall_s))
                         : "time unknown: the route files of measured demand cannot be read";
-    text += fmt::format(", about {} on the disk ({})", size_text(rest.disk_bytes), words(rest.basis));
+    text += fmt::format(", about {} on the disk ({}{})", size_text(rest.disk_bytes), words(rest.basis),
+                        std::ranges::any_of(plan.manifest.conditions, drives_copies)
+                            ? "; without the copies that it drives of runs"
+                            : "");
     text = "\n" + core::wrapped(head, 4) + "\n" + core::wrapped(text, 4) + "\n";
     if (plan.manifest.precision) text += core::wrapped(precision_text(*plan.manifest.precision), 4) + "\n";
     const core::Settings titles = experiment::ConditionTitles(plan.titles).of(plan.manifest.conditions);

@@ -15,6 +15,7 @@
 #include "analysis/replications.hpp"
 #include "analysis/summary.hpp"
 #include "campaign/detail/abort_cure.hpp"
+#include "campaign/detail/run_cost.hpp"
 #include "campaign/names.hpp"
 #include "campaign/plan_text.hpp"
 #include "campaign/printout.hpp"
@@ -24,6 +25,7 @@
 #include "core/leftovers.hpp"
 #include "core/progress.hpp"
 #include "core/shipped_files.hpp"
+#include "core/supervisor.hpp"
 #include "experiment/code_parts.hpp"
 #include "prediction/predictor.hpp"
 #include "python/nursery.hpp"
@@ -101,6 +103,12 @@ void say_how_to_continue(const study::Plan& plan, const std::filesystem::path& f
     fmt::print(stderr,
                "clearway: interrupted with {} of {} complete; they are kept in {}. To continue:\n  {}\n",
                progress.done, core::counted(progress.total, "run"), folder.string(), options.command);
+    constexpr double telling_share = 0.02;  // as much as the line of progress told
+    if (progress.work > telling_share) {
+        fmt::print(stderr, "clearway: about {} is left\n",
+                   core::clock_text(progress.elapsed_s * (1.0 - progress.work) / progress.work));
+        return;
+    }
     if (progress.done == 0) return;  // nothing to estimate by
     try {
         if (const auto left = estimated_time_left(plan, folder, options.workers))
@@ -308,6 +316,9 @@ StudyResult run_missing(const study::Plan& plan, const results::Store& store, co
     fmt::print(
         stderr, "clearway: {} into {}{}\n", core::counted(plan.run_count(), "run"), options.folder.string(),
         few ? fmt::format("; fewer than {} seeds give no interval", analysis::fewest_for_interval) : "");
+    std::vector<experiment::RunKey> missing = plan.manifest.runs();
+    std::erase_if(missing, [&](const experiment::RunKey& key) { return store.complete(key); });
+    const auto started = std::chrono::steady_clock::now();
     core::Progress progress("runs", plan.run_count(), core::Progress::style_for_stderr());
     PresentEstimate estimate(store);
     StudyResult result = run_part(plan, store, options, [&](const StudyProgress& now) {
@@ -317,6 +328,10 @@ StudyResult run_missing(const study::Plan& plan, const results::Store& store, co
         progress.update(ended, now.failed, estimate.text(ended, now.total));
     });
     progress.finish();
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
+    const auto processes = std::min(core::process_count(options.workers), plan.units.size());
+    if (result.exit_code == core::ExitCode::ok && !missing.empty())
+        note_pace(store, missing, took.count() * static_cast<double>(processes));
     if (is_interrupted(result.exit_code)) say_how_to_continue(plan, store.folder(), result.progress, options);
     return result;
 }

@@ -20,21 +20,16 @@ std::string counts_text(const std::map<std::string, int>& counts) {
     return text;
 }
 
-/// ` (St. Anna, 2 unnamed)`, or empty where the map names none.
+/// ` (St. Anna, unnamed, High Street)`, or empty where there are none of a map.
 std::string names_text(const Findings& findings) {
     constexpr std::size_t most = 4;
     std::vector<std::string> words = findings.site_names;
     if (words.empty()) return "";
-    std::size_t unnamed = 0;
-    for (const auto& [kind, count] : findings.sites)
-        unnamed += static_cast<std::size_t>(count);
-    unnamed -= words.size();
     if (words.size() > most) {
         words.resize(most);
         words.emplace_back("...");
     }
-    if (unnamed > 0) words.push_back(fmt::format("{} unnamed", unnamed));
-    return fmt::format(" ({})", fmt::join(words, ", "));
+    return fmt::format(" ({})", fmt::join(words, "; "));
 }
 
 /// The sites, and what stands in for kinds that the map does not have.
@@ -73,8 +68,13 @@ std::string filled(const std::string& lines) {
 /// What the signals come from, where a map has any.
 std::string map_signals_text(const Findings& findings) {
     if (findings.map_signals == 0) return "";
-    return fmt::format(" (from {} of the map: a junction may have several)",
-                       core::counted(findings.map_signals, "node"));
+    constexpr double usual_km_per_signal = 5.0;
+    const bool are_few = findings.road_km > usual_km_per_signal * static_cast<double>(findings.signals);
+    return fmt::format(" (from {} of the map: a junction may have several{}",
+                       core::counted(findings.map_signals, "node"),
+                       are_few ? "); few for these roads, and none is guessed: tag those that it lacks "
+                                 "(highway=traffic_signals) and import again"
+                               : ")");
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ struct Findings {
     bool left_hand = false;
     std::string side_reason;              ///< Why traffic drives on that side.
     std::map<std::string, int> sites;     ///< Hospitals and stations by kind.
-    std::vector<std::string> site_names;  ///< Of those that the map names, in its order.
+    std::vector<std::string> site_names;  ///< In the order of the map.
     double vehicles_per_hour = 0.0;       ///< Human and automated vehicles, over the departure window.
     std::map<std::string, int> vehicles;  ///< By kind, in the window.
     std::size_t routed_trips = 0;         ///< Vehicles whose files give only ends.

@@ -137,8 +137,8 @@ TEST(Conclusion, knows_nothing_of_a_scenario_whose_one_run_locks) {
 
 TEST(Conclusion, says_that_signals_can_show_little_where_few_pass_any) {
     EXPECT_EQ(conclusion_of("town", {{"signals", Grade::note, "4 in the network; 1 of 6 EVs pass one"}}),
-              "town is fit for a study, with what is noted: signals. Few EVs pass a signal, so a study of "
-              "signals can show little.");
+              "A study of signals can show little in town: few EVs pass one. For others it is fit, with what "
+              "is noted: signals.");
 }
 
 TEST(CollisionsFinding, tells_many_from_few) {

@@ -50,7 +50,7 @@ TEST_F(MapImport, makes_a_scenario_that_loads_with_sites_signals_and_a_level) {
     EXPECT_THAT(findings.sites, ElementsAre(Pair("fire_station", 1), Pair("hospital", 1)));
     EXPECT_THAT(findings.demand, AllOf(HasSubstr("synthetic"), HasSubstr("on the road")));
     EXPECT_GT(findings.vehicles_per_hour, 0.0);
-    EXPECT_THAT(to_text(findings), HasSubstr("1 hospital (St. \"Anna\" <Klinik>, 1 unnamed)"));
+    EXPECT_THAT(to_text(findings), HasSubstr("1 hospital (St. \"Anna\" <Klinik>; unnamed,"));
     for (const char* const file :
          {"scenario.toml", "network.net.xml", "network.svg", "import.json", "preemption.csv"})
         EXPECT_TRUE(std::filesystem::exists(out() / "town" / file)) << file;

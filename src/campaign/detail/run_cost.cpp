@@ -55,24 +55,6 @@ void sample(const results::Store& store, const std::string& scenario, const std:
     }
 }
 
-/// Of runs of a scenario, by its hash; nothing where there are none.
-std::optional<RunCost> measured_in(const results::Store& store, const std::string& hash,
-                                   experiment::TrafficModel traffic_model) {
-    RunCost sum;
-    std::size_t count = 0;
-    for (const results::ScenarioEntry& scenario : store.manifest().scenarios) {
-        if (scenario.configuration_hash != hash) continue;
-        for (const experiment::ConditionSpec& condition : store.manifest().conditions) {
-            if (condition.traffic_model == traffic_model)
-                sample(store, scenario.name, condition.name, sum, count);
-        }
-    }
-    if (count == 0) return std::nullopt;
-    const auto runs = static_cast<double>(count);
-    return RunCost{
-        .wall_s = *sum.wall_s / runs, .disk_bytes = sum.disk_bytes / runs, .basis = CostBasis::measured};
-}
-
 /// Vehicles of a route file that depart within the window.
 double departures(const std::string& routes, double window_s) {
     constexpr std::string_view depart = " depart=\"";
@@ -99,6 +81,9 @@ std::optional<double> measured_vehicles(const scenario::ScenarioConfig& config) 
     return count;
 }
 
+/// In the notes of a run folder: the time of processes, and that which the runs name.
+constexpr const char* pace_key = "pace";
+
 fs::path notes_in(const fs::path& runs) {
     return runs / "run-costs.json";
 }
@@ -119,6 +104,32 @@ std::optional<std::pair<double, double>> noted_pair(const core::Json& notes, con
         !found->back().is_number())
         return std::nullopt;
     return std::pair(found->front().get<double>(), found->back().get<double>());
+}
+
+/// Time of processes over that which the runs name; 1 where it was not noted.
+double pace_of(const results::Store& store) {
+    const core::Json notes = read_notes(store.folder());
+    const auto noted = noted_pair(notes, pace_key);
+    return noted && noted->second > 0.0 ? std::max(1.0, noted->first / noted->second) : 1.0;
+}
+
+/// Of runs of a scenario, by its hash; nothing where there are none.
+std::optional<RunCost> measured_in(const results::Store& store, const std::string& hash,
+                                   experiment::TrafficModel traffic_model) {
+    RunCost sum;
+    std::size_t count = 0;
+    for (const results::ScenarioEntry& scenario : store.manifest().scenarios) {
+        if (scenario.configuration_hash != hash) continue;
+        for (const experiment::ConditionSpec& condition : store.manifest().conditions) {
+            if (condition.traffic_model == traffic_model)
+                sample(store, scenario.name, condition.name, sum, count);
+        }
+    }
+    if (count == 0) return std::nullopt;
+    const auto runs = static_cast<double>(count);
+    return RunCost{.wall_s = *sum.wall_s / runs * pace_of(store),
+                   .disk_bytes = sum.disk_bytes / runs,
+                   .basis = CostBasis::measured};
 }
 
 /// Of the network file, for what was noted of its roads; empty where there is none or it cannot be read.
@@ -189,6 +200,17 @@ void note_cost(const fs::path& runs, const scenario::ScenarioConfig& config, con
     const auto rough_s = rough_cost(config, experiment::TrafficModel::standard).wall_s;
     if (!roads.empty() && rough_s) notes[roads] = {cost.wall_s.value(), *rough_s};
     core::write_atomically(notes_in(runs), core::to_text(notes));
+}
+
+void note_pace(const results::Store& store, const std::vector<experiment::RunKey>& made, double processes_s) {
+    double named_s = 0.0;
+    for (const experiment::RunKey& key : made) {
+        if (const auto timing = store.complete(key) ? store.read_timing(key) : std::nullopt)
+            named_s += timing->wall_s;
+    }
+    if (named_s <= 0.0) return;
+    core::write_atomically(notes_in(store.folder()),
+                           core::to_text(core::Json{{pace_key, {processes_s, named_s}}}));
 }
 
 CostBook::CostBook(const fs::path& folder) : noted_(read_notes(fs::absolute(folder).parent_path())) {

@@ -44,13 +44,18 @@ RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::TrafficMo
 void note_cost(const std::filesystem::path& runs, const scenario::ScenarioConfig& config,
                const std::string& hash, const RunCost& cost);
 
+/// Notes in a run folder how long processes took for runs that were made there. That is more than the runs
+/// name, because loading, warm-up and writing are no run's own.
+void note_pace(const results::Store& store, const std::vector<experiment::RunKey>& made, double processes_s);
+
 /// Costs of runs, estimated from those in a run folder and its neighbours.
 class CostBook {
   public:
     /// `folder` need not exist. Neighbours are the run folders beside it.
     explicit CostBook(const std::filesystem::path& folder);
 
-    /// Mean over the first ten runs of this scenario (by its hash in the manifest) with this traffic model.
+    /// Mean over the first ten runs of this scenario (by its hash in the manifest) with this traffic model,
+    /// at the pace noted in their folder.
     /// Without such runs, what `note_cost` noted; without that, what it noted of the same network file, in
     /// proportion to `rough_cost`; without that, `rough_cost`.
     RunCost of(const scenario::ScenarioConfig& config, const std::string& hash,

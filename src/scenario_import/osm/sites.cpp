@@ -4,9 +4,21 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "roads/geography.hpp"
 
 namespace clearway::scenario_import::detail {
+
+namespace {
+
+/// Of a site that the map does not name: where it is, so that people find it.
+std::string place_words(const roads::Edge& edge, const roads::Coordinates& place) {
+    if (!edge.name.empty()) return "unnamed, " + edge.name;
+    return fmt::format("unnamed, latitude {:.4f}, longitude {:.4f}", place.latitude_deg, place.longitude_deg);
+}
+
+}  // namespace
 
 std::vector<scenario::EmergencySite> place_sites(const std::vector<MapSite>& sites,
                                                  const roads::Network& network, const scenario::Trips& trips,
@@ -31,13 +43,13 @@ std::vector<scenario::EmergencySite> place_sites(const std::vector<MapSite>& sit
                 site.name);
             continue;
         }
-        const std::string& edge = network.edge(nearest).id;
-        if (taken.emplace(site.kind, edge).second)
+        const roads::Edge& edge = network.edge(nearest);
+        if (taken.emplace(site.kind, edge.id).second)
             placed.push_back({.kind = site.kind,
-                              .edge = edge,
+                              .edge = edge.id,
                               .longitude = {},
                               .latitude = {},
-                              .name = site.name,
+                              .name = site.name.empty() ? place_words(edge, site.place) : site.name,
                               .units = {}});
     }
     return placed;
