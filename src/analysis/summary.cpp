@@ -390,7 +390,7 @@ std::string to_text(const Reference& reference) {
     std::vector<std::string> levels;
     for (const auto& [factor, level] : reference.levels)
         levels.push_back(fmt::format("{} {}", factor.substr(factor.rfind('.') + 1), level));
-    return fmt::format("the same with {}", fmt::join(levels, " and "));
+    return fmt::format("its counterpart with {}", fmt::join(levels, " and "));
 }
 
 std::vector<MetricInfo> all_metrics() {

@@ -183,7 +183,7 @@ struct Reference {
     bool is_best() const { return chosen == Chosen::best; }
     bool is_baseline() const { return name.empty() && levels.empty() && !is_best(); }
 };
-/// `corridor`, `the same with policy corridor`, `the best other condition`; empty for the baseline.
+/// `corridor`, `its counterpart with policy corridor`, `the best other condition`; empty for the baseline.
 std::string to_text(const Reference& reference);
 
 /// A condition's baseline is the first condition of the same traffic model without policies; its solo times

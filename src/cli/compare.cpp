@@ -159,10 +159,13 @@ std::string standing_text(const analysis::MetricSummary& metric, const std::stri
                           is_time ? report::usual_least_relevant_s : 0.0);
     const std::string difference =
         report::estimate(comparison.difference, {.decimals = 1, .sign = report::Sign::always});
-    const std::string what = metric.metric.name == analysis::primary_metric
-                                 ? fmt::format(": {} s of EV travel time", difference)
-                                 : fmt::format(" by EV travel time: {} {}", metric.metric.name, difference);
-    return fmt::format("{} {} {}, the best other one{}{}.", condition, standing(effect), other, what,
+    const bool is_primary = metric.metric.name == analysis::primary_metric;
+    const std::string unit = metric.metric.unit == "1" ? "" : " " + metric.metric.unit;
+    const std::string what = is_primary ? fmt::format(": {} s of EV travel time", difference)
+                                        : fmt::format(" by EV travel time: {}{}", difference, unit);
+    return fmt::format("{}{} {} {}, the best other one{}{}.",
+                       is_primary ? "" : fmt::format("in {}, ", metric.metric.name), condition,
+                       standing(effect), other, what,
                        report::doubt_clause(report::doubts_of(effect, comparison, report::Script::plain)));
 }
 

@@ -34,7 +34,7 @@ struct LeaseRow {
     static constexpr void fields(const auto& table) {
         using R = LeaseRow;
         using core::Field;
-        table(Field{"issued", "1", &R::issued, 0.0, 1e12, "New leases, refused ones included", ""},
+        table(Field{"issued", "1", &R::issued, 0.0, 1e12, "New leases, carried out or not", ""},
               Field{"renewed", "1", &R::renewed, 0.0, 1e12, "Leases that renewed an earlier one", ""},
               Field{"acted", "1", &R::acted, 0.0, 1e12, "Leases that took effect for at least one step", ""},
               Field{"expired", "1", &R::expired, 0.0, 1e12, "Leases that expired", ""});

@@ -315,12 +315,14 @@ struct RunMetrics {
         using M = RunMetrics;
         using core::Field;
         table(
-            Field{"leases_issued", "1", &M::leases_issued, 0.0, 1e12, "New leases, refused ones included",
+            Field{"leases_issued", "1", &M::leases_issued, 0.0, 1e12, "New leases, carried out or not",
                   "actuation"},
             Field{"leases_renewed", "1", &M::leases_renewed, 0.0, 1e12, "Leases that renewed an earlier one",
                   "actuation"},
-            Field{"leases_refused", "1", &M::leases_refused, 0.0, 1e12, "Leases that were not feasible",
-                  "actuation"},
+            Field{
+                "leases_refused", "1", &M::leases_refused, 0.0, 1e12,
+                "Leases refused at some time, once for each reason; most are judged again and may act later",
+                "actuation"},
             Field{"leases_expired", "1", &M::leases_expired, 0.0, 1e12, "Leases that expired", "actuation"},
             Field{"commands_skipped", "1", &M::commands_skipped, 0.0, 1e12,
                   "Commands not given to SUMO, because the vehicle had left the road", "commands"},

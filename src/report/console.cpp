@@ -126,8 +126,9 @@ std::string effect_word(const ConditionFacts& condition, Measure measure) {
 }
 
 std::string response_word(const MaybeEstimate& difference, Better better) {
-    // Percentiles vary more than the mean.
-    if (difference && difference->n < fewest_to_trust) return "few seeds";
+    // Percentiles vary more than the mean; where there is no interval, the cell before says it.
+    if (difference && difference->n < fewest_to_trust)
+        return difference->n < analysis::fewest_for_interval ? "" : "few seeds";
     const Effect effect = effect_of(difference, better);
     if (effect == Effect::too_few || effect == Effect::undecided) return "";
     return effect == Effect::none_shown ? "none shown" : std::string(core::name(effect));
@@ -306,9 +307,14 @@ void append_leases(const ScenarioFacts& scenario, std::string& text) {
 
 void append_head(const ScenarioFacts& scenario, std::string& text) {
     const std::uint64_t emergency = emergency_vehicles(scenario);
-    fmt::format_to(std::back_inserter(text), "{:=<{}}\n{}: {}, {} (EV) per condition\n", "", page_width,
-                   printable(scenario.name), counted(scenario.replications, "replication"),
-                   counted(emergency, "emergency vehicle"));
+    std::uint64_t complete = 0;
+    for (const ConditionFacts& condition : scenario.conditions)
+        complete = std::max<std::uint64_t>(complete, condition.complete_runs);
+    fmt::format_to(
+        std::back_inserter(text), "{:=<{}}\n{}: {}{}, {} (EV) per condition\n", "", page_width,
+        printable(scenario.name), counted(scenario.replications, "replication"),
+        complete < scenario.replications ? fmt::format(" planned, {} complete at most", complete) : "",
+        counted(emergency, "emergency vehicle"));
     append_wrapped(scenario.assumptions, text);
     append_wrapped(printable(kept_requests_sentence(scenario)), text);
     append_wrapped(printable(unsent_messages_sentence(scenario)), text);

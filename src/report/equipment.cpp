@@ -124,7 +124,7 @@ Sheet candidate_sheet(const EquipmentFacts& facts) {
                  {"shown", "Effect"},
                  {"pairs", "Seeds"},
                  {"left_race", "", Where::in_data},
-                 {"rank", "Rank"}},
+                 {"rank", "Chosen"}},
                 {}};
     std::vector<EquipCandidateFacts> candidates = facts.candidates;
     std::ranges::stable_sort(candidates, std::greater{}, gain_or_least<EquipCandidateFacts>);

@@ -33,9 +33,11 @@ void draw_ranks(detail::MapCanvas& canvas, const EquipmentFacts& facts) {
     std::map<std::string, std::size_t> ranks;
     for (const EquippedSignal& signal : facts.ranked)
         ranks.emplace(signal.signal, ranks.size());
-    std::set<std::string> open;
+    std::map<std::string, std::size_t> numbers;  // of candidates
     for (const EquipCandidateFacts& one : facts.candidates)
-        open.insert(one.signal);
+        numbers.emplace(one.signal, one.number);
+    const bool has_room = numbers.size() <= drawn_candidates;
+    const bool has_order = detail::has_order(facts);
     const std::set<std::string> today(facts.equipped_today.begin(), facts.equipped_today.end());
     std::vector<core::Spot> places;
     std::vector<core::Mark> marks;
@@ -43,11 +45,14 @@ void draw_ranks(detail::MapCanvas& canvas, const EquipmentFacts& facts) {
         const auto [x, y] = canvas.place(signal.place);
         places.push_back({x, y});
         marks.push_back(ranks.contains(signal.id) ? core::Mark::disc : core::Mark::dot);
-        const bool is_open = open.contains(signal.id);
+        const bool is_open = numbers.contains(signal.id);
         if (today.contains(signal.id))
             canvas.circle(x, y, core::dot_radius, "dot better");
         else if (marks.back() == core::Mark::dot)
             canvas.circle(x, y, is_open ? core::dot_radius : 2.0, is_open ? "held" : "tick");
+        if (marks.back() == core::Mark::dot && numbers.contains(signal.id) && has_room)
+            canvas.text(x + 6.0, y - 4.0, std::to_string(numbers.at(signal.id)),
+                        detail::Canvas::Anchor::start, "tick");
     }
     const std::vector<core::Spot> spots = core::spread(places, marks, {canvas.width, canvas.height()});
     for (std::size_t row = 0; row < spots.size(); ++row) {
@@ -55,7 +60,8 @@ void draw_ranks(detail::MapCanvas& canvas, const EquipmentFacts& facts) {
         const std::size_t rank = ranks.at(facts.roads->signals[row].id);
         if (spots[row] != places[row])
             canvas.path({{places[row].x, places[row].y}, {spots[row].x, spots[row].y}}, "zero");
-        canvas.add(disc(spots[row], std::to_string(rank + 1), is_shown(facts.ranked[rank].gain)));
+        const std::size_t shown = has_order ? rank + 1 : facts.ranked[rank].number;
+        canvas.add(disc(spots[row], std::to_string(shown), is_shown(facts.ranked[rank].gain)));
     }
 }
 
@@ -78,6 +84,7 @@ std::vector<detail::LegendEntry> map_entries(const EquipmentFacts& facts) {
 /// `Discs bear the order: 1 is #7, 2 is #12.`
 std::string order_words(const EquipmentFacts& facts) {
     constexpr std::size_t most_named = 12;
+    if (!detail::has_order(facts)) return "Numbers are those of the tables, in no order.";
     std::vector<std::string> words;
     for (const EquippedSignal& signal : facts.ranked)
         words.push_back(fmt::format("{} is #{}", words.size() + 1, signal.number));

@@ -33,14 +33,17 @@ std::vector<std::size_t> telling_ranks(const EquipmentFacts& facts) {
     return telling.empty() || telling.front() != 0 ? all : telling;
 }
 
-/// `1) Via Po / Via Roma, 2) S5`, numbered as the map and the table of ranks are.
+/// `1) Via Po / Via Roma, 2) S5`, numbered as the map and the table of ranks are; without an order `Via Po /
+/// Via Roma; S5`.
 std::string names_of(const EquipmentFacts& facts) {
+    const bool has_order = detail::has_order(facts);
     std::vector<std::string> names;
     for (const std::size_t rank : telling_ranks(facts)) {
         const EquippedSignal& signal = facts.ranked[rank];
-        names.push_back(fmt::format("{}) {}", rank + 1, signal_words(signal.signal, signal.streets)));
+        const std::string name = signal_words(signal.signal, signal.streets);
+        names.push_back(has_order ? fmt::format("{}) {}", rank + 1, name) : name);
     }
-    return fmt::format("{}", fmt::join(names, ", "));
+    return fmt::format("{}", fmt::join(names, has_order ? ", " : "; "));
 }
 
 bool most_are_held_up(const UnsoundRuns& unsound) {
@@ -218,12 +221,13 @@ std::string share_sentence(const EquipmentFacts& facts) {
 }
 
 /// What comes before the names of those that were chosen.
-const char* answer_of(const EquipmentFacts& facts) {
-    if (most_are_held_up(facts.unsound)) return "Locks hold up most fresh runs, so the order means little";
-    if (shows_any(facts)) return "Equip first";
-    return is_chance(facts, facts.ranked.front())
-               ? "No gain is shown, and the first changed no trip, so no order"
-               : "No gain is shown, so no order; highest in these runs";
+std::string answer_of(const EquipmentFacts& facts) {
+    if (detail::has_order(facts)) return "Equip first";
+    const char* const why = most_are_held_up(facts.unsound) ? "locks hold up most fresh runs"
+                            : is_chance(facts, facts.ranked.front())
+                                ? "no gain is shown, and the first choice changed no trip"
+                                : "no gain is shown";
+    return fmt::format("These runs cannot tell which to equip first: {}. Chosen, in no order", why);
 }
 
 /// What gains count from.
@@ -238,6 +242,10 @@ std::string left_out_sentence(std::size_t count, const char* why) {
 }  // namespace
 
 namespace detail {
+
+bool has_order(const EquipmentFacts& facts) {
+    return !most_are_held_up(facts.unsound) && shows_any(facts);
+}
 
 std::vector<std::string> findings_of(const EquipmentFacts& facts) {
     std::vector<std::string> sentences;

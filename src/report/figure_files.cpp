@@ -133,7 +133,7 @@ class FileWriter : public detail::Writer {
     }
     /// For axes, where a long name would run out of the drawing; captions have it in full.
     std::string short_reference() const {
-        constexpr std::string_view same = "the same with ";
+        constexpr std::string_view same = "its counterpart with ";
         constexpr std::size_t longest = 24;
         std::string words = study_.reference;
         if (words.starts_with(same)) words.erase(0, same.size());

@@ -54,6 +54,24 @@ std::string headline_name(const ConditionFacts& condition) {
     return fmt::format("{} (with failure {})", condition.title, failure);
 }
 
+/// `, most of it in the 9 of 60 trips that pass a signal`, where these are few; empty for other conditions
+/// than that of the map.
+std::string few_trips_words(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    constexpr double few = 0.25;
+    if (signal_trips_words(scenario, condition, Script::plain).empty()) return {};
+    const auto sum_s = [](const LaterArrivals& changes) {
+        const analysis::MaybeEstimate mean = analysis::estimate_mean(changes.means_s);
+        return mean ? std::abs(mean->mean) * static_cast<double>(changes.trips) : 0.0;
+    };
+    const SignalTrips& trips = scenario.map->signal_trips;
+    const std::uint64_t all = trips.passing.trips + trips.others.trips;
+    const bool are_few =
+        trips.passing.trips > 0 && static_cast<double>(trips.passing.trips) < few * static_cast<double>(all);
+    if (!are_few || sum_s(trips.passing) <= sum_s(trips.others)) return {};
+    return fmt::format(", most of it in the {} of {} that pass a signal", grouped(trips.passing.trips),
+                       counted(all, "trip"));
+}
+
 std::string emergency_clause(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     const std::string name = headline_name(condition);
     const std::string& noun = scenario.emergency_noun;
@@ -64,7 +82,8 @@ std::string emergency_clause(const ScenarioFacts& scenario, const ConditionFacts
     const std::string share = percent_words(scenario, condition, script);
     switch (effect_of(condition, primary)) {
         case Effect::better:
-            return fmt::format("{} saves {} {} a trip{}{}", name, noun, seconds(mean, script), share,
+            return fmt::format("{} saves {} {} a trip{}{}{}", name, noun, seconds(mean, script), share,
+                               few_trips_words(scenario, condition),
                                doubt_clause(condition, primary, script));
         case Effect::worse:
             return fmt::format("{} costs {} {} a trip{}{}", name, noun, seconds(mean, script), share,
@@ -87,8 +106,19 @@ std::string emergency_clause(const ScenarioFacts& scenario, const ConditionFacts
     return fmt::format("No verdict on {}: {}", name, difference ? "no interval" : "no complete pair of runs");
 }
 
+/// Whether the interval ends so near 0 that the first digits of its ends would not tell them apart.
+bool is_barely_shown(const MaybeEstimate& difference) {
+    constexpr double near = 0.1;  // of the mean
+    const analysis::Interval* const interval = shown_interval(difference);
+    return interval != nullptr &&
+           std::min(std::abs(interval->low), std::abs(interval->high)) < near * std::abs(difference->mean);
+}
+
 std::string others_clause(const ConditionFacts& condition, Script script) {
-    const double mean = mean_of(condition.difference(Measure::other_time_loss)).value_or(0.0);
+    const MaybeEstimate& difference = condition.difference(Measure::other_time_loss);
+    const double mean = mean_of(difference).value_or(0.0);
+    if (effect_of(condition, Measure::other_time_loss) == Effect::better && is_barely_shown(difference))
+        return fmt::format("other drivers are hardly faster ({} each)", signed_seconds(mean, script));
     const std::string own = doubts_of(condition, Measure::other_time_loss, script);
     const std::string doubts = own == doubts_of(condition, primary, script) ? "" : doubt_clause(own);
     switch (effect_of(condition, Measure::other_time_loss)) {
@@ -176,6 +206,7 @@ Tile time_tile(const TileWords& words, const ConditionFacts& condition, Measure 
               {},
               tone_of(effect)};
     tile.meaning = joined(std::move(tile.meaning), interval_words(difference, script));
+    if (effect == Effect::better && is_barely_shown(difference)) tile.tone = Tile::Tone::neutral;
     if (const std::string doubts = doubts_of(condition, measure, script); !doubts.empty()) {
         tile.meaning += "; doubtful: " + doubts;
         tile.tone = Tile::Tone::neutral;

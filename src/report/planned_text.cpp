@@ -22,6 +22,12 @@ std::string title_of(const StudyFacts& study, const std::string& scenario, const
     return condition;
 }
 
+bool claims_equivalence(const StudyFacts& study) {
+    return std::ranges::any_of(study.planned, [](const PlannedFinding& finding) {
+        return finding.comparison.claim == results::Claim::equivalence;
+    });
+}
+
 constexpr int table_columns = 100;
 
 /// A comparison and what it has shown. What is too long for its column has lines of its own.
@@ -68,16 +74,18 @@ std::string finding_words(const PlannedFinding& finding, Script script) {
 
 std::string plan_sentence(const StudyFacts& study) {
     return fmt::format(
-        "Confirmatory: the {} of the plan, in {}, paired. All claims hold together with probability {} "
-        "(Holm).",
+        "Confirmatory: the {} of the plan, in {}, paired. The probability of any false finding is {} at most "
+        "(Holm).{}",
         counted(study.planned.size(), "comparison"), study.plan->metric,
-        number(1.0 - study.plan->alpha, {.decimals = 2}));
+        number(study.plan->alpha, {.decimals = 2}),
+        claims_equivalence(study) ? " The p of an equivalence is that of two one-sided tests (TOST)." : "");
 }
 
 std::string planned_table(const StudyFacts& study) {
     if (!study.plan) return "";
     std::string text = printable(plan_sentence(study)) + "\n\n";
-    text.replace(text.find(". ") + 1, 1, "\n");  // A line for each sentence.
+    for (std::size_t at = text.find(". "); at != std::string::npos; at = text.find(". ", at))
+        text.replace(at + 1, 1, "\n");  // A line for each sentence.
     const auto out = std::back_inserter(text);
     fmt::format_to(out, "{:<38}{:<23}{:>5}  {:>7}  {}\n{:-<{}}\n", "Comparison", "difference, s", "pairs",
                    "p, Holm", "finding", "", table_columns);

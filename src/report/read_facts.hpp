@@ -36,7 +36,7 @@ StudyFacts facts_of(const results::Store& store, const results::Results& results
                     const analysis::Summary& summary, double least_relevant_s = usual_least_relevant_s);
 
 /// What tables and figures call the conditions of a run folder, by scenario and name, and what they are
-/// compared with: `Ours`, `the same with policy Ours`.
+/// compared with: `Ours`, `its counterpart with policy Ours`.
 struct Titles {
     ConditionTitleMap conditions;
     std::string reference;

@@ -159,7 +159,7 @@ std::string locks_of(const ScenarioFacts& scenario, const ConditionFacts& condit
     const ConditionFacts* const baseline = scenario.baseline_of(condition);
     const std::string with = lock_words(condition);
     const std::string without = baseline == nullptr ? "" : lock_words(*baseline);
-    if (with.empty() && without.empty()) return {};
+    if (condition.complete_runs == 0 || (with.empty() && without.empty())) return {};
     return fmt::format("Locks: {} (baseline: {}). Fewer locks: {}.", with.empty() ? "none" : with,
                        without.empty() ? "none" : without, lock_remedy(scenario.blockers));
 }

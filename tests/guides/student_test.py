@@ -89,7 +89,7 @@ class StudentTest(FolderCase):
                              "each row has as many cells")
             self.assertTrue(any(row.startswith("Ours") for row in rows))
             self.assertEqual(any(row.startswith("corridor") for row in rows), name.startswith("figures"), "it is not compared with itself")
-        self.assertIn("difference to the same with policy corridor, s", table)
+        self.assertIn("difference to its counterpart with policy corridor, s", table)
         if shutil.which("pdflatex"):
             self.write("paper.tex", latex)
             ended = subprocess.run(["pdflatex", "-halt-on-error", "paper.tex"], capture_output=True, text=True, check=False)

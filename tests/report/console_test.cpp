@@ -58,7 +58,7 @@ StudyFacts planned_study() {
 TEST(ConsoleTables, print_what_a_plan_confirms_before_all_else) {
     const std::string text = console_tables(planned_study());
     EXPECT_TRUE(text.starts_with("Confirmatory: the 2 comparisons of the plan, in emergency_restricted"));
-    EXPECT_THAT(text, HasSubstr("\nAll claims hold together with probability 0.95 (Holm)"));
+    EXPECT_THAT(text, HasSubstr("\nThe probability of any false finding is 0.05 at most (Holm)"));
     EXPECT_THAT(text, HasSubstr("links act (merge)\n    linked - links_cut "));
     EXPECT_THAT(text, HasSubstr("-2.50 [-3.00, -2.00]      20   <0.001  shown: less time\n"));
     EXPECT_THAT(text, HasSubstr("0.020  equivalent within 1.2 s"));

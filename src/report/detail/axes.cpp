@@ -237,6 +237,7 @@ std::string panels(const PanelWords& words, std::size_t count, const Range& x, c
         plot.grid_y();
         draw(plot, panel);
     }
+    plot.legend(words.legend);
     return plot.finish();
 }
 

@@ -128,10 +128,11 @@ struct Chart : Plot {
     Chart(const std::string& title, double height, Axis x, Axis y);
 };
 
-/// What small multiples have in common: their title and what their axes measure.
+/// What small multiples have in common: their title, what their axes measure, and a legend if they need one.
 struct PanelWords {
     std::string title;
     std::string label;
+    std::vector<LegendEntry> legend = {};
 };
 /// Small multiples: panels of one scale, two beside each other in one drawing. `draw` is called with the plot
 /// turned to each panel, and its number.

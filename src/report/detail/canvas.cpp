@@ -14,7 +14,7 @@ namespace {
 constexpr double letter_width = 6.3;  // of text of 12 units, mean; from Liberation Sans
 constexpr double bold = 1.15;         // wider than that
 constexpr double legend_row = 18.0;
-constexpr double legend_mark = 34.0;  // the mark and the gap behind it
+constexpr double legend_gap = 6.0;  // behind the mark
 constexpr std::size_t longest_entry = 56;
 
 // Without common divisors in pairs, so that all of their combinations occur before the first one returns.
@@ -96,9 +96,10 @@ std::vector<std::string> lines_of(const std::string& text, std::size_t letters) 
 }
 
 LegendEntry line_entry(const Series& series, std::string words) {
-    return {fmt::format("<path class=\"{}\" d=\"M1 5H27\"/>{}", line_style(series),
-                        mark_of(series, 14.0, 5.0, 3.6)),
-            std::move(words), series.weight};
+    constexpr double line_width = 44.0;
+    return {fmt::format("<path class=\"{}\" d=\"M1 5H{:g}\"/>{}", line_style(series), line_width - 1.0,
+                        mark_of(series, 6.0, 5.0, 3.6)),
+            std::move(words), series.weight, line_width};
 }
 
 LegendEntry mark_entry(const Series& series, std::string words, const std::string& more) {
@@ -148,7 +149,7 @@ void Canvas::legend(const std::vector<LegendEntry>& entries) {
     height_ += legend_row;
     for (const LegendEntry& entry : entries) {
         const std::string words = shortened(entry.words, longest_entry);
-        const double indent = entry.mark.empty() ? 0.0 : legend_mark;
+        const double indent = entry.mark.empty() ? 0.0 : entry.width + legend_gap;
         const bool leads = entry.weight == Series::Weight::lead;
         const double entry_width =
             indent + (leads ? bold : 1.0) * letter_width * static_cast<double>(core::characters_in(words)) +

@@ -30,12 +30,13 @@ std::string shortened(const std::string& text, std::size_t longest);
 /// The words of a text in lines of at most so many letters; a longer word has a line of its own.
 std::vector<std::string> lines_of(const std::string& text, std::size_t letters);
 
-/// An entry of a legend: its mark, as markup in a box of 28 x 10 units, and what it stands for. Without a
-/// mark it is a heading.
+/// An entry of a legend: its mark, as markup in a box of `width` x 10 units, and what it stands for.
+/// Without a mark it is a heading.
 struct LegendEntry {
     std::string mark;
     std::string words;
     Series::Weight weight = Series::Weight::usual;
+    double width = 28.0;
 };
 /// CSS class of the colour of a series.
 std::string colour_of(const Series& series);
@@ -44,7 +45,7 @@ std::string line_style(const Series& series);
 /// The mark of a series around a place, as markup; empty for number 0. `more` are further CSS classes.
 std::string mark_of(const Series& series, double x, double y, double radius, const std::string& more = "");
 
-/// A piece of line in the style of `series`.
+/// A piece of line in the style of `series`, its mark at the beginning: the dash stays to be seen.
 LegendEntry line_entry(const Series& series, std::string words);
 /// The mark of a series alone.
 LegendEntry mark_entry(const Series& series, std::string words, const std::string& more = "");

@@ -18,6 +18,8 @@ Sheet ranked_sheet(const EquipmentFacts& facts, LastRow last);
 Sheet candidate_sheet(const EquipmentFacts& facts);
 Sheet pair_sheet(const EquipmentFacts& facts);
 
+/// Whether the runs tell which signals come first; else those that were chosen stand in no order.
+bool has_order(const EquipmentFacts& facts);
 /// What was found, a sentence each, the answer first.
 std::vector<std::string> findings_of(const EquipmentFacts& facts);
 /// What was left out, and EV times.

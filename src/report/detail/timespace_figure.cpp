@@ -45,6 +45,37 @@ void add_data(const JourneyFacts& journey, DataTable& table) {
                               number(span.distance_m, typeset(0))});
 }
 
+/// The places of a journey on a stretch.
+JourneyFacts on(const Range& stretch, const JourneyFacts& journey) {
+    JourneyFacts cut = journey;
+    std::erase_if(cut.places, [&](const JourneyPlace& place) {
+        return place.distance_m < stretch.low || place.distance_m > stretch.high;
+    });
+    return cut;
+}
+
+bool has_way(const Range& stretch, const JourneyFacts& journey) {
+    const std::vector<JourneyPlace> places = on(stretch, journey).places;
+    return places.size() > 1 && places.back().time_s > places.front().time_s;
+}
+
+/// Where signals stand close together, the stretch around them: of the whole way their colours would lie on
+/// each other. Else all of it.
+Range drawn_stretch(const JourneyFacts& without, const JourneyFacts& with, const Range& whole) {
+    constexpr double least_margin_m = 150.0;
+    constexpr double worth_cutting = 0.6;  // of the whole
+    Range signals;
+    for (const JourneyFacts* const journey : {&without, &with})
+        for (const SignalSpan& span : journey->signals)
+            signals.include(span.distance_m);
+    if (signals.empty()) return whole;
+    const double margin_m = std::max(least_margin_m, 0.5 * (signals.high - signals.low));
+    const Range stretch(std::max(whole.low, signals.low - margin_m),
+                        std::min(whole.high, signals.high + margin_m));
+    const bool is_worth_it = stretch.high - stretch.low < worth_cutting * (whole.high - whole.low);
+    return is_worth_it && has_way(stretch, without) && has_way(stretch, with) ? stretch : whole;
+}
+
 }  // namespace
 
 void include(const JourneyFacts& journey, Range& times, Range& distances) {
@@ -72,14 +103,23 @@ Figure timespace_figure(const ScenarioFacts& scenario, const Looks& looks, const
     include(*without, times, distances);
     include(*with, times, distances);
     if (times.high <= times.low || distances.high <= distances.low) return {};
+    const Range whole = distances;
+    const Range stretch = drawn_stretch(*without, *with, whole);
+    const bool is_cut = stretch.low > whole.low || stretch.high < whole.high;
+    if (is_cut) {
+        times = Range();
+        distances = Range();
+        include(on(stretch, *without), times, distances);
+        include(on(stretch, *with), times, distances);
+    }
     Chart plot(fmt::format("{}: one trip with and without {}", scenario.name, condition.label()), 330.0,
                times, "time since departure, s", distances, "distance along the route, m");
     draw_signals(plot, *without, -offset);
     draw_signals(plot, *with, offset);
     const Series& baseline_series = looks[scenario.place_of(condition.baseline)];
     const Series& series = looks[scenario.place_of(condition.name())];
-    plot.line(way_of(*without), baseline_series);
-    plot.line(way_of(*with), series);
+    plot.line(way_of(on(stretch, *without)), baseline_series);
+    plot.line(way_of(on(stretch, *with)), series);
     std::vector<LegendEntry> legend = {line_entry(baseline_series, baseline->label()),
                                        line_entry(series, condition.label())};
     add_signal_colours(*without, *with, legend);
@@ -97,10 +137,14 @@ Figure timespace_figure(const ScenarioFacts& scenario, const Looks& looks, const
     return {
         "trip-" + scenario.name, "One trip with and without", plot.finish(),
         fmt::format(
-            "Vehicle {}, replication {}: {} s {}.{} A level piece is a stop. {} the first {}, its gain is "
+            "Vehicle {}, replication {}: {} s {}.{}{} A level piece is a stop. {} the first {}, its gain is "
             "nearest to the mean gain of all trips.",
             with->vehicle, with->replication, number(std::abs(saved_s), typeset(0)),
             saved_s >= 0.0 ? "sooner" : "later", ways,
+            is_cut ? fmt::format(" Drawn are metres {} to {} of {}, around its signals.",
+                                 number(stretch.low, typeset(0)), number(stretch.high, typeset(0)),
+                                 number(whole.high, typeset(0)))
+                   : "",
             without->signals.empty() && with->signals.empty()
                 ? "No signal stands on its route. Of the trips of"
                 : "Signals on its route are drawn twice: without the condition above the stop "

@@ -113,10 +113,10 @@ void draw_recovery(Plot& plot, const ConditionFacts& condition, const Series& se
     }
     plot.band(bounds, series);
     plot.line(means, series);
-    plot.text(plot.x().from, plot.y().to - 19.0, shortened(condition.label(), 15), Plot::Anchor::start,
-              "heading");
     const auto& recovered_s = condition.recovery->recovered_after_s;
-    plot.text(plot.x().from, plot.y().to - 6.0,
+    plot.add(fmt::format("<g transform=\"translate({:.1f} {:.1f})\">{}</g>", plot.x().from - 12.0,
+                         plot.y().to - 16.0, number_entry(series, {}).mark));
+    plot.text(plot.x().from + 22.0, plot.y().to - 7.0,
               recovered_s      ? fmt::format("recovered after {} s", number(*recovered_s, typeset(0)))
               : bounds.empty() ? "too few passages to tell"
                                : "not recovered in this time",
@@ -127,15 +127,17 @@ void draw_recovery(Plot& plot, const ConditionFacts& condition, const Series& se
 Figure recovery_figure(const ScenarioFacts& scenario, const Looks& looks,
                        std::span<const std::size_t> numbers, const Range& offsets, const Range& halted) {
     DataTable data{{"Condition", "s after the EV", "more halted vehicles [95 %]"}, {}};
+    std::vector<LegendEntry> entries;
     for (const std::size_t number : numbers) {
         const ConditionFacts& condition = scenario.conditions[number];
+        entries.push_back(number_entry(looks[number], condition.label()));
         for (const analysis::RecoveryPoint& point : condition.recovery->points)
             data.rows.push_back({condition.label(), report::number(point.offset_s, typeset(0)),
                                  estimate(point.difference, typeset(2, Sign::always))});
     }
     return {"recovery-" + scenario.name, scenario.name,
             panels({fmt::format("{}: halted vehicles on the other approaches after an EV", scenario.name),
-                    "more halted vehicles, number; across: time after an EV, s"},
+                    "more halted vehicles, number; across: time after an EV, s", std::move(entries)},
                    numbers.size(), offsets, padded(halted, 0.06),
                    [&](Plot& plot, std::size_t panel) {
                        draw_recovery(plot, scenario.conditions[numbers[panel]], looks[numbers[panel]]);

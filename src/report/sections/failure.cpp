@@ -39,7 +39,7 @@ Points means_of(const FailureLine& line, Member member) {
 
 void draw_panel(Plot& plot, const FailureCurve& curve, const FailureLine& own, Member member) {
     if (member == &FailurePoint::travel_time) plot.horizontal(0.0);
-    plot.text(plot.x().from, plot.y().to - 6.0, shortened(own.repair, 15), Plot::Anchor::start, "heading");
+    plot.text(plot.x().from, plot.y().to - 6.0, shortened(own.repair, 22), Plot::Anchor::start, "heading");
     for (const FailureLine& line : curve.lines)
         plot.hair(means_of(line, member), {0});
     for (const FailurePoint& point : own.points) {

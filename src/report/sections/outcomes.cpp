@@ -9,9 +9,9 @@ namespace {
 constexpr std::size_t shown_failures = 50;  // of each condition; the rest is counted
 
 DataTable events_of(const ScenarioFacts& scenario) {
-    DataTable table{
-        {"Condition", "actions asked", "refused", "ended by expiry", "collisions", "with an EV", "teleports"},
-        {}};
+    DataTable table{{"Condition", "actions asked", "refused at some time", "ended by expiry", "collisions",
+                     "with an EV", "teleports"},
+                    {}};
     for (const ConditionFacts& condition : scenario.conditions) {
         std::vector<std::string>& row = table.rows.emplace_back();
         row.push_back(condition.label());
@@ -75,8 +75,9 @@ void outcomes_section(const StudyFacts& study, Writer& writer) {
     writer.markup(
         "<p>How every vehicle of the demand ended, over all completed runs. Means over arrived EVs leave "
         "out all other EVs in this table. The second table counts the actions that policies asked for, "
-        "those that were refused because they could not be carried out safely, and what went wrong on the "
-        "road; the third lists the actions and the reasons for refusals.</p>\n");
+        "how often one was refused at some time (each reason once; most are judged again, and may be carried "
+        "out later), and what went wrong on the road; the third lists the actions and the reasons for "
+        "refusals.</p>\n");
     for (const ScenarioFacts& scenario : study.scenarios) {
         writer.heading(scenario.name);
         writer.table(
