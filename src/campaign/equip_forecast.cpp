@@ -53,14 +53,21 @@ std::uint32_t seeds_within(EquipRequest request, const scenario::BuiltNetwork& b
     if (!cost.wall_s)
         throw core::InputError({"--within", "the time of a run is unknown: its route files cannot be read",
                                 "a scenario whose files can be read", "Give --seeds instead"});
-    const double least_s = static_cast<double>(search.rounds.forecast().likely()) * *cost.wall_s /
-                           static_cast<double>(core::process_count(request.run.workers));
-    if (least_s > request.within_s)
+    const auto time_s = [&](std::size_t budget) {
+        return static_cast<double>(search.rounds.forecast(budget, request.replications).likely()) *
+               *cost.wall_s / static_cast<double>(core::process_count(request.run.workers));
+    };
+    const double least_s = time_s(request.budget);
+    if (least_s > request.within_s) {
+        std::size_t less = request.budget - 1;
+        while (less > 1 && time_s(less) > request.within_s)
+            --less;
         core::print_message(fmt::format(
             "clearway: the least, {} seeds, takes about {} from nothing, more than the {} given ({}), and is "
             "made all the same; {}fewer --candidates take less\n",
             request.replications, clock_words(least_s), clock_words(request.within_s), words(cost.basis),
-            request.budget > 1 ? "a smaller --budget or " : ""));
+            less > 0 ? fmt::format("--budget {} takes about {}, ", less, clock_words(time_s(less))) : ""));
+    }
     return static_cast<std::uint32_t>(std::clamp<double>(request.replications * request.within_s / least_s,
                                                          request.replications,
                                                          analysis::most_equip_replications));

@@ -208,8 +208,11 @@ std::string conclusion_of(const std::string& scenario, const std::vector<Finding
     std::vector<std::string> failed;
     std::vector<std::string> short_of;
     std::vector<std::string> noted;
+    std::string first;
     bool has_trials = false;
     for (const Finding& finding : findings) {
+        if (finding.name == detail::trials_name && finding.grade == Grade::note && !finding.advice.empty())
+            first = fmt::format(" Before that: {}.", finding.advice);
         if (finding.grade == Grade::failed) failed.push_back(finding.name);
         if (finding.grade == Grade::falls_short) short_of.push_back(finding.name);
         if (finding.grade == Grade::note) noted.push_back(finding.name);
@@ -230,7 +233,7 @@ std::string conclusion_of(const std::string& scenario, const std::vector<Finding
     if (may_lock)
         return fmt::format("{}: its one run locks, and others may more; --lock-trials 6 tells. Noted: {}.",
                            begin, core::listed(noted));
-    return fmt::format("{}, with what is noted: {}.", begin, core::listed(noted));
+    return fmt::format("{}, with what is noted: {}.{}", begin, core::listed(noted), first);
 }
 
 const char* word_of(Grade grade) {

@@ -81,7 +81,11 @@ TEST(LockFinding, weighs_what_stands_in_locks_and_not_how_many_runs_lock) {
         "in locks a vehicle; 43 collisions a run. Without, 3 of 6 runs lock, 2 held up by it; 8.8 s in "
         "locks a vehicle; 11 collisions a run");
     EXPECT_EQ(detail::trials_finding(trials).grade, Grade::note);
-    EXPECT_EQ(detail::trials_finding(trials).advice, "") << "what the scenario has is the better choice";
+    EXPECT_EQ(detail::trials_finding(trials).advice,
+              "less traffic first: 0.8 times the present --density, or less")
+        << "what the scenario has is the better choice, and most runs lock all the same";
+    trials.with.locked = 3;
+    EXPECT_EQ(detail::trials_finding(trials).advice, "");
 
     trials.ignores = false;
     EXPECT_EQ(detail::trials_finding(trials).grade, Grade::falls_short);
@@ -131,6 +135,11 @@ TEST(Conclusion, knows_nothing_of_a_scenario_whose_one_run_locks) {
     findings.push_back({detail::trials_name, Grade::ok, "none of 6 runs locks"});
     EXPECT_EQ(conclusion_of("town", findings),
               "town is fit for a study, with what is noted: locks, collisions.");
+    findings.back() = {detail::trials_name, Grade::note, "5 of 6 runs lock", "less traffic first"};
+    EXPECT_EQ(
+        conclusion_of("town", findings),
+        "town is fit for a study, with what is noted: locks, collisions, trials. Before that: less traffic "
+        "first.");
     findings.back().grade = Grade::falls_short;
     EXPECT_EQ(conclusion_of("town", findings), "town is not fit for a study as it is: trials.");
 }
