@@ -128,6 +128,7 @@ class Conditions:
     def _checked(self, given: Mapping[str, Any]) -> dict[str, Any]:
         """Those factors that are of conditions. Raises for factors and levels that the study does not have."""
         known = self._known("condition")
+        given = {f"condition.{name}" if f"condition.{name}" in known else name: value for name, value in given.items()}
         for name in given:
             if name not in known and name not in self._known("scenario"):
                 there = _program.there_are(name, list(known), "factor", "list(results.runs)")

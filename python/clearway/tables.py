@@ -1,6 +1,7 @@
 """Tables of results as numpy arrays by column."""
 from __future__ import annotations
 
+import difflib
 import html
 import re
 import shutil
@@ -69,7 +70,8 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
     def _without(self, column: Any, value: Any = None) -> str:
         """That there is no such column, and which one is meant, by its name or by the value that is looked for in it."""
         said = f"there is no column {column!r}"
-        meant = [name for name in self._columns if value is not None and name.rpartition(".")[2] == column]
+        meant = difflib.get_close_matches(str(column), list(self._columns), 1, 0.8) if value is not None else []
+        meant += [name for name in self._columns if value is not None and name.rpartition(".")[2] == column]
         meant += [name for name in ("condition", *(name for name in self._columns if "." in name))
                   if isinstance(value, str) and name in self._columns and value in self._columns[name].tolist()]
         if not meant and value is not None and column in _OF_CONDITIONS and "condition" in self._columns:
@@ -100,12 +102,14 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
     def where(self, **values: Any) -> "Table":
         """The rows whose columns have these values: ``runs.where(scenario="city", condition="corridor")``, with a factor of
         conditions, in every table, ``leases.where(**{"condition.failure": "B10"})``. A condition is given by its name or by the
-        title that tables show.
+        title that tables show, ``title="Ours"`` too.
 
         Raises InputError for a scenario or condition that the study does not have.
         """
         chosen = np.ones(self.row_count, dtype=bool)
         for column, value in values.items():
+            if column == "title" and column not in self._columns and "condition" in self._columns:
+                column = "condition"
             if column not in self._columns and self._conditions is not None and "condition" in self._columns:
                 named = self._conditions.with_level(column, value)
                 if named is not None:
@@ -191,12 +195,14 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
         shown: dict[str, list[str]] = {}
         for name in order:
             array = self._columns[name][:SHOWN_ROWS]
-            if name == "condition" and self._conditions is not None:
+            heading = name
+            if name == "condition" and self._conditions is not None and any("+" in value for value in array.tolist()):
+                heading = "title"
                 array = np.array([self._conditions.title_of(value) if "+" in value else value for value in array.tolist()], dtype=str)
             gap = 2 * bool(shown)
-            cells = _lined(name, array, max(12, width // 2 - 6))
+            cells = _lined(heading, array, max(12, width // 2 - 6))
             if len(cells[0]) + gap > left >= 24 and array.dtype.kind == "U":  # enough for the end of a message
-                cells = _lined(name, array, left - gap)
+                cells = _lined(heading, array, left - gap)
             needed = len(cells[0]) + gap
             if needed <= left or name in self._asked or not shown:
                 shown[name] = cells

@@ -68,7 +68,7 @@ class StudentTest(FolderCase):
         self.assertRegex(ours, r"^intersection: Ours, failing - corridor, failing, emergency_restricted_travel_time_s: [+-]\d")
         self.assertEqual(len(each), 8)
         self.assertIn(ours, each)
-        self.assertRegex(printed, r"(?m)^scenario +condition +replication +emergency_restricted_travel_time_s$")
+        self.assertRegex(printed, r"(?m)^scenario +title +replication +emergency_restricted_travel_time_s$")
         self.assertTrue(printed.endswith("\n[4 rows, 4 columns]\n"), printed)
         runs = clearway.open("runs/mine").runs
         self.assertEqual(len(set(runs["condition.policy"]) - {""}), 5)

@@ -61,6 +61,8 @@ class ConditionsTest(FolderCase):
             self.assertAlmostEqual(found.difference, self.mean(ours, other), places=9)
         self.assertEqual(self.results.paired_differences(self.metric, "Ours, B10"), self.results.paired_differences(self.metric, ours))
         self.assertEqual(set(self.results.runs.where(condition="Ours, B10")["condition"]), {ours})
+        self.assertEqual(set(self.results.runs.where(title="Ours, B10")["condition"]), {ours})
+        self.assertIn("Did you mean 'condition'?", self.message_of(clearway.InputError, lambda: self.results.runs.where(condtion="corridor")))
         self.assertEqual(self.results.vehicles.where(condition="Ours, B10").row_count, self.results.vehicles.where(condition=ours).row_count)
         self.assertIn(f"intersection/{ours}/00000.h5: cannot be read",
                       self.message_of(clearway.InputError, lambda: self.results.recording("intersection", "Ours, B10")))
@@ -148,7 +150,8 @@ class ConditionsTest(FolderCase):
                             ("xyzzy", "no condition 'xyzzy'. It has baseline, "),
                             ({policy: "corridor"}, "chooses 2 conditions: policy+failure=perfect+policy=corridor, policy+failure=B10"),
                             ({policy: "coridor"}, "no condition.policy 'coridor'; it has corridor, preempt_signals, check_in_out. Did you mean"),
-                            ({policy: 3}, "no condition.policy 3"), ({"policy": "corridor"}, "no factor 'policy'; it has condition.failure, "),
+                            ({policy: 3}, "no condition.policy 3"), ({"policy": "corridor"}, "chooses 2 conditions: policy+failure=perfect+"),
+                            ({"polcy": "corridor"}, "no factor 'polcy'; it has condition.failure, "),
                             ({}, "chooses 7 conditions: ")):
             message = self.message_of(clearway.InputError, lambda: difference(self.metric, given))
             self.assertIn(says, message)

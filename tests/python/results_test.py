@@ -121,7 +121,7 @@ class ResultsTest(FolderCase):
                                  "outcome": np.array(["refused"] * rows), "reason": np.array(["not_controllable", ""] * 6),
                                  "leases": np.arange(rows)}, conditions=Titles())  # type: ignore[arg-type]
         names, first, *_ = self.printed(leases)
-        self.assertEqual(names.split()[:5], ["condition", "replication", "outcome", "reason", "leases"])
+        self.assertEqual(names.split()[:5], ["title", "replication", "outcome", "reason", "leases"])
         self.assertTrue(first.startswith("Ours, B10  "), first)
         self.assertEqual(leases["condition"][0], "p+failure=B10+policy=my.py_Mine")
         errors = clearway.Table({**keys, "cause": np.array(["python"] * rows), "message": np.array(["TypeError: " + "x" * 90] * rows)})
