@@ -31,8 +31,9 @@ const char* type_word(const toml::node& node) {
 /// What the parser found, in other words where its own mislead: it takes a bare word for a boolean or a
 /// number.
 std::string words_of(std::string_view what) {
-    for (const char* const guess : {"'true'", "'false'", "'inf'", "'nan'"})
-        if (what.find(fmt::format("expected {}", guess)) != std::string_view::npos)
+    for (const char* const guess : {"expected 'true'", "expected 'false'", "expected 'inf'", "expected 'nan'",
+                                    "could not determine value type"})
+        if (what.find(guess) != std::string_view::npos)
             return "a value is neither a number, nor true or false, nor a text in quotes";
     return std::string(what);
 }

@@ -69,9 +69,9 @@ std::string sentence_of(const toml::table& table, bool has_signals,
     const std::string programs = programs_words(table["network"]["attribution"].value_or(std::string()));
     if (has_signals && !programs.empty()) words.push_back(programs);
     if (has_signals && baseline != nullptr)
-        words.emplace_back(passes_red(table, *baseline)
-                               ? "EVs of the baseline may pass red"
-                               : "EVs of the baseline stop at red (policy red_privilege: they pass it)");
+        words.emplace_back(passes_red(table, *baseline) ? "EVs of the baseline may pass red"
+                                                        : "EVs of the baseline stop at red (where yours may "
+                                                          "pass it: --policy red_privilege beside it)");
     return fmt::format("Simulated: {}.", fmt::join(words, ", "));
 }
 

@@ -1,11 +1,15 @@
 #include "report/controls.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "experiment/related_conditions.hpp"
+#include "failures/failure_config.hpp"
+#include "report/shared_sentences.hpp"
 #include "report/verdict.hpp"
 
 namespace clearway::report {
@@ -50,15 +54,71 @@ bool are_same(const ConditionFacts& condition, const ConditionFacts& other) {
     return other.same_as == condition.name() || condition.same_as == other.name();
 }
 
+/// p of the paired t test of EV travel time. Nothing where the pairs do not differ, or are too few.
+std::optional<double> p_of(const ConditionFacts& first, const ConditionFacts& second) {
+    const analysis::Values& mine = first.outcome(primary).values;
+    const analysis::Values& theirs = second.outcome(primary).values;
+    std::vector<double> one, other;
+    for (std::size_t run = 0; run < std::min(mine.size(), theirs.size()); ++run) {
+        if (!mine[run] || !theirs[run]) continue;
+        one.push_back(*mine[run]);
+        other.push_back(*theirs[run]);
+    }
+    return analysis::paired_t_p(one, other);
+}
+
+/// Of what failing costs: p by Holm over all such costs of the scenario.
+std::optional<double> holm_p_of_failing(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    std::vector<double> all;
+    std::optional<std::size_t> own;
+    for (const ConditionFacts& other : scenario.conditions) {
+        const ConditionFacts* const working = working_of(scenario, other);
+        const auto p = working == nullptr || are_same(other, *working) ? std::nullopt : p_of(other, *working);
+        if (!p) continue;
+        if (other.name() == condition.name()) own = all.size();
+        all.push_back(*p);
+    }
+    return own ? std::optional(analysis::holm(all)[*own]) : std::nullopt;
+}
+
+double report_interval_s(const ConditionFacts& condition) {
+    return failures::failure_from(condition.condition.failure).report_interval_s;
+}
+
+/// Where reports are also rarer in what fails: they are no failure.
+std::string rates_sentence(const ConditionFacts& condition, const ConditionFacts& working) {
+    const double interval_s = report_interval_s(condition);
+    const double usual_s = report_interval_s(working);
+    const Effect cost =
+        effect_of(longer_in(condition, working), Better::lower, condition.least_relevant(primary));
+    if (interval_s == usual_s || are_same(condition, working) || !is_clear(cost)) return {};
+    const auto often = [](double seconds) {
+        return seconds > 0.0 ? fmt::format("every {:g} s", seconds) : std::string("at every step");
+    };
+    return fmt::format(
+        " Reports come {} there, else {}, and part of it may be that: --failure report_interval_s={:g} "
+        "tells.",
+        often(interval_s), often(usual_s), interval_s);
+}
+
 /// What failing changes, and whether it is shown.
-std::string failing_words(const ConditionFacts& condition, const ConditionFacts& working, Script script) {
+std::string failing_words(const ScenarioFacts& scenario, const ConditionFacts& condition,
+                          const ConditionFacts& working, Script script) {
     if (are_same(condition, working)) return "every run is the same";
+    if (working.objections.on_emergency())
+        return fmt::format("cannot be said, as while nothing fails it {}",
+                           analysis::emergency_objections(working.objections));
     const MaybeEstimate longer = longer_in(condition, working);
     if (!longer) return "no complete pair of runs";
     const Effect cost = effect_of(longer, Better::lower, condition.least_relevant(primary));
     const bool can_tell = is_clear(cost) || is_clear(effect_of(working, primary));
+    const auto p = is_clear(cost) ? holm_p_of_failing(scenario, condition) : std::nullopt;
+    const std::string doubt =
+        p && *p > 1.0 - analysis::usual_level
+            ? doubt_clause(fmt::format("p {} among so many comparisons", p_words(*p, script)))
+            : "";
     return estimate(longer, {1, script, Sign::always}) +
-           (can_tell ? words_of(cost) : ", but no gain is shown that could be lost") +
+           (can_tell ? words_of(cost) + doubt : ", but no gain is shown that could be lost") +
            same_times_words(condition, working);
 }
 
@@ -99,28 +159,34 @@ const ConditionFacts* working_of(const ScenarioFacts& scenario, const ConditionF
 std::string failing_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     const ConditionFacts* const working = working_of(scenario, condition);
     if (working == nullptr) return {};
-    return fmt::format("What failing costs: EV travel time against the same while nothing fails, s: {}.",
-                       failing_words(condition, *working, script));
+    return fmt::format("What failing costs: EV travel time against the same while nothing fails, s: {}.{}",
+                       failing_words(scenario, condition, *working, script),
+                       rates_sentence(condition, *working));
 }
 
 std::string failing_note(const ScenarioFacts& scenario, const ConditionFacts& working, Script script) {
     constexpr std::size_t most_told = 4;
     std::vector<std::string> parts;
-    for (const ConditionFacts& condition : scenario.conditions)
-        if (condition.control_of.empty() && working_of(scenario, condition) == &working)
-            parts.push_back(condition.title + ": " + failing_words(condition, working, script));
+    std::string rates;
+    for (const ConditionFacts& condition : scenario.conditions) {
+        if (!condition.control_of.empty() || working_of(scenario, condition) != &working) continue;
+        parts.push_back(condition.title + ": " + failing_words(scenario, condition, working, script));
+        if (rates.empty()) rates = rates_sentence(condition, working);
+    }
     if (parts.empty()) return {};
     if (parts.size() > most_told) {
         parts.resize(most_told);
         parts.emplace_back("others: under Verdict");
     }
-    return fmt::format("What failing costs, EV travel time against the same while nothing fails, s: {}.",
-                       fmt::join(parts, "; "));
+    return fmt::format("What failing costs, EV travel time against the same while nothing fails, s: {}.{}",
+                       fmt::join(parts, "; "), rates);
 }
 
 std::string working_words(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     const ConditionFacts* const working = working_of(scenario, condition);
     if (working == nullptr || !working->difference(primary)) return {};
+    if (working->objections.on_emergency())
+        return "while nothing fails: " + analysis::emergency_objections(working->objections);
     return estimate(working->difference(primary), {1, script, Sign::always}) + " s while nothing fails";
 }
 

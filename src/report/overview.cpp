@@ -269,6 +269,15 @@ const ConditionFacts* largest_gain(const StudyFacts& study, const ScenarioFacts&
     return best;
 }
 
+/// `While nothing fails, corridor lost 1 of 30 emergency vehicles: no gain can be claimed`, of a condition in
+/// which something fails; else empty.
+std::string objection_without_failure(const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    const ConditionFacts* const working = working_of(scenario, condition);
+    if (working == nullptr || !working->objections.on_emergency()) return {};
+    return fmt::format("While nothing fails, {} {}: no gain can be claimed", working->title,
+                       analysis::emergency_objections(working->objections));
+}
+
 /// How much a condition needs: the fewer, the simpler.
 std::size_t parts_of(const ConditionFacts& facts) {
     const experiment::ConditionSpec& condition = facts.condition;
@@ -300,12 +309,14 @@ const ConditionFacts* featured_condition(const StudyFacts& study, const Scenario
 std::string scenario_headline(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     const std::string unmet = unmet_incident_sentence(scenario, condition);
     const std::string cut_off = cut_off_words(condition);
+    const std::string working = objection_without_failure(scenario, condition);
     std::string words = emergency_clause(scenario, condition, script);
     words = joined(std::move(words), others_clause(condition, script));
     words = joined(std::move(words), collisions_clause(scenario, condition));
     words = joined(std::move(words), missing_clause(condition));
     if (condition.is_unchecked()) words = joined(std::move(words), "the simulator's safety checks were off");
-    return (unmet.empty() ? unmet : unmet + " ") + (cut_off.empty() ? cut_off : cut_off + ". ") + words + ".";
+    return (unmet.empty() ? unmet : unmet + " ") + (cut_off.empty() ? cut_off : cut_off + ". ") +
+           (working.empty() ? working : working + ". ") + words + ".";
 }
 
 std::string worst_trips(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
@@ -341,9 +352,7 @@ std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scena
     std::size_t objected = 0;
     bool some_fail = false;
     for (const ConditionFacts& condition : scenario.conditions) {
-        if (!condition.is_compared() || !condition.control_of.empty() ||
-            reference_of(study, scenario, condition) != nullptr)
-            continue;
+        if (!is_counted(study, scenario, condition)) continue;
         ++compared;
         some_fail = some_fail || !can_be_featured(scenario, condition);
         const bool helps = effect_of(condition, primary) == Effect::better;
@@ -414,6 +423,7 @@ Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& conditi
     } else {
         tile.meaning = joined(std::move(tile.meaning), survivors);
     }
+    if (!objection_without_failure(scenario, condition).empty()) tile.tone = Tile::Tone::neutral;
     tile.details = {working_words(scenario, condition, script), trip_changes_words(condition, script),
                     signal_trips_words(scenario, condition, script)};
     std::erase(tile.details, "");

@@ -49,6 +49,9 @@ Verdict lead(const ScenarioFacts& scenario, const ConditionFacts& condition, Scr
         amount += fmt::format(", {} %", number(*percent, {0, script, Sign::always}));
     const double least = condition.least_relevant(primary);
     const Effect effect = effect_of(difference, Better::lower, least);
+    if (condition.objections.loses_emergency())
+        amount +=
+            fmt::format(", one that did not arrive counting {} s", number(scenario.horizon_s, {0, script}));
     if (condition.objections.on_emergency())
         return {analysis::emergency_objections(condition.objections) +
                     (effect == Effect::worse ? " and harmed" : ""),
@@ -333,6 +336,13 @@ std::string few_seeds_sentence(const StudyFacts& study) {
     return few_seeds_sentence(fewest);
 }
 
+bool is_counted(const StudyFacts& study, const ScenarioFacts& scenario, const ConditionFacts& condition) {
+    if (!condition.is_compared() || reference_of(study, scenario, condition) != nullptr) return false;
+    if (condition.control_of.empty()) return true;
+    const std::size_t of = scenario.place_of(condition.control_of);
+    return of < scenario.conditions.size() && working_of(scenario, scenario.conditions[of]) == &condition;
+}
+
 const ConditionFacts* reference_of(const StudyFacts& study, const ScenarioFacts& scenario,
                                    const ConditionFacts& condition) {
     for (const Sensitivity& sensitivity : study.sensitivities) {
@@ -361,9 +371,7 @@ std::string headline(const StudyFacts& study) {
         std::size_t compared = 0;
         std::array<std::size_t, verdict_words.size()> seen = {}, alone = {};
         for (const ConditionFacts& condition : scenario.conditions) {
-            if (!condition.is_compared() || !condition.control_of.empty() ||
-                reference_of(study, scenario, condition) != nullptr)
-                continue;
+            if (!is_counted(study, scenario, condition)) continue;
             ++compared;
             ++seen[finding_of(condition)];
             alone[finding_of(condition)] += is_shown_alone(condition, primary) ? 1 : 0;

@@ -58,6 +58,10 @@ struct Verdict {
 };
 Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
 
+/// Whether verdicts count it: compared with a baseline, at its defaults, and no control but the same as
+/// another while nothing fails.
+bool is_counted(const StudyFacts& study, const ScenarioFacts& scenario, const ConditionFacts& condition);
+
 /// The condition at its defaults of which this one has a setting turned alone; null for other conditions.
 const ConditionFacts* reference_of(const StudyFacts& study, const ScenarioFacts& scenario,
                                    const ConditionFacts& condition);

@@ -163,7 +163,7 @@ TEST(Looks, make_the_condition_of_the_headline_the_most_prominent) {
     const std::string trade = figure_of(page, "tradeoff-merge");
     EXPECT_EQ(count_of(trade, "class=\"ring s1\""), 2u) << "around the mark, and in the legend";
     EXPECT_EQ(count_of(trade, "class=\"ring"), 2u);
-    EXPECT_THAT(trade, AllOf(HasSubstr(">ring: Graph made by simulation attributes<"),
+    EXPECT_THAT(trade, AllOf(HasSubstr(">ring, of the headline: Graph made by simulation"),
                              HasSubstr(">grey: below 1.0 s, does not count<"), HasSubstr("up is better")));
     EXPECT_EQ(count_of(figure_of(page, "differences-merge"), "label lead"), 3u) << "once for each measure";
 }
@@ -300,7 +300,7 @@ TEST(TradeOff, has_one_mark_for_conditions_with_the_same_runs) {
         tests::difference(conditions[4], measure) = tests::difference(conditions[3], measure);
     EXPECT_EQ(marks(), 9u);
     EXPECT_THAT(tests::page_of(study),
-                HasSubstr("Without a mark, as every run is one of another (see the verdicts): " +
+                HasSubstr("Not drawn, as their runs equal those of another condition: " +
                           conditions[4].label() + "."));
     EXPECT_EQ(tradeoff_figure(study, study.scenarios[0]).data.rows.size(), 10u) << "the data have all";
     conditions[4].same_as = conditions[0].name();

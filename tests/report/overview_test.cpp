@@ -337,6 +337,17 @@ TEST_F(Controls, say_what_a_failure_costs_and_where_it_changes_nothing) {
     EXPECT_THAT(sentence(), Not(HasSubstr("nothing fails"))) << "told once";
     tests::compare(scenario_.conditions[2], around(-2.0, 3.0), around(0.0, 1.0));
     EXPECT_THAT(failing(), HasSubstr("+0.8 [-0.6, 2.2], but no gain is shown that could be lost, the same"));
+    tests::compare(scenario_.conditions[2], around(-24.0, 3.0), around(0.0, 1.0));
+    EXPECT_THAT(failing(), Not(HasSubstr("Reports come"))) << "no cost is shown";
+    set(scenario_.conditions[2], {60.0, 64.0, 63.0, 64.0, 65.0});
+    EXPECT_THAT(failing(), AllOf(HasSubstr("Reports come every 1 s there, else at every step"),
+                                 Not(HasSubstr("doubtful"))));
+    scenario_.conditions[2].objections.emergency = {.arrived = 17, .teleported = 3};
+    scenario_.conditions[2].objections.baseline_emergency = {.arrived = 20};
+    EXPECT_THAT(failing(), HasSubstr("s: cannot be said, as while nothing fails it lost 3 of 20"));
+    EXPECT_THAT(scenario_headline(scenario_, corridor(), Script::plain),
+                AllOf(testing::StartsWith("While nothing fails, "), HasSubstr("no gain can be claimed. ")));
+    EXPECT_EQ(emergency().tone, Tile::Tone::neutral);
     corridor().same_as = "corridor_perfect";
     EXPECT_THAT(failing(), HasSubstr("s: every run is the same."));
 }

@@ -141,7 +141,8 @@ TEST(Titles, of_conditions_made_by_factors_are_words_or_those_of_the_study_file)
             made("two+policy=corridor", {"corridor"}, {{"condition.policy", "corridor"}})};
         detail::give_titles(experiment::ConditionTitles(given), conditions);
         const std::string of_part = given.empty() ? "Green" : "Ours";
-        EXPECT_EQ(conditions[1].factor_titles, (core::Settings{{"condition.policy", of_part}}));
+        EXPECT_EQ(conditions[1].factor_titles,
+                  (core::Settings{{"condition.failure", "perfect sensors"}, {"condition.policy", of_part}}));
         EXPECT_EQ(conditions[1].aspects.at("policy"), of_part);
         EXPECT_EQ(conditions[2].aspects.at("failure"), given.empty() ? "B10" : "outages");
         EXPECT_EQ(conditions[3].aspects.at("policy"), given.empty() ? "corridor" : "Corridor");

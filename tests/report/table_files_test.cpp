@@ -77,14 +77,23 @@ TEST(TableFiles, OfManyColumnsStandOnTheirSideInLatex) {
         table.data.head.emplace_back("column");
         table.data.rows[0].emplace_back(cell);
     };
-    for (int column = 0; column < 9; ++column)
+    for (int column = 0; column < 8; ++column)
         add("1");
     add("1.0 [0.5, 1.5]");
-    EXPECT_THAT(to_latex(table), HasSubstr("\\begin{table}\n")) << "11 columns, one of them two wide";
+    EXPECT_THAT(to_latex(table), HasSubstr("\\begin{table}\n")) << "as wide as the page";
     add("2");
     EXPECT_THAT(to_latex(table),
                 AllOf(HasSubstr("graphicx,rotating,siunitx"), HasSubstr("\\begin{sidewaystable}\n"),
-                      HasSubstr("\\end{sidewaystable}\n")));
+                      HasSubstr("\\end{sidewaystable}\n"), Not(HasSubstr("tab:t-2"))));
+    for (int column = 0; column < 4; ++column)
+        add("-11.0 [-20.5, 1.5]");
+    EXPECT_THAT(to_latex(table), AllOf(HasSubstr("\\caption{c (1 of 2)}\n\\label{tab:t}"),
+                                       HasSubstr("\\label{tab:t-2}"), HasSubstr("\\caption{c (2 of 2)}")));
+}
+
+TEST(TableFiles, SetLongHeadsInLines) {
+    const Table table{"t", "c", {{"Condition", "EV travel time, all, s"}, {{"one", "75.2 [62.3, 88.1]"}}}};
+    EXPECT_THAT(to_latex(table), HasSubstr("\\multicolumn{2}{c}{\\shortstack{EV travel time,\\\\all, s}}"));
 }
 
 TEST(TableFiles, SetNumbersAndIntervalsInColumnsOfSiunitx) {

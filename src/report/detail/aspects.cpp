@@ -41,6 +41,8 @@ void give_titles(const experiment::ConditionTitles& titles, std::vector<Conditio
                 condition.factor_titles[factor] = own->second;
             else if (const auto part = experiment::part_called(value))
                 condition.factor_titles[factor] = *part;
+            else if (factor == "condition.failure" && value == experiment::ConditionSpec().failure)
+                condition.factor_titles[factor] = titles.value_text(factor, value);
         }
     }
 }

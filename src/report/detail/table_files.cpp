@@ -11,6 +11,8 @@
 
 #include "core/csv.hpp"
 #include "core/error.hpp"
+#include "core/terminal.hpp"
+#include "report/detail/canvas.hpp"
 
 namespace clearway::report::detail {
 namespace {
@@ -126,8 +128,8 @@ struct Column {
                                    : "",
                            whole, decimals, plus ? ",retain-explicit-plus" : "", intervals ? "@{\\,}l" : "");
     }
-    std::string head(const std::string& text) const {
-        const std::string words = latex_escaped(text);
+    /// `words` are LaTeX.
+    std::string head(const std::string& words) const {
         if (!numbers) return words;
         return intervals ? "\\multicolumn{2}{c}{" + words + "}" : "{" + words + "}";
     }
@@ -161,8 +163,9 @@ constexpr const char* as_wide_as_the_text =
 /// A column of sentences, in lines; shrunk to the width of the text they would be too small to read.
 constexpr const char* paragraph = "p{0.7\\linewidth}";
 constexpr std::size_t longest_word = 60;  // characters: a line of a usual page holds 80
-/// More columns, those of intervals counted twice, are turned onto the long side of the page.
-constexpr std::size_t most_upright = 12;
+/// Wider tables, in characters, are turned onto the long side of the page; still wider ones have parts.
+constexpr std::size_t most_upright = 95;
+constexpr std::size_t most_turned = 140;
 
 bool is_long(const DataTable& table, std::size_t column) {
     return std::ranges::any_of(table.rows, [&](const std::vector<std::string>& row) {
@@ -172,12 +175,87 @@ bool is_long(const DataTable& table, std::size_t column) {
     });
 }
 
+/// Characters of the widest cell of a column, or of the longest word of its head, which is set in lines.
+std::size_t width_of(const DataTable& table, std::size_t column) {
+    std::size_t most = 0;
+    for (const std::string& word : lines_of(table.head[column], 1))
+        most = std::max(most, core::characters_in(word));
+    for (const auto& row : table.rows)
+        most = std::max(most, core::characters_in(row[column]));
+    return std::min(most, longest_word);
+}
+
+std::size_t width_of(const DataTable& table) {
+    constexpr std::size_t gap = 2;
+    std::size_t all = 0;
+    for (std::size_t column = 0; column < table.head.size(); ++column)
+        all += width_of(table, column) + gap;
+    return all;
+}
+
+/// A head in lines as wide as its column.
+std::string latex_head(const std::string& text, std::size_t letters) {
+    std::vector<std::string> lines = lines_of(text, letters);
+    std::ranges::transform(lines, lines.begin(), latex_escaped);
+    return lines.size() < 2 ? latex_escaped(text)
+                            : fmt::format("\\shortstack{{{}}}", fmt::join(lines, "\\\\"));
+}
+
+/// A table that would be too small to read on the long side of a page, by columns, each part with the first.
+std::vector<DataTable> parts_of(const DataTable& table) {
+    const std::size_t first = width_of(table, 0);
+    const std::size_t rest = width_of(table) - first;
+    if (first + rest <= most_turned || table.head.size() < 3 || table.cells == DataTable::Cells::words)
+        return {table};
+    const std::size_t room = most_turned > 2 * first ? most_turned - first : most_turned / 2;
+    const std::size_t count = std::min((rest + room - 1) / room, table.head.size() - 1);
+    const std::size_t columns = (table.head.size() - 1 + count - 1) / count;
+    std::vector<DataTable> parts;
+    for (std::size_t from = 1; from < table.head.size(); from += columns) {
+        const auto chosen = [&](const std::vector<std::string>& cells) {
+            std::vector<std::string> some = {cells.front()};
+            const std::size_t to = std::min(from + columns, cells.size());
+            some.insert(some.end(), cells.begin() + static_cast<std::ptrdiff_t>(from),
+                        cells.begin() + static_cast<std::ptrdiff_t>(to));
+            return some;
+        };
+        DataTable part{chosen(table.head), {}, table.cells};
+        for (const auto& row : table.rows)
+            part.rows.push_back(chosen(row));
+        parts.push_back(std::move(part));
+    }
+    return parts;
+}
+
 template <class Set>
 std::string latex_line(const std::vector<std::string>& cells, const Set& set) {
     std::vector<std::string> typeset;
     for (std::size_t column = 0; column < cells.size(); ++column)
         typeset.push_back(set(column, cells[column]));
     return fmt::format("{} \\\\\n", fmt::join(typeset, " & "));
+}
+
+std::string latex_table(const DataTable& data, const std::string& caption, const std::string& label) {
+    const std::vector<Column> columns = columns_of(data);
+    std::string types;
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+        const bool words = column == 0 || data.cells == DataTable::Cells::words;
+        const bool lines = words && is_long(data, column);
+        types += (column == 0 ? "" : " ") + columns[column].type(lines ? paragraph : "l");
+    }
+    const bool turned = width_of(data) > most_upright;
+    const char* const kind = turned ? "sidewaystable" : "table";
+    std::string text = fmt::format(
+        "% needs \\usepackage{{booktabs,graphicx,{}siunitx}}\n\\begin{{{}}}\n\\centering\n\\caption{{{}}}\n"
+        "\\label{{tab:{}}}\n{}{{%\n\\begin{{tabular}}{{{}}}\n\\toprule\n{}\\midrule\n",
+        turned ? "rotating," : "", kind, latex_escaped(caption), label, as_wide_as_the_text, types,
+        latex_line(data.head, [&](std::size_t at, const std::string& cell) {
+            return columns[at].head(latex_head(cell, width_of(data, at)));
+        }));
+    for (const auto& row : data.rows)
+        text +=
+            latex_line(row, [&](std::size_t at, const std::string& cell) { return columns[at].body(cell); });
+    return text + fmt::format("\\bottomrule\n\\end{{tabular}}}}\n\\end{{{}}}\n", kind);
 }
 
 }  // namespace
@@ -245,27 +323,16 @@ std::string latex_escaped(const std::string& text) {
 }
 
 std::string to_latex(const Table& table) {
-    const DataTable& data = table.data;
-    const std::vector<Column> columns = columns_of(data);
-    std::string types;
-    for (std::size_t column = 0; column < columns.size(); ++column) {
-        const bool words = column == 0 || data.cells == DataTable::Cells::words;
-        const bool lines = words && is_long(data, column);
-        types += (column == 0 ? "" : " ") + columns[column].type(lines ? paragraph : "l");
+    const std::vector<DataTable> parts = parts_of(table.data);
+    std::string text;
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+        const bool is_one = parts.size() == 1;
+        const std::string caption =
+            table.caption + (is_one ? "" : fmt::format(" ({} of {})", part + 1, parts.size()));
+        const std::string label = table.name + (part == 0 ? "" : fmt::format("-{}", part + 1));
+        text += latex_table(parts[part], caption, label);
     }
-    const auto intervals = static_cast<std::size_t>(std::ranges::count(columns, true, &Column::intervals));
-    const bool turned = columns.size() + intervals > most_upright;
-    const char* const kind = turned ? "sidewaystable" : "table";
-    std::string text = fmt::format(
-        "% needs \\usepackage{{booktabs,graphicx,{}siunitx}}\n\\begin{{{}}}\n\\centering\n\\caption{{{}}}\n"
-        "\\label{{tab:{}}}\n{}{{%\n\\begin{{tabular}}{{{}}}\n\\toprule\n{}\\midrule\n",
-        turned ? "rotating," : "", kind, latex_escaped(table.caption), table.name, as_wide_as_the_text, types,
-        latex_line(data.head,
-                   [&](std::size_t at, const std::string& cell) { return columns[at].head(cell); }));
-    for (const auto& row : data.rows)
-        text +=
-            latex_line(row, [&](std::size_t at, const std::string& cell) { return columns[at].body(cell); });
-    return text + fmt::format("\\bottomrule\n\\end{{tabular}}}}\n\\end{{{}}}\n", kind);
+    return text;
 }
 
 }  // namespace clearway::report::detail

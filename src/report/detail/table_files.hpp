@@ -12,10 +12,11 @@ namespace clearway::report::detail {
 /// The page's script writes the same bytes.
 std::string to_csv(const DataTable& table);
 
-/// A table as LaTeX, for the packages booktabs, graphicx and siunitx: a `table` no wider than the text, or
-/// one of many columns on its side (package rotating), with its caption and the label `tab:NAME`. Numbers
-/// stand in columns of type S; the interval of `1.2 [0.9, 1.5]` has a column of its own. All text is escaped.
-/// The page's script writes the same bytes.
+/// A table as LaTeX, for the packages booktabs, graphicx and siunitx: a `table` no wider than the text, a
+/// wide one on its side (package rotating), one that would be too small there in parts by columns, `tab:NAME`
+/// and `tab:NAME-2`, each with its caption and label. Heads are set in lines as wide as their columns.
+/// Numbers stand in columns of type S; the interval of `1.2 [0.9, 1.5]` has a column of its own. All text is
+/// escaped. The page's script writes the same bytes.
 std::string to_latex(const Table& table);
 
 /// Text with what is special in LaTeX escaped.

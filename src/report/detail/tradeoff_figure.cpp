@@ -218,8 +218,8 @@ std::vector<LegendEntry> sign_entries(const ScenarioFacts& scenario, const std::
     std::vector<LegendEntry> entries;
     for (const Point& point : points) {
         if (point.series.weight == Series::Weight::lead)
-            entries.push_back(
-                dot_entry("ring " + colour_of(point.series), "ring: " + point.condition->label()));
+            entries.push_back(dot_entry("ring " + colour_of(point.series),
+                                        "ring, of the headline: " + point.condition->label()));
     }
     if (scenario.least_relevant_s > 0.0)
         entries.push_back(
@@ -286,7 +286,7 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
     const std::string title =
         fmt::format("{}: gain of emergency vehicles and cost to the others", scenario.name);
     Chart plot(title, 330.0, padded(costs, 0.1), labelled(cost, "difference (left is better)"),
-               padded(gains, 0.1), labelled(gain, "gain (up is better)"));
+               padded(gains, 0.1), labelled(gain, "gain over the baseline (up is better)"));
     const double top = plot.y().place(scenario.least_relevant_s);
     plot.rectangle(left_edge, top, right_edge - left_edge, plot.y().place(-scenario.least_relevant_s) - top,
                    "uncounted");
@@ -313,7 +313,7 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
     note += touching_words(points, places);
     if (is_moved) note += " A number that would hide another has a line to its dot.";
     if (!merged.empty())
-        note += fmt::format(" Without a mark, as every run is one of another (see the verdicts): {}.",
+        note += fmt::format(" Not drawn, as their runs equal those of another condition: {}.",
                             fmt::join(merged, "; "));
     if (std::ranges::any_of(points, &Point::turned_alone)) note += " Small dots: one setting turned alone.";
     return {"tradeoff-" + scenario.name, "Gain and cost against the baseline", plot.finish(), note,

@@ -83,9 +83,47 @@
     return /^[+-]?\d+(\.\d+)?$/.test(bare) ? bare : null;
   };
   const numberOf = cell => number((interval(cell) ?? [cell, cell])[1]);
+  const letters = text => [...text].length;
+  const linesOf = (text, most) => {
+    const lines = [];
+    for (const word of text.split(/\s+/).filter(part => part)) {
+      if (lines.length > 0 && letters(lines.at(-1)) + 1 + letters(word) <= most) lines.push(`${lines.pop()} ${word}`);
+      else lines.push(word);
+    }
+    return lines;
+  };
+  const widthsOf = (head, rows) => head.map((text, at) =>
+    Math.min(60, Math.max(...linesOf(text, 1).map(letters), ...rows.map(row => letters(row[at])))));
+  const latexHead = (text, width) => {
+    const lines = linesOf(text, width).map(escaped);
+    return lines.length < 2 ? escaped(text) : `\\shortstack{${lines.join('\\\\')}}`;
+  };
+  const whole = widths => widths.reduce((sum, width) => sum + width + 2, 0);
+  const mostUpright = 95;
+  const mostTurned = 140;
+  const partsOf = (head, rows, words) => {
+    const widths = widthsOf(head, rows);
+    const first = widths[0];
+    const rest = whole(widths) - first;
+    if (first + rest <= mostTurned || head.length < 3 || words) return [[head, rows]];
+    const room = mostTurned > 2 * first ? mostTurned - first : mostTurned / 2;
+    const columns = Math.ceil((head.length - 1) / Math.min(Math.ceil(rest / room), head.length - 1));
+    const parts = [];
+    for (let from = 1; from < head.length; from += columns) {
+      const chosen = cells => [cells[0], ...cells.slice(from, from + columns)];
+      parts.push([chosen(head), rows.map(chosen)]);
+    }
+    return parts;
+  };
   const latex = (name, caption, table) => {
     const [head, ...rows] = cellsOf(table);
     const words = table.classList.contains('words');
+    const parts = partsOf(head, rows, words);
+    return parts.map(([some, of], at) => latexTable(at === 0 ? name : `${name}-${at + 1}`,
+      parts.length === 1 ? caption : `${caption} (${at + 1} of ${parts.length})`, some, of, words)).join('');
+  };
+  const latexTable = (name, caption, head, rows, words) => {
+    const widths = widthsOf(head, rows);
     const columns = head.map((_, at) => {
       const cells = at === 0 || words ? [] : rows.map(row => row[at]).filter(cell => numberOf(cell) !== null);
       const numbers = cells.map(numberOf);
@@ -93,14 +131,14 @@
       const most = of => Math.max(...numbers.map(value => (of(value.replace(/^[+-]/, '').split('.')) ?? '').length));
       const intervals = cells.some(cell => interval(cell));
       if (numbers.length === 0)
-        return {type: (at === 0 || words) && rows.some(row => [...row[at]].length > 60) ? 'p{0.7\\linewidth}' : 'l', head: escaped, body: escaped};
+        return {type: (at === 0 || words) && rows.some(row => [...row[at]].length > 60) ? 'p{0.7\\linewidth}' : 'l', head: text => text, body: escaped};
       const plus = has('+');
       const format = `${plus ? '+' : has('-') ? '-' : ''}${most(parts => parts[0])}.${most(parts => parts[1])}`;
       const end = text => `\\num{${text.replaceAll('\u2212', '-')}}`;
       return {
         intervals,
         type: `S[table-format=${format}${plus ? ',retain-explicit-plus' : ''}]${intervals ? '@{\\,}l' : ''}`,
-        head: text => (intervals ? `\\multicolumn{2}{c}{${escaped(text)}}` : `{${escaped(text)}}`),
+        head: text => (intervals ? `\\multicolumn{2}{c}{${text}}` : `{${text}}`),
         body: cell => {
           const text = numberOf(cell) ?? `{${escaped(cell)}}`;
           const parts = interval(cell);
@@ -109,11 +147,11 @@
       };
     });
     const line = (row, part) => row.map((cell, at) => columns[at][part](cell)).join(' & ') + ' \\\\\n';
-    const turned = columns.length + columns.filter(column => column.intervals).length > 12;
+    const turned = whole(widths) > mostUpright;
     const kind = turned ? 'sidewaystable' : 'table';
     return `% needs \\usepackage{booktabs,graphicx,${turned ? 'rotating,' : ''}siunitx}\n\\begin{${kind}}\n\\centering\n\\caption{${escaped(caption)}}\n\\label{tab:${name}}\n` +
       '\\resizebox{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}{!}{%\n' +
-      `\\begin{tabular}{${columns.map(column => column.type).join(' ')}}\n\\toprule\n${line(head, 'head')}\\midrule\n` +
+      `\\begin{tabular}{${columns.map(column => column.type).join(' ')}}\n\\toprule\n${line(head.map((text, at) => latexHead(text, widths[at])), 'head')}\\midrule\n` +
       `${rows.map(row => line(row, 'body')).join('')}\\bottomrule\n\\end{tabular}}\n\\end{${kind}}\n`;
   };
 

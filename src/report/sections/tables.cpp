@@ -222,8 +222,10 @@ void tables_section(const StudyFacts& study, Writer& writer) {
             !caption.empty()));
         writer.table(measures_of(scenario, emergency_columns, "times",
                                  scenario.name +
-                                     ": travel time and time loss, with differences to the baseline; "
-                                     "intervals: t, of the gap closed: bootstrap (BCa)"));
+                                     ": travel time and time loss, with differences to the baseline" +
+                                     (used(scenario, std::array{Measure::gap_closed}).empty()
+                                          ? ""
+                                          : "; intervals: t, of the gap closed: bootstrap (BCa)")));
         writer.table(
             measures_of(scenario, event_columns, "events-mean",
                         scenario.name + ": depart delay and events, with differences to the baseline"));
