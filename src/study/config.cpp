@@ -489,7 +489,7 @@ StudyConfig read_study(const std::filesystem::path& name, Extent extent, std::ui
     // A key that is misspelt is the cause of others, and comes first.
     const auto others = static_cast<std::ptrdiff_t>(reading.problems.size());
     root.finish();
-    std::ranges::rotate(reading.problems, reading.problems.begin() + others);
+    std::rotate(reading.problems.begin(), reading.problems.begin() + others, reading.problems.end());
     if (!reading.problems.empty()) throw core::InputError(reading.problems);
     return config;
 }
