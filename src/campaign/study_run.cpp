@@ -316,8 +316,6 @@ StudyResult run_missing(const study::Plan& plan, const results::Store& store, co
     fmt::print(
         stderr, "clearway: {} into {}{}\n", core::counted(plan.run_count(), "run"), options.folder.string(),
         few ? fmt::format("; fewer than {} seeds give no interval", analysis::fewest_for_interval) : "");
-    std::vector<experiment::RunKey> missing = plan.manifest.runs();
-    std::erase_if(missing, [&](const experiment::RunKey& key) { return store.complete(key); });
     const auto started = std::chrono::steady_clock::now();
     core::Progress progress("runs", plan.run_count(), core::Progress::style_for_stderr());
     PresentEstimate estimate(store);
@@ -330,8 +328,9 @@ StudyResult run_missing(const study::Plan& plan, const results::Store& store, co
     progress.finish();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
     const auto processes = std::min(core::process_count(options.workers), plan.units.size());
-    if (result.exit_code == core::ExitCode::ok && !missing.empty())
-        note_pace(store, missing, took.count() * static_cast<double>(processes));
+    // Of a study that was made in one go: the time of earlier calls is not known.
+    if (result.exit_code == core::ExitCode::ok && result.progress.resumed == 0)
+        note_pace(store, took.count() * static_cast<double>(processes));
     if (is_interrupted(result.exit_code)) say_how_to_continue(plan, store.folder(), result.progress, options);
     return result;
 }

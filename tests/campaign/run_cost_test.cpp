@@ -1,7 +1,10 @@
 #include "campaign/detail/run_cost.hpp"
 
+#include <filesystem>
+
 #include <gtest/gtest.h>
 
+#include "results/synthetic.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::campaign {
@@ -75,6 +78,35 @@ TEST(RunCost, of_a_copy_with_other_traffic_follows_from_a_run_on_the_same_roads)
     EXPECT_EQ(cost(copy, experiment::TrafficModel::standard).basis, CostBasis::rough);
     copy.network.file = (folder.path() / "missing.net.xml").string();
     EXPECT_EQ(cost(copy, experiment::TrafficModel::standard).basis, CostBasis::rough);
+}
+
+TEST(RunCost, of_a_run_is_what_it_took_at_the_pace_of_its_folder) {
+    const support::TemporaryFolder folder;
+    const auto store = results::Store::create(folder.path() / "study", results::synthetic::manifest());
+    const experiment::RunKey key{"alpha", "baseline", 0};
+    results::RunTiming timing;
+    timing.wall_s = 4.0;
+    const auto wall_s = [&] {
+        return CostBook(store.folder())
+            .of({}, std::string(32, 'a'), experiment::TrafficModel::standard)
+            .wall_s.value();
+    };
+    note_pace(store, 7.0);
+    EXPECT_FALSE(std::filesystem::exists(store.folder() / "run-costs.json")) << "it has no run";
+    store.write(results::synthetic::record(key), timing);
+    EXPECT_EQ(wall_s(), 4.0);
+    note_pace(store, 6.0);
+    EXPECT_EQ(wall_s(), 6.0) << "loading takes half as long again";
+    note_cost(store.folder(), {}, "of a study below it", {.wall_s = 1.0, .disk_bytes = 2.0});
+    note_pace(store, 5.0);
+    EXPECT_EQ(wall_s(), 5.0);
+    EXPECT_EQ(CostBook(store.folder() / "below")
+                  .of({}, "of a study below it", experiment::TrafficModel::standard)
+                  .wall_s,
+              1.0)
+        << "other notes stay";
+    note_pace(store, 3.0);
+    EXPECT_EQ(wall_s(), 4.0) << "never less than what the runs name";
 }
 
 TEST(ClockWords, name_the_units_that_they_show) {

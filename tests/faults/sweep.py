@@ -26,8 +26,9 @@ ERRORS = ("EIO", "ENOSPC", "EMFILE", "ENOMEM")
 LIMIT_S = 120
 # What two equal commands write differently: times, process numbers. What evaluation.csv says beside times is in runs/*.links.
 CHANGING = re.compile(r"[/.]timing\.json$|^units/|/jobs/|^logs/|^\.lock$|\.pdf$|/netconvert\.log$|^evaluation\.(csv|json)$|^links\.html$")
-# What a killed process leaves under a name that the next one does not take, jobs of links, and the log of a second attempt.
-LEFT = re.compile(r"\.\d+\.clearway-part$|^jobs/.*-\d+\.(json|log)$|^logs/.*\.\d+\.log$")
+# What a killed process leaves under a name that the next one does not take, jobs of links, the log of a second attempt, and the times
+# that only a study which was made in one go notes.
+LEFT = re.compile(r"\.\d+\.clearway-part$|^jobs/.*-\d+\.(json|log)$|^logs/.*\.\d+\.log$|^run-costs\.json$")
 # Whoever exits with 3 blames the input; of a machine that failed in passing it has to say so beside that.
 BLAMELESS = re.compile(r"give the same command again|in case the machine failed", re.IGNORECASE)
 # A message ends with what to do; the system's loader knows nothing better.

@@ -202,15 +202,15 @@ void note_cost(const fs::path& runs, const scenario::ScenarioConfig& config, con
     core::write_atomically(notes_in(runs), core::to_text(notes));
 }
 
-void note_pace(const results::Store& store, const std::vector<experiment::RunKey>& made, double processes_s) {
+void note_pace(const results::Store& store, double processes_s) {
     double named_s = 0.0;
-    for (const experiment::RunKey& key : made) {
-        if (const auto timing = store.complete(key) ? store.read_timing(key) : std::nullopt)
-            named_s += timing->wall_s;
+    for (const experiment::RunKey& key : store.complete_runs()) {
+        if (const auto timing = store.read_timing(key)) named_s += timing->wall_s;
     }
     if (named_s <= 0.0) return;
-    core::write_atomically(notes_in(store.folder()),
-                           core::to_text(core::Json{{pace_key, {processes_s, named_s}}}));
+    core::Json notes = read_notes(store.folder());
+    notes[pace_key] = {processes_s, named_s};
+    core::write_atomically(notes_in(store.folder()), core::to_text(notes));
 }
 
 CostBook::CostBook(const fs::path& folder) : noted_(read_notes(fs::absolute(folder).parent_path())) {

@@ -44,9 +44,9 @@ RunCost rough_cost(const scenario::ScenarioConfig& config, experiment::TrafficMo
 void note_cost(const std::filesystem::path& runs, const scenario::ScenarioConfig& config,
                const std::string& hash, const RunCost& cost);
 
-/// Notes in a run folder how long processes took for runs that were made there. That is more than the runs
-/// name, because loading, warm-up and writing are no run's own.
-void note_pace(const results::Store& store, const std::vector<experiment::RunKey>& made, double processes_s);
+/// Notes in a run folder how long processes took for all its complete runs. That is more than the runs name,
+/// because loading, warm-up and writing are no run's own.
+void note_pace(const results::Store& store, double processes_s);
 
 /// Costs of runs, estimated from those in a run folder and its neighbours.
 class CostBook {
