@@ -13,7 +13,6 @@ nothing is checked (exit code 77). Times of so short a part mean nothing on a bu
 """
 import argparse
 import csv
-import datetime
 import os
 import pathlib
 import re
@@ -103,11 +102,8 @@ def renew(counts):
 
 
 def publish(counts):
-    tree = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short=7", "HEAD"], capture_output=True, text=True,
-                          check=True).stdout.strip()
-    common = {"study": "loop", "tree": tree, "date": datetime.date.today().isoformat(),
-              "command": "benchmarks/loop_cost.py build/ci --publish", "origin": "product",
-              "behaviour": published_rows.behaviour(ROOT), "measure": "million_instructions"}
+    made = published_rows.made(ROOT, "loop", "benchmarks/loop_cost.py build/ci --publish")
+    common = made | {"measure": "million_instructions"}
     rows = []
     for run, (sumo, loop) in counts.items():
         for part, number in (("SUMO's step", sumo), ("the loop", loop)):

@@ -4,11 +4,10 @@
     benchmarks/route_search.py BUILD               prints the times
     benchmarks/route_search.py BUILD --publish     also writes them into results/cost.csv; then: scripts/render-docs
 
-BUILD is the folder of a preset with optimisation, such as build/release. Of three runs the fastest counts: the others measure the
-machine.
+BUILD is the folder of a build with optimisation and benchmarks: cmake --preset release -B build/bench -DCLEARWAY_BENCHMARKS=ON. Of
+three runs the fastest counts: the others measure the machine.
 """
 import argparse
-import datetime
 import pathlib
 import re
 import subprocess
@@ -41,11 +40,8 @@ def times(program, side, folder):
 
 
 def publish(table):
-    tree = subprocess.run(["git", "-C", ROOT, "rev-parse", "--short=7", "HEAD"], capture_output=True, text=True,
-                          check=True).stdout.strip()
-    common = {"study": "route_search", "tree": tree, "date": datetime.date.today().isoformat(),
-              "command": "benchmarks/route_search.py build/release --publish", "origin": "product",
-              "behaviour": published_rows.behaviour(ROOT), "measure": "time_ms", "unit": "ms"}
+    made = published_rows.made(ROOT, "route_search", "benchmarks/route_search.py build/bench --publish")
+    common = made | {"measure": "time_ms", "unit": "ms"}
     rows = [common | {"scenario": f"{edges:,} edges", "condition": name, "mean": f"{time_ms:.2f}"}
             for edges, found in table for name, time_ms in zip(NAMES, found)]
     published_rows.put_rows(ROOT / "results/cost.csv", rows)

@@ -1,10 +1,12 @@
 """What render-docs and count-docs share: the rows of `results/*.csv`, and where a page shows them."""
 import csv
 import dataclasses
+import datetime
 import functools
 import io
 import operator
 import re
+import subprocess
 
 FIELDS = ("study", "tree", "date", "seed", "pairs", "command", "scenario", "condition", "measure", "unit", "mean", "low", "high",
           "lost_evs", "origin", "behaviour")
@@ -123,6 +125,13 @@ def read_file(root, path, faults):
         seen[row.key] = line
         rows.append(row)
     return rows
+
+
+def made(root, study, command):
+    """What all rows say that a benchmark makes now."""
+    tree = subprocess.run(["git", "-C", root, "rev-parse", "--short=7", "HEAD"], capture_output=True, text=True, check=True)
+    return {"study": study, "tree": tree.stdout.strip(), "date": datetime.date.today().isoformat(), "command": command,
+            "origin": "product", "behaviour": behaviour(root)}
 
 
 def read_rows(root, faults):

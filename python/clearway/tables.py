@@ -1,7 +1,6 @@
 """Tables of results as numpy arrays by column."""
 from __future__ import annotations
 
-import difflib
 import html
 import re
 import shutil
@@ -70,8 +69,7 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
     def _without(self, column: Any, value: Any = None) -> str:
         """That there is no such column, and which one is meant, by its name or by the value that is looked for in it."""
         said = f"there is no column {column!r}"
-        meant = difflib.get_close_matches(str(column), list(self._columns), 1, 0.8) if value is not None else []
-        meant += [name for name in self._columns if value is not None and name.rpartition(".")[2] == column]
+        meant = _program.nearest(column, self._columns) if value is not None else []
         meant += [name for name in ("condition", *(name for name in self._columns if "." in name))
                   if isinstance(value, str) and name in self._columns and value in self._columns[name].tolist()]
         if not meant and value is not None and column in _OF_CONDITIONS and "condition" in self._columns:

@@ -76,7 +76,7 @@ struct Actuator::State {
     std::map<core::SignalIndex, detail::Clearance> clearances;  ///< Of signals that were ever asked for.
     std::optional<core::Seconds> last_step;
     std::vector<core::VehicleKey> heeding;
-    std::vector<core::EdgeIndex> closed = {};    ///< Ordered.
+    std::vector<traffic::KnownIncident> incidents = {};
     std::vector<core::VehicleKey> keeping = {};  ///< Vehicles whose way no lease changes.
 
     void watch(const traffic::SignalStates& shown, core::Seconds now) {
@@ -204,9 +204,8 @@ void Actuator::keep_way(core::VehicleKey vehicle) {
     if (found != state_->vehicles.end()) found->second.drop_way();
 }
 
-void Actuator::close(std::vector<core::EdgeIndex> edges) {
-    assert(std::ranges::is_sorted(edges));
-    state_->closed = std::move(edges);
+void Actuator::know(std::span<const traffic::KnownIncident> incidents) {
+    state_->incidents.assign(incidents.begin(), incidents.end());
 }
 
 void Actuator::heed(std::span<const core::VehicleKey> drivers) {
@@ -230,7 +229,7 @@ void Actuator::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
         state.config.lateral_model,
         step,
         state.heeding,
-        state.closed,
+        state.incidents,
     };
     for (auto& [key, vehicle] : state.vehicles)
         vehicle.step(around, state.ledger, commands);

@@ -9,6 +9,7 @@
 #include "core/units.hpp"
 #include "roads/network.hpp"
 #include "traffic/command.hpp"
+#include "traffic/incident.hpp"
 #include "traffic/lease.hpp"
 #include "traffic/signal_status.hpp"
 #include "traffic/vehicle.hpp"
@@ -47,9 +48,9 @@ class Actuator {
     /// From now on no lease sends this vehicle another way; running ones are dropped.
     void keep_way(core::VehicleKey vehicle);
 
-    /// Roads that are known to be closed to emergency vehicles from now on, ordered: no lease sends one over
-    /// them, unless it is there or called there.
-    void close(std::vector<core::EdgeIndex> edges);
+    /// What is known of incidents from now on: no lease sends an emergency vehicle over a road that one
+    /// closes to it, unless it is there or called there.
+    void know(std::span<const traffic::KnownIncident> incidents);
 
     /// Human drivers who take leases from now on, ordered by key. At first there are none.
     void heed(std::span<const core::VehicleKey> drivers);

@@ -413,6 +413,11 @@ MaybeEstimate estimate_paired(const Values& condition, const Values& baseline, M
     return difference_of(pairs_of(condition, baseline), kind, level);
 }
 
+std::optional<double> paired_t_p(const Values& condition, const Values& baseline) {
+    const Pairs pairs = pairs_of(condition, baseline);
+    return paired_t_p(pairs.condition, pairs.baseline);
+}
+
 const MetricSummary& ConditionSummary::metric(std::string_view name) const {
     for (const MetricSummary& summary : metrics) {
         if (summary.metric.name == name) return summary;

@@ -43,6 +43,8 @@ MaybeEstimate estimate_values(const Values& values, MetricKind kind, double leve
 /// Mean of the paired differences of the replications where both have a value.
 MaybeEstimate estimate_paired(const Values& condition, const Values& baseline, MetricKind kind,
                               double level = usual_level);
+/// p of the paired t test of those replications. Nothing where they do not differ, or are too few.
+std::optional<double> paired_t_p(const Values& condition, const Values& baseline);
 /// All metrics of a run that are numbers, in the order of their field table.
 std::vector<MetricInfo> all_metrics();
 

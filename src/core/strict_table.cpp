@@ -226,6 +226,7 @@ void StrictTable::finish() {
         const std::string key(name.str());
         if (known_.contains(key)) continue;
         problem(key, "unknown key", listed(valid), did_you_mean(key, valid, "Remove it"));
+        reading_.misspelt.insert(path_);
     }
 }
 

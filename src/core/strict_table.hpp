@@ -21,7 +21,8 @@ struct TomlReading {
     std::string file;
     std::vector<Problem> problems;
     std::map<std::string, std::string>
-        origins;  ///< `time.window_s` -> `merge/scenario.toml:14:1: time.window_s`.
+        origins;                          ///< `time.window_s` -> `merge/scenario.toml:14:1: time.window_s`.
+    std::set<std::string> misspelt = {};  ///< Tables with an unknown key, `time`.
 };
 
 /// Reads one table of a TOML file and collects its problems. Every key that is asked for counts as known;

@@ -31,15 +31,6 @@ actuation::ActuatorConfig actuation_of(const experiment::ConditionSpec& conditio
     return config;
 }
 
-std::vector<core::EdgeIndex> closed_roads(const std::vector<traffic::KnownIncident>& incidents) {
-    std::vector<core::EdgeIndex> edges;
-    for (const traffic::KnownIncident& incident : incidents) {
-        if (incident.closed_to_emergency) edges.push_back(incident.edge);
-    }
-    std::ranges::sort(edges);
-    return edges;
-}
-
 }  // namespace
 
 Controller::Controller(const experiment::ConditionSpec& condition, const ControllerContext& context)
@@ -80,7 +71,7 @@ Step<Done::acted> Controller::act(Step<Done::decided> step, const truth::SelfKno
     if (siren_) siren_->step(snapshot, roster, self, commands);
     if (privilege_) privilege_->step(snapshot, roster, commands);
     if (listeners_) actuator_.heed(listeners_->step(snapshot));
-    actuator_.close(closed_roads(chain_.observation().incidents));
+    actuator_.know(chain_.observation().incidents);
     requests_.step({chain_.leases(), chain_.unreachable(), step.has_decision(), chain_.decided_there()},
                    snapshot, roster);
     actuator_.accept(requests_.arrived(), snapshot.time, chain_.unreachable());

@@ -43,10 +43,7 @@ void Dispatcher::note(const truth::Snapshot& snapshot) {
 }
 
 bool Dispatcher::is_closed(core::EdgeIndex edge) const {
-    if (orders_.by == Dispatch::believed)
-        return std::ranges::any_of(known_, [&](const traffic::KnownIncident& incident) {
-            return incident.edge == edge && incident.closed_to_emergency;
-        });
+    if (orders_.by == Dispatch::believed) return traffic::closes(known_, edge);
     if (orders_.by != Dispatch::true_times) return false;
     return std::ranges::any_of(orders_.incidents, [&](const scenario::PlacedIncident& placed) {
         const traffic::Incident& incident = placed.closed;

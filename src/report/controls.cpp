@@ -54,26 +54,14 @@ bool are_same(const ConditionFacts& condition, const ConditionFacts& other) {
     return other.same_as == condition.name() || condition.same_as == other.name();
 }
 
-/// p of the paired t test of EV travel time. Nothing where the pairs do not differ, or are too few.
-std::optional<double> p_of(const ConditionFacts& first, const ConditionFacts& second) {
-    const analysis::Values& mine = first.outcome(primary).values;
-    const analysis::Values& theirs = second.outcome(primary).values;
-    std::vector<double> one, other;
-    for (std::size_t run = 0; run < std::min(mine.size(), theirs.size()); ++run) {
-        if (!mine[run] || !theirs[run]) continue;
-        one.push_back(*mine[run]);
-        other.push_back(*theirs[run]);
-    }
-    return analysis::paired_t_p(one, other);
-}
-
 /// Of what failing costs: p by Holm over all such costs of the scenario.
 std::optional<double> holm_p_of_failing(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     std::vector<double> all;
     std::optional<std::size_t> own;
     for (const ConditionFacts& other : scenario.conditions) {
         const ConditionFacts* const working = working_of(scenario, other);
-        const auto p = working == nullptr || are_same(other, *working) ? std::nullopt : p_of(other, *working);
+        if (working == nullptr || are_same(other, *working)) continue;
+        const auto p = analysis::paired_t_p(other.outcome(primary).values, working->outcome(primary).values);
         if (!p) continue;
         if (other.name() == condition.name()) own = all.size();
         all.push_back(*p);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "report/facts.hpp"
@@ -33,25 +32,8 @@ std::string incidents_sentence(const ScenarioFacts& scenario, Script script);
 /// empty if only one is compared. Plain text.
 std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scenario);
 
-/// A tile of the first screen: what was measured, the figure in large letters, what it means. Plain text.
-struct Tile {
-    const char* subject = "";
-    std::string figure;
-    std::string meaning;
-    std::vector<std::string> details = {};  ///< What else is known of it, a line each.
-    enum class Tone : std::uint8_t { neutral, better, worse } tone = Tone::neutral;
-};
-Tile emergency_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
-/// Of the EVs that came to a closed road in the baseline, or that none did.
-Tile incident_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
-Tile others_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
-Tile safety_tile(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
-
-/// Whether a condition was run often enough to say what is said of its EV travel time.
-struct Badge {
-    enum class Runs : std::uint8_t { enough, too_few } runs = Runs::too_few;
-    std::string words;  ///< Plain text.
-};
-Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
+/// `While nothing fails, corridor lost 1 of 30 emergency vehicles: no gain can be claimed`, of a condition in
+/// which something fails; else empty. Plain text.
+std::string objection_without_failure(const ScenarioFacts& scenario, const ConditionFacts& condition);
 
 }  // namespace clearway::report

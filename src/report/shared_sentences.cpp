@@ -1,6 +1,7 @@
 #include "report/shared_sentences.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
@@ -30,6 +31,22 @@ void add_once(const std::string& word, std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+std::string signed_seconds(double value, Script script) {
+    return number(value, {std::abs(value) < 9.95 ? 1 : 0, script, Sign::always}) + " s";
+}
+
+std::string joined(std::string words, const std::string& more) {
+    if (more.empty()) return words;
+    return words.empty() ? more : words + "; " + more;
+}
+
+bool is_barely_shown(const MaybeEstimate& difference) {
+    constexpr double near = 0.1;  // of the mean
+    const analysis::Interval* const interval = shown_interval(difference);
+    return interval != nullptr &&
+           std::min(std::abs(interval->low), std::abs(interval->high)) < near * std::abs(difference->mean);
+}
 
 bool is_held_up(const analysis::Comparison& comparison) {
     return 2 * comparison.held_up_pairs > comparison.complete_pairs;

@@ -12,6 +12,14 @@ namespace clearway::report {
 // What a report's first screen (report/overview.hpp) and its verdicts (report/verdict.hpp) both say of a
 // condition. Plain text.
 
+/// `-5.2 s`, `+12 s`: whole seconds from 10 s on, else one decimal.
+std::string signed_seconds(double value, Script script);
+/// Both with a semicolon between them; the one if the other is empty.
+std::string joined(std::string words, const std::string& more);
+
+/// Whether the interval ends so near 0 that the first digits of its ends would not tell them apart.
+bool is_barely_shown(const MaybeEstimate& difference);
+
 /// `5 pairs are few; p 0.072 among so many comparisons`: why chance or locks could be all of an effect that
 /// its interval shows. Empty where nothing speaks for that.
 std::string doubts_of(const ConditionFacts& condition, Measure measure, Script script);

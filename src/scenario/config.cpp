@@ -146,7 +146,7 @@ toml::table read_scenario(const std::filesystem::path& file, std::filesystem::pa
     return whole;
 }
 
-/// `time` of `a.toml:9: time.windw_s`.
+/// `time` of `a.toml:9: time.window_s`.
 std::string table_of(const core::Problem& problem) {
     const std::size_t key = problem.where.rfind(' ') + 1;
     return problem.where.substr(key, std::max(problem.where.rfind('.'), key) - key);
@@ -154,17 +154,15 @@ std::string table_of(const core::Problem& problem) {
 
 /// Checks what the tables say together. A key that could not be read has its default then, and so has one
 /// that is misspelt: of the key, or of all of the table, that would tell the same fault twice.
-void check_rest(const ScenarioConfig& config, std::vector<core::Problem>& problems) {
-    std::set<std::string> unread, misspelt;
-    for (const core::Problem& problem : problems) {
+void check_rest(const ScenarioConfig& config, core::TomlReading& reading) {
+    std::set<std::string> unread;
+    for (const core::Problem& problem : reading.problems)
         unread.insert(problem.where);
-        if (problem.what == "unknown key") misspelt.insert(table_of(problem));
-    }
     std::vector<core::Problem> more;
     detail::check(config, more);
     for (core::Problem& problem : more)
-        if (!unread.contains(problem.where) && !misspelt.contains(table_of(problem)))
-            problems.push_back(std::move(problem));
+        if (!unread.contains(problem.where) && !reading.misspelt.contains(table_of(problem)))
+            reading.problems.push_back(std::move(problem));
 }
 
 }  // namespace
@@ -195,7 +193,7 @@ ScenarioConfig load(const std::string& name_or_path, const Options& options) {
     read_root(table, reading, config);
     config.origins = reading.origins;
     detail::apply(options, config, reading.problems);
-    check_rest(config, reading.problems);
+    check_rest(config, reading);
     if (!reading.problems.empty()) throw core::InputError(reading.problems);
     return config;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/ids.hpp"
@@ -30,5 +32,12 @@ struct KnownIncident {
 
     bool operator==(const KnownIncident&) const = default;
 };
+
+/// Whether one of them closes this edge to emergency vehicles.
+inline bool closes(std::span<const KnownIncident> incidents, core::EdgeIndex edge) {
+    return std::ranges::any_of(incidents, [edge](const KnownIncident& incident) {
+        return incident.edge == edge && incident.closed_to_emergency;
+    });
+}
 
 }  // namespace clearway::traffic

@@ -27,6 +27,12 @@ class WayLease : public ::testing::Test {
         bench.offer(vehicle, traffic::TakeRoute{way}, 2.0, 0, "policy", vehicle);
         return bench.only<traffic::SetRoute>(bench.step());
     }
+    void know(const std::vector<std::string>& ids, bool closed_to_emergency) {
+        std::vector<traffic::KnownIncident> known;
+        for (const core::EdgeIndex edge : edges(ids))
+            known.push_back({.edge = edge, .closed_to_emergency = closed_to_emergency});
+        bench.actuator.know(known);
+    }
     std::uint64_t refused(Refusal reason) const {
         const auto& refused = bench.counts(LeaseKind::take_route).refused;
         return refused.contains(reason) ? refused.at(reason) : 0;
@@ -106,19 +112,24 @@ TEST_F(WayLease, with_a_turn_too_near_to_stop_before_is_refused_until_there_is_r
 TEST_F(WayLease, over_a_road_known_to_be_closed_is_refused_until_it_is_open) {
     bench.scene = CrossingScene(100.0, short_square());
     const core::VehicleKey vehicle = add();
-    bench.actuator.close(edges({"A0A1"}));
+    know({"A0A1"}, true);
     EXPECT_TRUE(ask(vehicle, over_a1).empty());
     EXPECT_EQ(refused(Refusal::closed), 1U);
-    bench.actuator.close({});
+    bench.actuator.know({});
     EXPECT_EQ(bench.only<traffic::SetRoute>(bench.step()).size(), 1U);
+}
+
+TEST_F(WayLease, over_a_road_that_an_incident_leaves_open_to_emergency_vehicles_is_not_refused) {
+    bench.scene = CrossingScene(100.0, short_square());
+    const core::VehicleKey vehicle = add();
+    know({"A0A1"}, false);
+    EXPECT_EQ(ask(vehicle, over_a1).size(), 1U);
 }
 
 TEST_F(WayLease, from_a_closed_road_or_to_it_is_not_refused) {
     bench.scene = CrossingScene(100.0, short_square());
     const core::VehicleKey vehicle = add();
-    std::vector<core::EdgeIndex> closed = edges({"left0A0", "B1right1"});
-    std::ranges::sort(closed);
-    bench.actuator.close(closed);
+    know({"left0A0", "B1right1"}, true);
     EXPECT_EQ(ask(vehicle, over_a1).size(), 1U);
 }
 

@@ -397,6 +397,16 @@ TEST_F(RunTest, a_dry_run_says_that_a_policy_sends_no_messages_which_could_be_lo
     EXPECT_THAT(planned("corridor"), Not(HasSubstr("sends no messages")));
 }
 
+TEST_F(RunTest, a_dry_run_says_that_its_time_leaves_out_copies_of_runs) {
+    const auto planned = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"run", "line", "--dry-run"};
+        words.insert(words.end(), more.begin(), more.end());
+        return clearway(words).out;
+    };
+    EXPECT_THAT(planned({}), Not(HasSubstr("copies")));
+    EXPECT_THAT(planned({"--set", "loop.ways_tried=2"}), HasSubstr("without the copies"));
+}
+
 TEST_F(RunTest, init_copies_a_scenario_that_runs) {
     ASSERT_EQ(clearway({"scenario", "init", "mine", "--from", "line"}).code, 0);
     const Ended ended =

@@ -71,6 +71,20 @@ TEST(ConsoleTables, print_what_a_plan_confirms_before_all_else) {
     EXPECT_THAT(console_tables(tests::study({"merge"})), Not(HasSubstr("Exploratory")));
 }
 
+TEST(ConsoleTables, say_whose_p_is_that_of_two_one_sided_tests) {
+    EXPECT_THAT(console_tables(planned_study()), HasSubstr("two one-sided tests (TOST)"));
+    StudyFacts differences = planned_study();
+    differences.planned.resize(1);
+    EXPECT_THAT(console_tables(differences), Not(HasSubstr("TOST")));
+}
+
+TEST(ConsoleTables, tell_planned_replications_from_complete_ones) {
+    StudyFacts study = tests::study({"merge"});
+    EXPECT_THAT(console_tables(study), HasSubstr("merge: 20 replications, "));
+    study.scenarios[0].replications = 30;
+    EXPECT_THAT(console_tables(study), HasSubstr("merge: 30 replications planned, 20 complete at most, "));
+}
+
 TEST(Page, begins_with_what_a_plan_confirms) {
     std::ostringstream page;
     write_html(planned_study(), page);

@@ -372,6 +372,23 @@ TEST(Equipment, IsMappedWithCandidatesAndChosenDrawnApart) {
     EXPECT_EQ(count_of(equipment_map(facts), "<circle class=\"station\""), 2U) << "north is not shown";
 }
 
+TEST(Equipment, NumbersTheMapAsTheTablesWhereThereIsNoOrder) {
+    EquipmentFacts facts = two_of_twelve();
+    facts.roads = three_roads();
+    const auto page_of = [&] {
+        std::ostringstream page;
+        write_equipment_page(facts, page);
+        return page.str();
+    };
+    EXPECT_THAT(page_of(), HasSubstr("Discs bear the order: 1 is #4, 2 is #9."));
+    for (analysis::MaybeEstimate* const gain : {&facts.ranked[0].gain, &facts.ranked[0].so_far})
+        *gain = about(2.0, 3.0);
+    facts.ranked[1].gain = facts.ranked[1].so_far = about(3.0, 6.0);
+    EXPECT_THAT(page_of(), HasSubstr("Numbers are those of the tables, in no order."));
+    EXPECT_THAT(equipment_map(facts), AllOf(HasSubstr("text-anchor=\"middle\">4</text>"),
+                                            Not(HasSubstr("text-anchor=\"middle\">1</text>"))));
+}
+
 TEST(Equipment, HasAPageWithAnswerMapTablesAndCommand) {
     EquipmentFacts facts = two_of_twelve();
     facts.roads = three_roads();

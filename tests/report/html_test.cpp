@@ -216,6 +216,19 @@ TEST(Page, explains_colours_of_signals_only_where_they_are) {
                       Not(HasSubstr(">red</text>")), Not(HasSubstr("drawn twice"))));
 }
 
+TEST(Page, draws_one_trip_around_its_signals_where_these_stand_close_together) {
+    StudyFacts study = tests::study({"merge"});
+    EXPECT_THAT(page_of(study), Not(HasSubstr("Drawn are metres")));
+    for (JourneyFacts& journey : study.scenarios[0].journeys) {
+        journey.places = {{0.0, 0.0}, {200.0, 2300.0}, {230.0, 2500.0}, {600.0, 8200.0}};
+        journey.signals = {{"J1", "red", 2400.0, 0.0, 210.0}, {"J2", "green", 2460.0, 0.0, 240.0}};
+    }
+    EXPECT_THAT(page_of(study), HasSubstr("Drawn are metres 2250 to 2610 of 8200, around its signals."));
+    for (JourneyFacts& journey : study.scenarios[0].journeys)
+        journey.places = {{0.0, 0.0}, {600.0, 8200.0}};
+    EXPECT_THAT(page_of(study), Not(HasSubstr("Drawn are metres"))) << "no place is on that stretch";
+}
+
 TEST(Page, never_prints_nan_for_what_is_missing) {
     StudyFacts study = tests::study({"merge"});
     for (ConditionFacts& condition : study.scenarios[0].conditions) {

@@ -7,6 +7,7 @@
 #include "report/locks.hpp"
 #include "report/sample.hpp"
 #include "report/shared_sentences.hpp"
+#include "report/tiles.hpp"
 #include "report/verdict.hpp"
 
 namespace clearway::report {
@@ -78,6 +79,40 @@ TEST_F(Overview, NamesTheLongestTripsAndTheLocks) {
     EXPECT_THAT(locks_sentence(scenario_, corridor()),
                 AllOf(HasSubstr("Fewer locks: less traffic: 0.8 times the present --density"),
                       Not(HasSubstr("--ignore-junction-blocker"))));
+}
+
+TEST_F(Overview, SaysNothingOfLocksWithoutARun) {
+    tests::metric(scenario_.conditions[0], "locks").values = {2.0};
+    const auto text = [&] { return verdict(scenario_, corridor(), Script::plain).text(); };
+    EXPECT_THAT(text(), HasSubstr(" Locks: none (baseline: 2 locks"));
+    corridor().complete_runs = 0;
+    EXPECT_THAT(text(), Not(HasSubstr("Locks")));
+}
+
+TEST_F(Overview, CallsOthersHardlyFasterWhereTheIntervalAllButReachesZero) {
+    tests::difference(corridor(), Measure::other_time_loss) = around(-0.40, 0.38);
+    EXPECT_THAT(headline(), HasSubstr("; other drivers are hardly faster (-0.4 s each);"));
+    EXPECT_EQ(others().tone, Tile::Tone::neutral);
+    tests::difference(corridor(), Measure::other_time_loss) = around(-0.40, 0.30);
+    EXPECT_THAT(headline(), HasSubstr("; other drivers save 0.4 s each;"));
+    EXPECT_EQ(others().tone, Tile::Tone::better);
+}
+
+TEST_F(Overview, SaysThatFewTripsCarryAGain) {
+    scenario_.roads.emplace().signals.emplace_back();
+    SignalTrips& trips = scenario_.map.emplace().signal_trips;
+    scenario_.map->condition = 1;
+    trips.passing = {9, {-60.0, -70.0}};
+    trips.others = {51, {0.1, 0.2}};
+    const auto told = HasSubstr(", most of it in the 9 of 60 trips that pass a signal;");
+    EXPECT_THAT(headline(), told);
+    trips.others.means_s = {-20.0, -30.0};
+    EXPECT_THAT(headline(), Not(HasSubstr("most of it"))) << "the others gain more in all";
+    trips.others = {27, {0.1, 0.2}};
+    EXPECT_THAT(headline(), Not(HasSubstr("most of it"))) << "9 of 36 are not few";
+    trips.others = {51, {0.1, 0.2}};
+    scenario_.map->condition = 0;
+    EXPECT_THAT(headline(), Not(HasSubstr("most of it"))) << "the map is not about it";
 }
 
 TEST_F(Overview, ClaimsNothingThatTheIntervalDoesNotShow) {
@@ -350,6 +385,23 @@ TEST_F(Controls, say_what_a_failure_costs_and_where_it_changes_nothing) {
     EXPECT_EQ(emergency().tone, Tile::Tone::neutral);
     corridor().same_as = "corridor_perfect";
     EXPECT_THAT(failing(), HasSubstr("s: every run is the same."));
+}
+
+TEST_F(Controls, doubt_a_cost_of_failing_that_is_one_of_many) {
+    corridor().condition.failure = "B40";
+    scenario_.conditions[2].condition = experiment::without_failure(corridor().condition);
+    set(scenario_.conditions[2], {64.0, 71.0, 73.0, 70.0, 74.0});
+    const auto failing = [&] { return failing_sentence(scenario_, corridor(), Script::plain); };
+    EXPECT_THAT(failing(), AllOf(HasSubstr("s: +3.6 ["), Not(HasSubstr("doubtful"))));
+    for (const char* const failure : {"B10", "B20", "B70"}) {
+        ConditionFacts other = tests::condition(failure, failure, 70.0);
+        other.condition = corridor().condition;
+        other.condition.name = other.condition.failure = failure;
+        set(other, {66.0, 70.0, 75.0, 69.0, 74.0});
+        scenario_.conditions.push_back(other);
+    }
+    EXPECT_THAT(failing(), ContainsRegex("s: \\+3.6 \\[[^]]*\\] \\(doubtful: p 0\\.[0-9]+ among so many "
+                                         "comparisons\\)"));
 }
 
 TEST_F(Controls, are_neither_featured_nor_counted) {

@@ -39,9 +39,8 @@ double braking_m(const VehicleContext& around, core::VehicleIndex row, const tra
     return speed_mps * speed_mps / (2.0 * info.deceleration_mps2) + speed_mps * around.step.value;
 }
 
-bool leads_over(std::span<const core::EdgeIndex> way, std::span<const core::EdgeIndex> closed) {
-    return std::ranges::any_of(
-        way, [&](core::EdgeIndex edge) { return std::ranges::binary_search(closed, edge); });
+bool is_closed(std::span<const core::EdgeIndex> way, std::span<const traffic::KnownIncident> incidents) {
+    return std::ranges::any_of(way, [&](core::EdgeIndex edge) { return traffic::closes(incidents, edge); });
 }
 
 /// Whether the vehicle can still turn into `next` at the end of its edge: it could stop before the junction,
@@ -234,7 +233,7 @@ void VehicleControl::judge_way(const VehicleContext& around, const Place& place,
         roads::passes_its_end(std::span(route).subspan(at)))
         return LeaseQueue::refuse(*held, Refusal::route_elsewhere, ledger);
     const bool goes_on = std::next(from) != asked.end();
-    if (goes_on && leads_over(std::span(std::next(from), std::prev(asked.end())), around.closed))
+    if (goes_on && is_closed(std::span(std::next(from), std::prev(asked.end())), around.incidents))
         return LeaseQueue::refuse(*held, Refusal::closed, ledger);
     const bool turns_here = goes_on && (at + 1 >= route.size() || *std::next(from) != route[at + 1]);
     if (turns_here && !can_turn(around, place.row, place.info, *std::next(from)))

@@ -9,6 +9,7 @@
 #include "actuation/detail/lease_queue.hpp"
 #include "roads/network.hpp"
 #include "traffic/command.hpp"
+#include "traffic/incident.hpp"
 #include "traffic/vehicle.hpp"
 #include "truth/self_knowledge.hpp"
 #include "truth/snapshot.hpp"
@@ -25,7 +26,7 @@ struct VehicleContext {
     traffic::LateralModel lateral_model = traffic::LateralModel::lane;
     core::Seconds step;                         ///< Time since the last step; 0 at the first.
     std::span<const core::VehicleKey> heeding;  ///< Human drivers who take leases, ordered.
-    std::span<const core::EdgeIndex> closed;    ///< Roads known to be closed, ordered.
+    std::span<const traffic::KnownIncident> incidents;
 };
 
 /// A lane that a vehicle is kept on.

@@ -82,12 +82,6 @@ void BelievedWays::see_spoiled(const traffic::BelievedGraph& belief) {
     }
 }
 
-bool BelievedWays::is_closed(core::EdgeIndex edge) const {
-    return std::ranges::any_of(known_, [&](const traffic::KnownIncident& incident) {
-        return incident.edge == edge && incident.closed_to_emergency;
-    });
-}
-
 double BelievedWays::open_s(core::EdgeIndex edge, double entered_s, double pace) const {
     const double believed_s = times_.at(edge, entered_s, pace);
     const auto found = std::ranges::find(known_, edge, &traffic::KnownIncident::edge);

@@ -75,7 +75,7 @@ class BelievedWays {
   private:
     /// Each vehicle on the road that its own is taken for.
     void see_spoiled(const traffic::BelievedGraph& belief);
-    bool is_closed(core::EdgeIndex edge) const;
+    bool is_closed(core::EdgeIndex edge) const { return traffic::closes(known_, edge); }
     /// Past an incident that leaves a lane open, no faster than its limit.
     double open_s(core::EdgeIndex edge, double entered_s, double pace) const;
     OfferedWay offer(const View& view, const traffic::BelievedVehicle& emergency, const Choice& choice,

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -54,26 +56,47 @@ JourneyFacts on(const Range& stretch, const JourneyFacts& journey) {
     return cut;
 }
 
-bool has_way(const Range& stretch, const JourneyFacts& journey) {
-    const std::vector<JourneyPlace> places = on(stretch, journey).places;
+bool has_way(const JourneyFacts& journey) {
+    const std::vector<JourneyPlace>& places = journey.places;
     return places.size() > 1 && places.back().time_s > places.front().time_s;
 }
 
 /// Where signals stand close together, the stretch around them: of the whole way their colours would lie on
-/// each other. Else all of it.
-Range drawn_stretch(const JourneyFacts& without, const JourneyFacts& with, const Range& whole) {
+/// each other. Nothing where they do not.
+std::optional<Range> stretch_of_signals(const JourneyFacts& without, const JourneyFacts& with,
+                                        const Range& whole) {
     constexpr double least_margin_m = 150.0;
     constexpr double worth_cutting = 0.6;  // of the whole
     Range signals;
     for (const JourneyFacts* const journey : {&without, &with})
         for (const SignalSpan& span : journey->signals)
             signals.include(span.distance_m);
-    if (signals.empty()) return whole;
+    if (signals.empty()) return std::nullopt;
     const double margin_m = std::max(least_margin_m, 0.5 * (signals.high - signals.low));
     const Range stretch(std::max(whole.low, signals.low - margin_m),
                         std::min(whole.high, signals.high + margin_m));
     const bool is_worth_it = stretch.high - stretch.low < worth_cutting * (whole.high - whole.low);
-    return is_worth_it && has_way(stretch, without) && has_way(stretch, with) ? stretch : whole;
+    return is_worth_it ? std::optional(stretch) : std::nullopt;
+}
+
+/// The two journeys as they are drawn, and the stretch where that is not all of them.
+struct DrawnTrip {
+    JourneyFacts without, with;
+    Range times, distances;
+    std::optional<Range> stretch;
+};
+
+DrawnTrip drawn(JourneyFacts without, JourneyFacts with) {
+    DrawnTrip trip{std::move(without), std::move(with), {}, {}, {}};
+    include(trip.without, trip.times, trip.distances);
+    include(trip.with, trip.times, trip.distances);
+    const auto stretch = stretch_of_signals(trip.without, trip.with, trip.distances);
+    if (!stretch) return trip;
+    DrawnTrip cut{on(*stretch, trip.without), on(*stretch, trip.with), {}, {}, stretch};
+    if (!has_way(cut.without) || !has_way(cut.with)) return trip;
+    include(cut.without, cut.times, cut.distances);
+    include(cut.with, cut.times, cut.distances);
+    return cut;
 }
 
 }  // namespace
@@ -98,28 +121,16 @@ Figure timespace_figure(const ScenarioFacts& scenario, const Looks& looks, const
     const JourneyFacts* const without = journey_under(scenario, *baseline);
     const JourneyFacts* const with = journey_under(scenario, condition);
     if (without == nullptr || with == nullptr) return {};
-    Range times;
-    Range distances;
-    include(*without, times, distances);
-    include(*with, times, distances);
-    if (times.high <= times.low || distances.high <= distances.low) return {};
-    const Range whole = distances;
-    const Range stretch = drawn_stretch(*without, *with, whole);
-    const bool is_cut = stretch.low > whole.low || stretch.high < whole.high;
-    if (is_cut) {
-        times = Range();
-        distances = Range();
-        include(on(stretch, *without), times, distances);
-        include(on(stretch, *with), times, distances);
-    }
+    const DrawnTrip trip = drawn(*without, *with);
+    if (trip.times.high <= trip.times.low || trip.distances.high <= trip.distances.low) return {};
     Chart plot(fmt::format("{}: one trip with and without {}", scenario.name, condition.label()), 330.0,
-               times, "time since departure, s", distances, "distance along the route, m");
+               trip.times, "time since departure, s", trip.distances, "distance along the route, m");
     draw_signals(plot, *without, -offset);
     draw_signals(plot, *with, offset);
     const Series& baseline_series = looks[scenario.place_of(condition.baseline)];
     const Series& series = looks[scenario.place_of(condition.name())];
-    plot.line(way_of(on(stretch, *without)), baseline_series);
-    plot.line(way_of(on(stretch, *with)), series);
+    plot.line(way_of(trip.without), baseline_series);
+    plot.line(way_of(trip.with), series);
     std::vector<LegendEntry> legend = {line_entry(baseline_series, baseline->label()),
                                        line_entry(series, condition.label())};
     add_signal_colours(*without, *with, legend);
@@ -131,6 +142,7 @@ Figure timespace_figure(const ScenarioFacts& scenario, const Looks& looks, const
                               std::ranges::any_of(scenario.map->changed_ways, [&](const ChangedWay& change) {
                                   return is_shown_trip(scenario, change);
                               });
+    const double length_m = std::max(without->places.back().distance_m, with->places.back().distance_m);
     const double saved_s = without->places.back().time_s - with->places.back().time_s;
     const char* const ways =
         has_two_ways ? " It took another way with the condition: each line follows its own." : "";
@@ -141,10 +153,10 @@ Figure timespace_figure(const ScenarioFacts& scenario, const Looks& looks, const
             "nearest to the mean gain of all trips.",
             with->vehicle, with->replication, number(std::abs(saved_s), typeset(0)),
             saved_s >= 0.0 ? "sooner" : "later", ways,
-            is_cut ? fmt::format(" Drawn are metres {} to {} of {}, around its signals.",
-                                 number(stretch.low, typeset(0)), number(stretch.high, typeset(0)),
-                                 number(whole.high, typeset(0)))
-                   : "",
+            trip.stretch ? fmt::format(" Drawn are metres {} to {} of {}, around its signals.",
+                                       number(trip.stretch->low, typeset(0)),
+                                       number(trip.stretch->high, typeset(0)), number(length_m, typeset(0)))
+                         : "",
             without->signals.empty() && with->signals.empty()
                 ? "No signal stands on its route. Of the trips of"
                 : "Signals on its route are drawn twice: without the condition above the stop "

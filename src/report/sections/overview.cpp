@@ -12,6 +12,7 @@
 #include "report/detail/figures.hpp"
 #include "report/sections/sections.hpp"
 #include "report/shared_sentences.hpp"
+#include "report/tiles.hpp"
 
 namespace clearway::report::detail {
 namespace {
