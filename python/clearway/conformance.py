@@ -92,15 +92,16 @@ class Road:
                 yield f"lane_number {lease['lane_number']} (allowed: 0 to {count - 1}, the lanes of its edge)"
 
     def _of_way(self, edges: list[int], vehicle: int) -> Iterator[str]:
-        if wrong := [edge for edge in edges if edge >= len(self.network.edge_ids)]:
-            yield f"edge {wrong[0]} (allowed: 0 to {len(self.network.edge_ids) - 1})"
+        ids = self.network.edge_ids
+        if wrong := [edge for edge in edges if edge >= len(ids)]:
+            yield f"edge {wrong[0]} (allowed: 0 to {len(ids) - 1})"
         elif gap := [pair for pair in zip(edges, edges[1:]) if pair[1] not in self.network.onward[pair[0]]]:
-            yield f"edges: {gap[0][1]} does not follow {gap[0][0]} (allowed: those of belief.network.onward)"
+            yield f"edges: {ids[gap[0][1]]} does not follow {ids[gap[0][0]]} (allowed: those of belief.network.onward)"
         elif vehicle in self.now["emergency_key"].tolist():
             number, first = self.now["emergency_key"].tolist().index(vehicle), self.now["route_first"]
             end = int(self.now["route"][first[number + 1] - 1])
             if edges[-1] != end:
-                yield f"edges end with {edges[-1]} (allowed: {end}, its destination)"
+                yield f"edges end with {ids[edges[-1]]} (allowed: {ids[end]}, its destination)"
 
 
 def _vehicles(arrays: dict[str, np.ndarray], key: str, lane: str, kinds: list[int]) -> dict[int, tuple[int, int]]:

@@ -368,9 +368,9 @@ class Lease(Told, metaclass=_Actions):
                    reason: str = "") -> "Lease":
         """Drive over these edges (numbers of the network) to the destination; emergency vehicles only. A way that was taken stays.
 
-        The first edge is where the vehicle is or was since; edges that do not follow each other are refused (``route_gap``), and so
-        are another destination (``route_elsewhere``), a turn for which it is too late (``past_decision``) and a road that is known
-        to be closed (``closed``).
+        The first edge is where the vehicle is or was since; edges that do not follow each other (``belief.network.onward``) fail the
+        run. Refused are another destination (``route_elsewhere``), a turn for which it is too late (``past_decision``) and a road that
+        is known to be closed (``closed``).
         """
         way = [_whole("an edge of edges", edge, NO_LANE - 1) for edge in edges]
         if not way:

@@ -58,7 +58,8 @@ class Lost(clearway.Policy):
             Lease.hold_green(99, [0], serves=ev), Lease.hold_green(approach.signal, [500], serves=ev),
             Lease.hold_green(approach.signal, approach.links, [499], serves=ev), Lease.hold_green(approach.signal, [], serves=ev, lasting_s=61),
             Lease.change_lane(ev, 7, serves=ev), Lease.take_route(ev, [*ev.route, ev.route[0]], serves=ev),
-            Lease.take_route(ev, ev.route[:1], serves=ev), Lease.hold_lane(ev, serves=5))]
+            Lease.take_route(ev, ev.route[:1], serves=ev), Lease.hold_lane(ev, serves=5),
+            *(Lease.take_route(key, ev.route) for key in belief.vehicles.key[belief.vehicles.is_automated]))]
 
 class Endless(clearway.Policy):
     def act(self, belief):
@@ -124,9 +125,11 @@ class ConformanceTest(FolderCase):
         self.assertIn("  -     lost", self.said)
         self.assertIn("possible", self.broken("parts.py:Lost", "--all"))
         for problem in ("signal 99 (allowed: 0 to 1", "link 500 of signal 0 (allowed: 0 to 15)", "own_links [499] (allowed: those of links [",
-                        "links is empty", "lasting_s 61 (allowed: up to 60)", "lane_number 7 (allowed: 0 to 1", "does not follow", "edges end with ",
-                        "serves 5 (allowed: an EV of the belief)"):
+                        "links is empty", "lasting_s 61 (allowed: up to 60)", "lane_number 7 (allowed: 0 to 1", "serves 5 (allowed: an EV of the belief)",
+                        "take_route for a vehicle that is no EV"):
             self.assertIn(problem, self.said)
+        for problem in (r"edges: west_A does not follow \w+_\w+ \(allowed: those of belief.network.onward", r"edges end with west_A \(allowed: \w+_\w+, its"):
+            self.assertRegex(self.said, problem)
 
     def test_a_loop_without_end_is_told_with_its_line_and_waited_for_once(self) -> None:
         self.assertIn("answers", self.broken("parts.py:Endless"))

@@ -106,6 +106,9 @@ class NoLink(Policy):
 class NoWay(Policy):
     def act(self, belief):
         return [Lease.take_route(ev, [99, 99999], serves=ev) for ev in belief.emergency_vehicles]
+class Gap(Policy):
+    def act(self, belief):
+        return [Lease.take_route(ev, [ev.route[0], *ev.route], serves=ev) for ev in belief.emergency_vehicles]
 class Sleeps(Policy):
     def act(self, belief):
         time.sleep(1000)
@@ -360,10 +363,11 @@ class FaultTest(FolderCase):
         self.assertIn("seen at 0", log)
         self.assertIn("warned", log)
 
-    def test_a_number_that_names_nothing_fails_with_what_is_allowed(self) -> None:
+    def test_a_number_that_names_nothing_and_a_way_with_a_gap_fail_with_what_is_allowed(self) -> None:
         says = {"Row": r"Row: a lease is for vehicle 12345, which was never in a belief \(allowed: belief.vehicles.key\[row\], ",
                 "NoSignal": r"a lease is for signal 77 \(allowed: 0 to 0\) \(hold_green at \d+\.\d s; bad.py, line \d+\)", "NoLink": r"link 99 of signal 0 \(allowed: 0 to \d+\)",
-                "NoWay": r"a way over edge 99 \(allowed: 0 to \d+\)"}
+                "NoWay": r"a way over edge 99 \(allowed: 0 to \d+, rows of belief.network.edge_ids\)",
+                "Gap": r"""from edge "(\w+_in)" to edge "\1" \(allowed next: \w+_out(, \w+)*; belief.network.onward .* \(take_route at .*, line \d+"""}
         with self.assertWarns(RuntimeWarning):
             results = clearway.run("intersection", [clearway.Condition(name, policy=f"bad.py:{name}") for name in says], seeds=1,
                                    out="runs")
@@ -371,6 +375,7 @@ class FaultTest(FolderCase):
             (failed,) = results.errors.where(condition=name)["message"]
             self.assertRegex(failed, message)
         self.assertEqual(set(results.errors["cause"]), {"python"})
+        self.assertEqual(list(results.runs["condition"]), ["baseline"])  # nothing else is lost
         (line,) = [number for number, text in enumerate(Path("bad.py").read_text().splitlines(), 1) if "hold_green(77, [99]" in text]
         self.assertIn(f"bad.py, line {line})", results.errors.where(condition="NoSignal")["message"][0])
         with self.assertRaisesRegex(ValueError, "edges is empty"):

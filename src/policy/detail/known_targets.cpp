@@ -1,10 +1,14 @@
 #include "policy/detail/known_targets.hpp"
 
+#include <algorithm>
 #include <span>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "python/channel.hpp"
+#include "roads/exits.hpp"
 
 namespace clearway::policy::detail {
 namespace {
@@ -58,8 +62,22 @@ void KnownTargets::check(const traffic::TakeRoute& way) const {
     for (const core::EdgeIndex edge : way.edges) {
         if (edge.value >= edges)
             throw python::PartError(
-                fmt::format("a lease takes a way over edge {} (allowed: 0 to {})", edge.value, edges - 1));
+                fmt::format("a lease takes a way over edge {} (allowed: 0 to {}, rows of "
+                            "belief.network.edge_ids)",
+                            edge.value, edges - 1));
     }
+    for (std::size_t at = 0; at + 1 < way.edges.size(); ++at)
+        check_turn(way.edges[at], way.edges[at + 1]);
+}
+
+void KnownTargets::check_turn(core::EdgeIndex from, core::EdgeIndex to) const {
+    const std::vector<core::EdgeIndex> exits = roads::exits(network_, from, roads::Driver::emergency);
+    if (std::ranges::binary_search(exits, to)) return;
+    const auto ids = core::texts_of(exits, [&](core::EdgeIndex edge) { return network_.edge(edge).id; });
+    throw python::PartError(fmt::format(
+        "a lease takes a way with a gap: no emergency vehicle gets from edge \"{}\" to edge \"{}\" "
+        "(allowed next: {}; belief.network.onward has them for every edge)",
+        network_.edge(from).id, network_.edge(to).id, ids.empty() ? "none" : core::listed(ids)));
 }
 
 }  // namespace clearway::policy::detail

@@ -9,8 +9,8 @@
 namespace clearway::policy::detail {
 
 /// What leases of foreign code may name: vehicles that were believed once (they may have left since), and
-/// signals, links and edges of the network. Another number is a mistake of the code, such as a row in place
-/// of a key.
+/// signals, links and edges of the network, which follow each other in a way. Anything else is a mistake of
+/// the code, such as a row in place of a key.
 class KnownTargets {
   public:
     /// The network outlives the object.
@@ -24,6 +24,7 @@ class KnownTargets {
     void check(core::VehicleKey vehicle) const;
     void check(core::SignalIndex signal, const traffic::Action& action) const;
     void check(const traffic::TakeRoute& way) const;
+    void check_turn(core::EdgeIndex from, core::EdgeIndex to) const;
 
     const roads::Network& network_;
     std::unordered_set<std::uint64_t> vehicles_;
