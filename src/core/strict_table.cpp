@@ -1,5 +1,6 @@
 #include "core/strict_table.hpp"
 
+#include <limits>
 #include <regex>
 #include <sstream>
 
@@ -156,11 +157,13 @@ void StrictTable::number(const std::string& key, std::optional<double>& target) 
 }
 
 std::optional<double> StrictTable::number_within(const std::string& key, double minimum, double maximum) {
+    const std::size_t found = reading_.problems.size();
     std::optional<double> value;
     number(key, value);
-    if (!value || (*value >= minimum && *value <= maximum)) return value;
-    problem(key, fmt::format("{} is out of range", *value), fmt::format("{} to {}", minimum, maximum), "");
-    return std::nullopt;
+    if (value && !(*value >= minimum && *value <= maximum))
+        problem(key, fmt::format("{} is out of range", *value), fmt::format("{} to {}", minimum, maximum),
+                "");
+    return reading_.problems.size() == found ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::optional<std::int64_t> StrictTable::whole_number(const std::string& key, std::int64_t minimum,

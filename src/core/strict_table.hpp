@@ -32,7 +32,8 @@ class StrictTable {
     /// `path` is the table's own key, empty for the root. `table` and `reading` must outlive this.
     StrictTable(const toml::table& table, std::string path, TomlReading& reading);
 
-    /// Reads every member of the struct's field table that the file sets.
+    /// Reads every member of the struct's field table that the file sets. A floating-point member that is
+    /// wrong there becomes NaN, for which no later comparison finds a second fault.
     template <class Struct>
     void read(Struct& target) {
         for_each_field<Struct>([&](const auto& field) { member(field, target.*field.member); });

@@ -40,14 +40,23 @@ bool is_known(const std::string& kind) {
     return kind == core::name(VehicleKind::ambulance) || kind == core::name(VehicleKind::fire_engine);
 }
 
+/// Whether the row names an incident, be it one that cannot be.
+bool names_incident(const ScenarioConfig& config, std::size_t row) {
+    return config.origins.contains(row_of(row) + ".incident");
+}
+
+/// That a call names; null without one that exists.
+const Incident* incident_of(const ScenarioConfig& config, const Call& call) {
+    if (!call.incident || static_cast<std::size_t>(*call.incident) >= config.incidents.size()) return nullptr;
+    return &config.incidents[static_cast<std::size_t>(*call.incident)];
+}
+
 /// When the call comes in; nothing if neither the call nor its incident tells.
 std::optional<double> comes_in_s(const ScenarioConfig& config, const Call& call) {
     if (call.at_s) return call.at_s;
-    if (!call.incident || static_cast<std::size_t>(*call.incident) >= config.incidents.size())
-        return std::nullopt;
-    const Incident& incident = config.incidents[static_cast<std::size_t>(*call.incident)];
-    if (!incident.known_after_s) return std::nullopt;
-    return incident.from_s + *incident.known_after_s;
+    const Incident* const incident = incident_of(config, call);
+    if (incident == nullptr || !incident->known_after_s) return std::nullopt;
+    return incident->from_s + *incident->known_after_s;
 }
 
 void check_place(const ScenarioConfig& config, std::size_t row, Problems& problems) {
@@ -55,14 +64,14 @@ void check_place(const ScenarioConfig& config, std::size_t row, Problems& proble
     const std::string key = row_of(row);
     const bool any = call.longitude || call.latitude;
     const bool both = call.longitude && call.latitude;
-    const int places = (call.edge.empty() ? 0 : 1) + (any ? 1 : 0) + (call.incident ? 1 : 0);
+    const int places = (call.edge.empty() ? 0 : 1) + (any ? 1 : 0) + (names_incident(config, row) ? 1 : 0);
     if (places != 1 || any != both)
         problems.push_back({config.where(key),
                             places == 0  ? "has no place"
                             : places > 1 ? "has more than one place"
                                          : "has but one of longitude and latitude",
                             "edge, or longitude and latitude, or incident", "give one of the three"});
-    if (call.incident && static_cast<std::size_t>(*call.incident) >= config.incidents.size())
+    if (call.incident && incident_of(config, call) == nullptr)
         problems.push_back({detail::place_of_key(config, key, "incident"),
                             fmt::format("there is no incident {}", *call.incident),
                             config.incidents.empty() ? "a scenario with [[incident]]"
@@ -80,6 +89,8 @@ void check_moment(const ScenarioConfig& config, std::size_t row, Problems& probl
     const std::string where = detail::place_of_key(config, row_of(row), "at_s");
     const Times& time = config.time;
     if (!at_s) {
+        if (names_incident(config, row) && incident_of(config, call) == nullptr)
+            return;  // the fault that is told
         problems.push_back({where, "is not given", "when the call comes in, s",
                             call.incident ? "set it, or known_after_s of the incident" : "set it"});
     } else if (*at_s < time.warm_up_s ||

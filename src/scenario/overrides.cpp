@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -108,7 +109,10 @@ void apply_incidents(const Override&, const Given& given, ScenarioConfig& config
     std::istringstream rows(given.text);
     for (std::string row; std::getline(rows, row, ';');) {
         config.origins[fmt::format("incident[{}]", config.incidents.size())] = given.where;
+        const std::size_t known = problems.size();
         set_members(row, given.where, config.incidents.emplace_back(), problems);
+        if (problems.size() > known)  // times that were refused would be compared as their defaults
+            config.incidents.back().from_s = std::numeric_limits<double>::quiet_NaN();
     }
 }
 

@@ -169,7 +169,26 @@ TEST_F(CallTest, contradicting_and_missing_keys_are_all_reported) {
 }
 
 TEST_F(CallTest, a_time_that_is_given_and_wrong_is_not_missing_too) {
-    EXPECT_THAT(wrong("[[call]]\nedge = \"place\"\nat_s = -5.0\n"), SizeIs(1));
+    EXPECT_THAT(wrong("[[call]]\nedge = \"place\"\nat_s = -5.0\n"),
+                ElementsAre("call[0].at_s -5 is out of range"));
+}
+
+TEST_F(CallTest, what_follows_from_a_wrong_number_is_not_told_too) {
+    EXPECT_THAT(wrong("[[call]]\nedge = \"place\"\nat_s = 590.0\nturnout_s = -5.0\n"),
+                ElementsAre("call[0].turnout_s -5 is out of range"));
+    const std::string call = "[[call]]\nincident = 0\n";
+    EXPECT_THAT(wrong("[[incident]]\nedge = \"place\"\nfrom_s = 50.0\nknown_after_s = -5.0\n" + call),
+                ElementsAre("incident[0].known_after_s -5 is out of range"));
+    EXPECT_THAT(wrong("[[incident]]\nedge = \"place\"\nfrom_s = -5.0\nknown_after_s = 5.0\n" + call),
+                ElementsAre("incident[0].from_s -5 is out of range"));
+    EXPECT_THAT(wrong("[[incident]]\nedge = \"place\"\nfrom_s = \"x\"\nknown_after_s = 5.0\n" + call),
+                ElementsAre("incident[0].from_s is text"));
+    EXPECT_THAT(wrong("[[call]]\nincident = -1\n"), ElementsAre("call[0].incident -1 is negative"));
+    EXPECT_THAT(wrong("[[call]]\nincident = 3\n"), ElementsAre("call[0].incident there is no incident 3"));
+    std::string head = called_head;
+    head.replace(head.find("horizon_s = 600.0"), 17, "horizon_s = -600.0");
+    EXPECT_THAT(wrong("[[call]]\nedge = \"place\"\nat_s = 100000.0\n", head),
+                ElementsAre("time.horizon_s -600 is out of range"));
 }
 
 TEST_F(CallTest, places_that_cannot_be_reached_are_refused) {

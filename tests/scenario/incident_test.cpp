@@ -125,6 +125,17 @@ TEST_F(IncidentTest, values_that_cannot_be_are_all_reported_with_their_place) {
                                    "15:1: incident[0].reroute_share 1.5 is out of range"));
 }
 
+TEST_F(IncidentTest, what_follows_from_a_wrong_time_is_not_told_too) {
+    EXPECT_THAT(wrong("[[incident]]\nedge = \"main\"\nfrom_s = -1.0\nto_s = 0.0\n"),
+                ElementsAre("12:1: incident[0].from_s -1 is out of range"));
+    EXPECT_THAT(wrong("[[incident]]\nedge = \"main\"\nfrom_s = 600.0\nto_s = -1.0\n"),
+                ElementsAre("13:1: incident[0].to_s -1 is out of range",
+                            "12:1: incident[0].from_s 600 is not before the end of the run"));
+    Options options;
+    options.set("incident", "edge=main,from_s=-1,to_s=0");
+    EXPECT_THAT(wrong("", options), ElementsAre("--incident from_s -1 is out of range"));
+}
+
 TEST_F(IncidentTest, keys_that_contradict_each_other_are_refused) {
     const auto found = wrong(
         "[[incident]]\nfrom_s = 20.0\n[[incident]]\nedge = \"on\"\nlongitude = 1.0\nlatitude = 1.0\n"
