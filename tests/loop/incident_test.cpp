@@ -7,6 +7,7 @@
 #include "loop/study_folder.hpp"
 #include "loop/unit_run.hpp"
 #include "scenario/prepare.hpp"
+#include "support/temporary_folder.hpp"
 #include "trace/recording.hpp"
 #include "trace/replay.hpp"
 #include "truth/snapshot.hpp"
@@ -150,6 +151,112 @@ TEST(IncidentRun, blocks_the_road_until_it_is_over_alike_in_two_conditions) {
     EXPECT_GT(replayed.leases.compared, 0U);
     EXPECT_EQ(replayed.observations.first_difference, "");
     EXPECT_EQ(replayed.leases.first_difference, "");
+}
+
+/// Who of the others takes another way round an incident. All are on their way to it when everybody hears of
+/// it, 60 s after an EV has departed, so that conditions have moved them differently.
+class Rerouted : public ::testing::Test {
+  protected:
+    /// Notes who drives round, and when each is seen last.
+    class Round : public trace::StepListener {
+      public:
+        explicit Round(core::EdgeIndex edge) : round_(edge) {}
+        void on_step(const truth::Snapshot& snapshot, const traffic::Roster& roster) override {
+            for (std::size_t row = 0; row < snapshot.size(); ++row) {
+                const traffic::VehicleInfo& info = *roster.find(snapshot.key[row]);
+                if (info.vehicle_class == traffic::VehicleClass::emergency) continue;
+                last_s[info.id] = snapshot.time.value;
+                if (std::ranges::count(roster.route(info.route), round_) > 0) round.insert(info.id);
+            }
+        }
+        std::map<std::string, double> last_s;
+        std::set<std::string> round;
+
+      private:
+        core::EdgeIndex round_;
+    };
+    static constexpr const char* scenario = R"(
+        name = "round"
+        version = "test"
+        [network]
+        nodes = "round.nod.xml"
+        edges = "round.edg.xml"
+        [time]
+        warm_up_s = 10.0
+        window_s = 80.0
+        horizon_s = 600.0
+        [demand]
+        human = 30
+        automated = 30
+        [[flow]]
+        from = "gate"
+        to = "on"
+        [[emergency_trip]]
+        from = "gate"
+        to = "on"
+        depart_s = 40.0
+        [[incident]]
+        edge = "main"
+        lanes = "0"
+        known_after_s = 100.0
+        reroute_share = )";
+    struct Drivers {
+        std::map<std::string, double> last_s;
+        std::set<std::string> round;
+        std::uint64_t counted = 0;
+    };
+
+    Rerouted() {
+        files_.write(
+            "round.nod.xml",
+            R"(<nodes><node id="s" x="-2000" y="0"/><node id="a" x="0" y="0"/><node id="d" x="200" y="300"/>)"
+            R"(<node id="b" x="400" y="0"/><node id="c" x="1200" y="0"/></nodes>)");
+        files_.write(
+            "round.edg.xml",
+            R"(<edges><edge id="gate" from="s" to="a" numLanes="2"/><edge id="main" from="a" to="b" )"
+            R"(numLanes="2"/><edge id="up" from="a" to="d"/><edge id="down" from="d" to="b"/>)"
+            R"(<edge id="on" from="b" to="c" numLanes="2"/></edges>)");
+    }
+    Drivers with(const char* share, const std::vector<std::string>& policies, std::uint32_t replication = 0) {
+        const std::filesystem::path file = files_.write("scenario.toml", scenario + std::string(share));
+        experiment::ConditionSpec condition;
+        condition.name = "test";
+        condition.policies = policies;
+        const test::StudyFolder folder(file.string(), {}, {condition});
+        UnitRun run(folder.unit(replication), folder.path() / "demand", folder.path() / "sumo");
+        Round listener(*run.network().find_edge("up"));
+        results::RunTiming timing;
+        const results::RunRecord record = run.finish_here(condition, timing, &listener);
+        return {listener.last_s, listener.round, record.metrics.others_rerouted};
+    }
+
+  private:
+    support::TemporaryFolder files_;
+};
+
+TEST_F(Rerouted, others_are_the_same_in_every_condition_of_a_seed) {
+    const Drivers baseline = with("0.5", {});
+    EXPECT_EQ(baseline.counted, baseline.round.size());
+    // Standard deviation 4.
+    EXPECT_NEAR(static_cast<double>(baseline.round.size()), 30.0, 16.0);
+    for (const std::vector<std::string>& policies :
+         {std::vector<std::string>{"corridor"}, {"navigate", "corridor"}}) {
+        const Drivers other = with("0.5", policies);
+        EXPECT_NE(other.last_s, baseline.last_s) << "the condition changes nothing";
+        EXPECT_EQ(other.round, baseline.round);
+    }
+    const Drivers seed = with("0.5", {}, 1);
+    EXPECT_NE(seed.round, baseline.round) << "another seed chooses others";
+}
+
+TEST_F(Rerouted, others_are_none_with_share_0_and_all_with_share_1) {
+    const Drivers none = with("0.0", {});
+    EXPECT_EQ(none.last_s.size(), 60U);
+    EXPECT_TRUE(none.round.empty());
+    EXPECT_EQ(none.counted, 0U);
+    const Drivers all = with("1.0", {});
+    EXPECT_EQ(all.round.size(), 60U);
+    EXPECT_EQ(all.counted, 60U);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "roads/route_search.hpp"
 
-#include <fstream>
+#include <regex>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -12,11 +13,23 @@ namespace {
 
 class Search : public ::testing::Test {
   protected:
-    static Network read() {
+    static Network read(const std::string& text = crossing_network()) {
         const support::TemporaryFolder folder;
-        const auto file = folder.path() / "a.net.xml";
-        std::ofstream(file) << crossing_network();
-        return Network::read(file);
+        return Network::read(folder.write("a.net.xml", text));
+    }
+    /// The crossing, whose lane to the north has these permissions, and who finds a way there.
+    static bool leads_north(const char* permissions, Driver driver) {
+        const std::string lane = R"(<lane id="north_0" )";
+        const Network network =
+            read(std::regex_replace(crossing_network(), std::regex(lane), lane + permissions));
+        const auto edge = [&](const char* id) { return network.find_edge(id).value(); };
+        RouteSearch search(network, driver);
+        std::vector<core::EdgeIndex> way;
+        const auto free_s = [&](core::EdgeIndex at, double) { return search.free_s(at); };
+        const bool found = search.search({edge("south"), edge("north")}, free_s, way) != no_way_s;
+        EXPECT_EQ(way.empty(), !found);
+        EXPECT_EQ(search.time_of(std::vector{edge("south"), edge("north")}, 0.0, free_s) != no_way_s, found);
+        return found;
     }
     core::EdgeIndex edge(const char* id) const { return network_.find_edge(id).value(); }
     auto free() {
@@ -42,6 +55,25 @@ TEST_F(Search, FindsNothingWhereTurnsOrPermissionsForbid) {
     EXPECT_EQ(search_.search({edge("west"), edge("path"), 0.0}, free(), way_), no_way_s);
     const std::vector gap{edge("west"), edge("north")};
     EXPECT_EQ(search_.time_of(gap, 0.0, free()), no_way_s);
+}
+
+TEST_F(Search, HasThePermissionsOfWhoDrives) {
+    EXPECT_TRUE(leads_north("", Driver::car));
+    EXPECT_TRUE(leads_north("", Driver::emergency));
+    EXPECT_FALSE(leads_north(R"(allow="emergency" )", Driver::car));
+    EXPECT_TRUE(leads_north(R"(allow="emergency" )", Driver::emergency));
+    EXPECT_TRUE(leads_north(R"(disallow="emergency" )", Driver::car));
+    EXPECT_FALSE(leads_north(R"(disallow="emergency" )", Driver::emergency));
+}
+
+TEST_F(Search, TakesTheLaneThatIsOpenToTheDriver) {
+    // The faster lane of west is closed to cars.
+    const std::string slow =
+        std::regex_replace(crossing_network(), std::regex(R"re((<lane id="west_0".*speed=")20)re"), "$0110");
+    const Network network = read(slow);
+    const core::EdgeIndex west = network.find_edge("west").value();
+    EXPECT_DOUBLE_EQ(RouteSearch(network, Driver::car).free_s(west), 10.0);
+    EXPECT_DOUBLE_EQ(RouteSearch(network, Driver::emergency).free_s(west), 5.0);
 }
 
 TEST_F(Search, TheDestinationIsReachedWhereOneStands) {
