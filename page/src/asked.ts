@@ -4,7 +4,7 @@ import { actions, element } from "./controls";
 import type { Drawing } from "./drawing";
 import type { Lease } from "./stream";
 import type { Moment, Track } from "./track";
-import { changeText } from "./ways";
+import { changeText, consideredText, consideredWay } from "./ways";
 
 /** A vehicle by its slot, or a signal by its number, of one run. */
 export interface Thing {
@@ -20,7 +20,7 @@ export interface Asked {
   to_s: number;
 }
 
-/** The leases of a run over time. A policy that repeats a lease, or changes its amount, asks once. */
+/** The leases of a run over time. A policy that repeats a lease, or changes its amount, asks once; each way considered counts. */
 export class AskedLog {
   readonly all: Asked[] = [];
   private open = new Map<string, Asked>();
@@ -43,7 +43,8 @@ export class AskedLog {
     this.last = leases;
     const open = new Map<string, Asked>();
     for (const lease of leases) {
-      const key = [lease.onSignal, lease.target, lease.action, lease.policy, lease.reason, lease.beneficiary].join();
+      const { onSignal, target, action, policy, reason, beneficiary } = lease;
+      const key = [onSignal, target, action, policy, reason, beneficiary, consideredWay(lease)].join();
       const asked = this.open.get(key) ?? { lease, from_s: time_s, to_s: time_s };
       if (!this.open.has(key)) this.all.push(asked);
       asked.lease = lease;
@@ -81,6 +82,7 @@ export function actionText(lease: Lease): string {
     3: lease.amount === 0 ? " to the right" : " to the left",
     5: ` on ${lease.amount} links`,
   };
+  if (consideredWay(lease) !== undefined) return "considered another way";
   return `${actions[lease.action] ?? "?"}${amounts[lease.action] ?? ""}`;
 }
 
@@ -124,7 +126,8 @@ export class AskedPanel {
     const title = `${track.about.condition}, ${nameOf(thing, track, this.drawing)}${this.state(thing, now)}`;
     const asked = track.asked.of(thing, now.time_s).map(({ lease, from_s, to_s }) => {
       const until = to_s >= now.time_s - 1e-6 ? "now" : `${to_s.toFixed(2)} s`;
-      return { time_s: from_s, line: `${from_s.toFixed(2)} s to ${until}: ${actionText(lease)}${reasonText(lease, track)}` };
+      const what = consideredText(lease, from_s, track, this.drawing) ?? `${actionText(lease)}${reasonText(lease, track)}`;
+      return { time_s: from_s, line: `${from_s.toFixed(2)} s to ${until}: ${what}` };
     });
     const changes = thing.onSignal ? [] : track.ways.of(thing.number, now.time_s).map((change) => (
       { time_s: change.time_s, line: changeText(change, track, this.drawing) }

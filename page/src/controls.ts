@@ -123,6 +123,7 @@ export function legend(hasBlocks: boolean): HTMLElement {
     ["ghost", "where it is believed to be, with one sigma"],
     ["way", "way ahead of the emergency vehicle"],
     ["former-way", "the way that it left"],
+    ["considered-way", "a way considered, not taken"],
     ["lease", "a lease acts here"],
     ["chosen", "chosen: what it was asked is below"],
     ["true-link", "true link"],

@@ -8,7 +8,7 @@ import type { Drawing } from "./drawing";
 import { type FrameState, type Ghost, linkFactor } from "./stream";
 import { type Rgba, signalColour, type Theme } from "./theme";
 import type { Moment, Track } from "./track";
-import { formerLines, lineAhead, type Point } from "./ways";
+import { consideredLines, formerLines, lineAhead, type Point } from "./ways";
 
 export interface Shown {
   links: [boolean, boolean, boolean];
@@ -227,7 +227,7 @@ export class Pane {
     return slots;
   }
 
-  /** What lies ahead of emergency vehicles and, dashed, the way that one left a moment ago. */
+  /** What lies ahead of emergency vehicles and, dashed, the way that one left a moment ago; dotted, ways considered. */
   private wayLayer(slots: Set<number>, moment: Moment, theme: Theme, metresPerPixel: number): Layer {
     const boxes = this.emptied("ways");
     const { now } = moment;
@@ -242,6 +242,8 @@ export class Pane {
         for (const line of formerLines(this.drawing, former, edges, change.at))
           dashesOf(boxes, line, width_m, Math.max(5, 9 * metresPerPixel), theme.way);
       }
+      for (const line of consideredLines(this.drawing, now.leases, slot, this.track.names.ways, edges))
+        dashesOf(boxes, line, 0.5 * width_m, Math.max(2, 3 * metresPerPixel), theme.way);
       lineOf(boxes, lineAhead(this.drawing, edges, at, place), width_m, theme.way);
     }
     return BoxLayer.of(this.id("ways"), boxes);

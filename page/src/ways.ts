@@ -1,7 +1,7 @@
 // The ways of emergency vehicles: what lies ahead, where two differ, when one was changed and why.
 
 import type { Drawing } from "./drawing";
-import type { SeenWay } from "./stream";
+import type { Lease, SeenWay } from "./stream";
 import type { Track } from "./track";
 
 export type Point = [number, number];
@@ -21,8 +21,8 @@ export interface WayChange {
 export const formerShown_s = 30;
 /** A change is seen at a frame, and a lease may have ended since the one before, s. */
 const leaseOver_s = 2.5;
-/** traffic::TakeRoute. */
-const takeRoute = 9;
+/** traffic::StandBack and traffic::TakeRoute. */
+const [standBack, takeRoute] = [8, 9];
 
 /** The changes of a run over time. */
 export class WayLog {
@@ -44,6 +44,12 @@ export class WayLog {
   /** Those of a vehicle until a moment, the newest first. */
   of(slot: number, time_s: number): WayChange[] {
     return this.all.filter((change) => change.slot === slot && change.time_s <= time_s + 1e-6).reverse();
+  }
+
+  /** The number of a vehicle's way at a moment. */
+  at(slot: number, time_s: number): number | undefined {
+    const next = this.all.find((change) => change.slot === slot && change.time_s > time_s + 1e-6);
+    return next?.before ?? this.last.get(slot);
   }
 
   /** The one whose former way is still shown. */
@@ -122,9 +128,31 @@ export function lengthOf(line: Point[]): number {
   return line.slice(1).reduce((sum, [x, y], i) => sum + Math.hypot(x - (line[i] as Point)[0], y - (line[i] as Point)[1]), 0);
 }
 
+/** The number of the way that a policy considered and did not ask for. */
+export function consideredWay(lease: Lease): number | undefined {
+  return lease.action === standBack && lease.amount > 0 ? lease.amount - 1 : undefined;
+}
+
+/** Where the present way comes to the first edge of one that was considered. */
+function forkOf(considered: number[], present: number[]): number {
+  return Math.max(0, present.indexOf(considered[0] as number));
+}
+
+/** The pieces of the ways considered for a vehicle that its present one does not take. */
+export function consideredLines(drawing: Drawing, leases: Lease[], slot: number, ways: number[][], present: number[]): Point[][] {
+  return leases.filter(({ onSignal, target }) => !onSignal && target === slot).flatMap((lease) => {
+    const way = ways[consideredWay(lease) ?? -1];
+    return way === undefined ? [] : formerLines(drawing, way, present.slice(forkOf(way, present)), 0);
+  });
+}
+
 /** Metres from the beginning of the edge where the change was made to the end of either way. */
 function restOf(drawing: Drawing, way: number[], at: number): number {
   return lengthOf(way.slice(at).flatMap((edge) => middleOf(drawing, edge)));
+}
+
+function lengths(other_m: number, own_m: number): string {
+  return `${other_m.toFixed(0)} m ahead instead of ${own_m.toFixed(0)} m`;
 }
 
 /** Why a way was changed: the reason of the policy that asked for it, or what the road was like. */
@@ -138,10 +166,19 @@ export function reasonOf(change: WayChange, track: Track): string {
   return isBlocked ? "the road ahead was blocked (its crew, no policy)" : "no policy asked for it";
 }
 
+/** What is told of a way that was considered, without when. */
+export function consideredText(lease: Lease, from_s: number, track: Track, drawing: Drawing): string | undefined {
+  const considered = track.names.ways[consideredWay(lease) ?? -1];
+  const present = track.names.ways[track.ways.at(lease.target, from_s) ?? -1];
+  if (considered === undefined || present === undefined) return undefined;
+  const [other_m, own_m] = [restOf(drawing, considered, 0), restOf(drawing, present, forkOf(considered, present))];
+  const text = (number: number) => track.names.texts[number] ?? "?";
+  return `considered another way, ${lengths(other_m, own_m)}: ${text(lease.reason)} (${text(lease.policy)})`;
+}
+
 /** What is told of a change among the commands of its vehicle. */
 export function changeText(change: WayChange, track: Track, drawing: Drawing): string {
   const way = (number: number) => track.names.ways[number] ?? [];
   const [before_m, after_m] = [restOf(drawing, way(change.before), change.at), restOf(drawing, way(change.after), change.at)];
-  const lengths = `${after_m.toFixed(0)} m ahead instead of ${before_m.toFixed(0)} m`;
-  return `${change.time_s.toFixed(2)} s: took another way, ${lengths}: ${reasonOf(change, track)}`;
+  return `${change.time_s.toFixed(2)} s: took another way, ${lengths(after_m, before_m)}: ${reasonOf(change, track)}`;
 }

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { Track } from "../.build/track.js";
-import { changeText, formerLines, lengthOf, lineAhead, middleOf, reasonOf, WayLog } from "../.build/ways.js";
+import { changeText, consideredLines, consideredText, formerLines, lengthOf, lineAhead, middleOf, reasonOf, WayLog } from "../.build/ways.js";
 
 /** Edge 0 leads east for 100 m, 1 on for 100 m with a footway and two lanes, 2 north for 50 m from where 1 begins, 3 north from its end. */
 const lane = (...path) => ({ kind: path[1] === -4 ? "walk" : "road", width_m: 3.2, path: Float32Array.from(path) });
@@ -65,6 +65,42 @@ test("a track marks a change and tells its reason", () => {
   track.asked.all.push({ lease, from_s: 100, to_s: 100.25 });
   assert.equal(reasonOf(change, track), "keep clear (green_wave)");
   assert.equal(changeText(change, track, drawing), "100.50 s: took another way, 0 m ahead instead of 100 m: keep clear (green_wave)");
+});
+
+const considered = (way, more = {}) => ({ onSignal: false, target: 0, action: 8, amount: way + 1, policy: 0, reason: 2, beneficiary: 0, ...more });
+
+test("of a way that was considered only what the present one does not take is drawn", () => {
+  const ways = [[0, 1, 3], [0, 2, 3]];
+  const lines = (leases, present) => consideredLines(drawing, leases, 0, ways, present);
+  const aside = [[100, 0], [100, 0], [100, 50], [200, 0]];
+  assert.deepEqual(lines([considered(1)], [0, 1, 3]), [aside]);
+  assert.deepEqual(lines([considered(1)], [5, 0, 1, 3]), [aside], "what was driven before is no matter");
+  assert.deepEqual(lines([considered(0)], [0, 1, 3]), [], "it is the present one");
+  const others = [considered(1, { target: 4 }), considered(1, { onSignal: true }), considered(1, { action: 9 }), considered(-1), considered(7)];
+  assert.deepEqual(lines(others, [0, 1, 3]), []);
+});
+
+test("a way that was considered is told with both lengths and its reason, each way once", () => {
+  const track = played([]);
+  // Of the present way, 5 6 200 3, the map has the last edge alone; 48 m lie between the ends of 2 and 1.
+  const [first, second] = [track.names.ways.push([6, 2]) - 1, track.names.ways.push([5, 2, 1]) - 1];
+  const words = (lease) => consideredText(lease, 99, track, drawing);
+  assert.equal(words(considered(first)), "considered another way, 50 m ahead instead of 100 m: keep clear (green_wave)");
+  assert.match(words(considered(second)), /, 198 m ahead instead of 100 m: /);
+  assert.equal(words(considered(first, { action: 9 })), undefined);
+  assert.equal(words(considered(-1)), undefined, "a policy that stands back from no way");
+  const log = new Track(about, 0.1).asked;
+  [first, first, second].forEach((way, i) => log.take(i, [considered(way)]));
+  assert.deepEqual(log.all.map(({ lease, from_s, to_s }) => [lease.amount - 1, from_s, to_s]), [[first, 0, 1], [second, 2, 2]]);
+});
+
+test("the way at a moment is the one before the next change", () => {
+  const log = new WayLog();
+  log.take(1, [{ slot: 4, way: 0, at: 0 }]);
+  log.take(2, [{ slot: 4, way: 2, at: 0 }]);
+  log.take(3, [{ slot: 4, way: 5, at: 0 }]);
+  assert.deepEqual([1, 2, 2.5, 3, 9].map((time_s) => log.at(4, time_s)), [0, 2, 2, 5, 5]);
+  assert.equal(log.at(7, 2), undefined);
 });
 
 test("a block counts while it lasts", () => {

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/match_rows.hpp"
 #include "metrics/detail/conflict_watch.hpp"
+#include "metrics/detail/considered_watch.hpp"
 #include "metrics/detail/cross_watch.hpp"
 #include "metrics/detail/elements.hpp"
 #include "metrics/detail/flow_watch.hpp"
@@ -319,6 +320,7 @@ struct Recorder::State {
     std::optional<detail::FlowWatch> flow;
     std::optional<detail::HoldWatch> holds;
     std::optional<detail::LockWatch> locks;
+    std::optional<detail::ConsideredWatch> considered;
     std::optional<detail::ConflictWatch> conflicts;
     std::optional<detail::CrossWatch> cross_streets;
     std::optional<detail::SignalLog> signal_log;
@@ -341,6 +343,7 @@ void Recorder::watch(RoadLayout layout, StandingReasons reasons) {
     state_->flow.emplace(state_->layout);
     state_->holds.emplace(state_->layout);
     state_->locks.emplace(state_->layout, std::move(reasons));
+    state_->considered.emplace(state_->layout);
     state_->conflicts.emplace();
     state_->cross_streets.emplace(state_->layout);
 }
@@ -356,6 +359,7 @@ void Recorder::step(const truth::Snapshot& snapshot, const traffic::Roster& rost
         state_->flow->step(snapshot, state_->row_before);
         state_->holds->step(snapshot, leases);
         state_->locks->step(snapshot, roster);
+        state_->considered->step(roster, leases);
         state_->conflicts->step(snapshot, roster);
         state_->cross_streets->step(snapshot);
     }
@@ -405,6 +409,7 @@ RunSummary Recorder::finish(const RunEnd& end) const {
         summary.traffic = state_->traffic->tables();
         summary.traffic.holds = state_->holds->rows();
         summary.traffic.locks = state_->locks->rows();
+        summary.traffic.considered = state_->considered->rows();
         state_->locks->describe(metrics);
         state_->flow->describe(metrics);
         state_->conflicts->describe(metrics);

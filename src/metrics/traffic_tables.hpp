@@ -111,6 +111,21 @@ struct SignalHoldRow {
     }
 };
 
+/// An edge beside the way of an emergency vehicle, on ways that a policy considered for it and did not ask
+/// for.
+struct ConsideredRow {
+    std::string vehicle;  ///< SUMO's id; text from a file, so printers escape it.
+    std::string edge;
+    std::uint64_t decisions = 0;
+
+    bool operator==(const ConsideredRow&) const = default;
+
+    static constexpr void fields(const auto& table) {
+        table(core::Field{"decisions", "1", &ConsideredRow::decisions, 0.0, 1e9,
+                          "Decisions at which it was on such a way", ""});
+    }
+};
+
 /// A lock: vehicles stood at a junction over 60 s with no red, no stop and no queue to a red ahead of them.
 struct LockRow {
     std::string edge;      ///< On which, or inside the junction behind which, the first of the queue stood.
@@ -143,6 +158,7 @@ struct TrafficTables {
     std::vector<EdgeTimeRow> edge_times;  ///< By vehicle, in driving order.
     std::vector<SignalHoldRow> holds;     ///< By signal; no rows for signals that were not held.
     std::vector<LockRow> locks;           ///< By start.
+    std::vector<ConsideredRow> considered = {};  ///< By vehicle.
 
     bool operator==(const TrafficTables&) const = default;
 };

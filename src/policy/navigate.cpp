@@ -1,12 +1,15 @@
 #include "policy/navigate.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace clearway::policy {
 namespace {
 
 /// A way is asked for so long at most, s: enough to leave a junction. Later the crew may have turned.
 constexpr double longest_lease_s = 5.0;
+/// Ways that differ by less are level, s.
+constexpr double level_s = 0.1;
 
 }  // namespace
 
@@ -37,10 +40,14 @@ void Navigate::plan(const detail::View& view, const traffic::BelievedVehicle& em
     const double present_s = ways_.search().time_of(choice->present, choice->trip.leaving_s, edge_s);
     const double least_gain_s = std::max(config_.gain_s, config_.gain_share * present_s);
     const bool is_blocked = present_s == roads::no_way_s;
-    if (!is_blocked && present_s - found_s <= least_gain_s) return;
     if (std::ranges::equal(way_, choice->present)) return;
-    write.add(emergency.key, traffic::TakeRoute{detail::BelievedWays::whole(*choice, way_)},
-              is_blocked ? "its way is closed" : "another way is faster", emergency.key);
+    std::vector<core::EdgeIndex> way = detail::BelievedWays::whole(*choice, way_);
+    if (is_blocked || present_s - found_s > least_gain_s)
+        write.add(emergency.key, traffic::TakeRoute{std::move(way)},
+                  is_blocked ? "its way is closed" : "another way is faster", emergency.key);
+    else if (present_s - found_s >= level_s)
+        write.add(emergency.key, traffic::StandBack{std::move(way)},
+                  "another way is faster, but not by enough", emergency.key);
 }
 
 }  // namespace clearway::policy

@@ -91,7 +91,7 @@ struct NavigateConfig {
 
 /// Chooses the emergency vehicle's way by the times that are believed now: of vehicles seen on the roads, of
 /// signals by their programs, of incidents that are known. It changes the way where that pays, and asks for
-/// the new one until the vehicle drives it.
+/// the new one until the vehicle drives it. Of a way that pays too little it says so.
 class Navigate : public ConfiguredPolicy<NavigateConfig> {
   public:
     explicit Navigate(const PolicyContext& context, const NavigateConfig& config = {});

@@ -39,6 +39,8 @@ const char* words_of(traffic::LeaseKind action) {
             return "gave time back at a signal";
         case LeaseKind::pass_red:
             return "let the EV pass red";
+        case LeaseKind::consider_way:
+            return "considered a faster way that gains too little";
         case LeaseKind::stand_back:
             return "stood back: not the situation it is for";
         case LeaseKind::take_route:
@@ -174,7 +176,8 @@ std::string lease_sentence(const ConditionFacts& condition) {
 std::string refusals_sentence(const ConditionFacts& condition) {
     std::map<std::string, Requests> policies;
     for (const metrics::LeaseRow& row : condition.leases) {
-        if (row.action == traffic::LeaseKind::stand_back) continue;
+        if (row.action == traffic::LeaseKind::stand_back || row.action == traffic::LeaseKind::consider_way)
+            continue;
         Requests& requests = policies[row.policy];
         requests.heard += heard_of(row);
         requests.acted += row.acted;

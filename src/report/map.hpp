@@ -100,6 +100,14 @@ struct ChangedWay {
     double gain_s() const { return baseline_s - condition_s; }
 };
 
+/// An edge of ways that were considered for an emergency vehicle under a condition, and not taken.
+struct ConsideredEdge {
+    std::string vehicle;  ///< SUMO's id; text from a file, so printers escape it.
+    std::uint32_t replication = 0;
+    std::size_t edge = 0;  ///< In RoadMap::edges.
+    std::uint64_t decisions = 0;
+};
+
 /// Where the edge of a road network lies in time, seen from the nearest station.
 struct ReachedEdge {
     std::optional<double> baseline_s;   ///< At the end of the edge; nothing if no station leads there.
@@ -141,6 +149,7 @@ struct ScenarioMap {
     std::vector<SignalHolds> holds;
     std::vector<MapLocks> locks = {};
     std::vector<ChangedWay> changed_ways = {};
+    std::vector<ConsideredEdge> considered = {};
     std::uint64_t trips = 0;     ///< Of emergency vehicles that both runs of a pair have.
     std::optional<Reach> reach;  ///< Nothing for a scenario without stations.
     SignalTrips signal_trips = {};

@@ -146,6 +146,9 @@ void compare_action(Comparison& comparison, const std::string& name, const traff
                 comparison.values(name + ".links", left.links, right.links);
             if constexpr (requires { left.own_links; })
                 comparison.values(name + ".own_links", left.own_links, right.own_links);
+            if constexpr (requires { left.edges; })
+                comparison.values(name + ".edges", left.edges, right.edges);
+            if constexpr (requires { left.way; }) comparison.values(name + ".way", left.way, right.way);
         },
         one);
 }

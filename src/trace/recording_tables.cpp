@@ -166,11 +166,13 @@ class StepLines {
         std::string operator()(const traffic::AdjustGreen& action) const {
             return fmt::format(",,,{},", fmt::join(action.links, " "));
         }
-        std::string operator()(const traffic::TakeRoute& action) const {
-            std::string edges;
-            for (const core::EdgeIndex edge : action.edges)
-                edges += (edges.empty() ? "" : " ") + std::to_string(edge.value);
-            return fmt::format(",,,{},", edges);
+        std::string operator()(const traffic::TakeRoute& action) const { return way(action.edges); }
+        std::string operator()(const traffic::StandBack& action) const { return way(action.way); }
+        static std::string way(const std::vector<core::EdgeIndex>& edges) {
+            std::string numbers;
+            for (const core::EdgeIndex edge : edges)
+                numbers += (numbers.empty() ? "" : " ") + std::to_string(edge.value);
+            return fmt::format(",,,{},", numbers);
         }
         template <class Plain>
         std::string operator()(const Plain&) const {

@@ -25,6 +25,8 @@ std::string_view name(const Action& action) {
 }
 
 LeaseKind kind_of(const Lease& lease) {
+    const auto* const back = std::get_if<StandBack>(&lease.action);
+    if (back != nullptr && !back->way.empty()) return LeaseKind::consider_way;
     const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target);
     const bool is_own = vehicle != nullptr && *vehicle == lease.beneficiary;
     return is_own && std::holds_alternative<ChangeLane>(lease.action) ? LeaseKind::own_change_lane

@@ -50,7 +50,9 @@ struct AdjustGreen {
 struct PassRed {};
 /// Nothing: the policy would act, but stands back, because the situation is not one that it is for. For the
 /// emergency vehicle that it does not serve; refused as `stood_back`, so that every table counts it.
-struct StandBack {};
+struct StandBack {
+    std::vector<core::EdgeIndex> way = {};  ///< Another way that it considered, as TakeRoute has it.
+};
 /// Take another way to the same destination. For emergency vehicles. A way that was taken stays when the
 /// lease ends.
 struct TakeRoute {
@@ -98,9 +100,11 @@ struct Lease {
 
 /// What leases are counted by, by the alphabet, as in tables: the kinds of actions, and changes of lane that
 /// an emergency vehicle makes for itself. What others do for it is one thing, which lane it chooses another.
+/// To consider a way is to stand back from another one.
 enum class LeaseKind : std::uint8_t {
     adjust_green,
     change_lane,
+    consider_way,
     drive_at,
     hold_green,
     hold_lane,
@@ -111,9 +115,10 @@ enum class LeaseKind : std::uint8_t {
     stop_at_line,
     take_route,
 };
-constexpr core::Spellings<LeaseKind, 11> spellings(LeaseKind) {
+constexpr core::Spellings<LeaseKind, 12> spellings(LeaseKind) {
     return {{{LeaseKind::adjust_green, "adjust_green"},
              {LeaseKind::change_lane, "change_lane"},
+             {LeaseKind::consider_way, "consider_way"},
              {LeaseKind::drive_at, "drive_at"},
              {LeaseKind::hold_green, "hold_green"},
              {LeaseKind::hold_lane, "hold_lane"},

@@ -51,7 +51,9 @@ struct SeenLease {
     bool on_signal = false;
     std::uint32_t target = 0;  ///< Slot, or number of the signal.
     std::uint8_t action = 0;   ///< Alternative of traffic::Action.
-    std::int32_t amount = 0;  ///< Lane number, speed in `speed_quantum_mps`, side (0 right), links of a hold.
+    /// Lane number, speed in `speed_quantum_mps`, side (0 right), links of a hold, a way that was considered
+    /// (its number + 1; 0 for none).
+    std::int32_t amount = 0;
     std::uint32_t policy = 0, reason = 0;
     std::uint32_t beneficiary = 0;  ///< Slot + 1; 0 for none.
     auto operator<=>(const SeenLease&) const = default;

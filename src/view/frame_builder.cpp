@@ -111,13 +111,20 @@ std::uint32_t FrameBuilder::text_of(const std::string& text) {
 }
 
 std::uint32_t FrameBuilder::way_of(core::RouteIndex route, const traffic::Roster& roster) {
-    const auto [at, is_new] = ways_.try_emplace(route.value, static_cast<std::uint32_t>(ways_.size()));
-    if (is_new) {
-        std::vector<std::uint32_t>& way = new_names_.ways.emplace_back();
-        for (const core::EdgeIndex edge : roster.route(route))
-            way.push_back(edge.value);
-    }
-    return at->second;
+    const auto [at, is_new] = ways_.try_emplace(route.value, way_count_);
+    return is_new ? name_way(roster.route(route)) : at->second;
+}
+
+std::uint32_t FrameBuilder::way_of(const std::vector<core::EdgeIndex>& considered) {
+    const auto [at, is_new] = considered_.try_emplace(considered, way_count_);
+    return is_new ? name_way(considered) : at->second;
+}
+
+std::uint32_t FrameBuilder::name_way(std::span<const core::EdgeIndex> edges) {
+    std::vector<std::uint32_t>& way = new_names_.ways.emplace_back();
+    for (const core::EdgeIndex edge : edges)
+        way.push_back(edge.value);
+    return way_count_++;
 }
 
 void FrameBuilder::take_known_blocks(const traffic::Observation& observation) {
@@ -269,6 +276,9 @@ void FrameBuilder::draw_leases(const trace::RecordedStep& step) {
             seen.target = target;
             seen.action = static_cast<std::uint8_t>(lease.action.index());
             seen.amount = std::visit(Amount(), lease.action);
+            if (const auto* const back = std::get_if<traffic::StandBack>(&lease.action);
+                back != nullptr && !back->way.empty())
+                seen.amount = static_cast<std::int32_t>(way_of(back->way)) + 1;
             seen.policy = text_of(lease.policy);
             seen.reason = text_of(lease.reason);
             if (lease.beneficiary.value != 0) seen.beneficiary = slot_of(lease.beneficiary, *step.roster) + 1;

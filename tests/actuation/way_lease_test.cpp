@@ -55,6 +55,18 @@ TEST_F(WayLease, is_commanded_and_has_acted_once_the_vehicle_drives_it) {
     EXPECT_EQ(bench.actuator.active(), 0U);
 }
 
+TEST_F(WayLease, that_is_only_considered_is_counted_and_leaves_the_vehicle_s_other_leases_alone) {
+    bench.scene = CrossingScene(100.0, short_square());
+    const core::VehicleKey vehicle = add();
+    bench.offer(vehicle, traffic::PassRed{}, 2.0, 0, "policy", vehicle);
+    EXPECT_EQ(bench.only<traffic::SetJunctionPrivilege>(bench.step()).size(), 1U);
+    bench.offer(vehicle, traffic::StandBack{over_a1}, 2.0, 0, "policy", vehicle);
+    EXPECT_TRUE(bench.step().empty());
+    EXPECT_EQ(bench.counts(LeaseKind::consider_way).refused.at(Refusal::stood_back), 1U);
+    EXPECT_EQ(bench.counts(LeaseKind::consider_way).acted, 0U);
+    EXPECT_EQ(bench.actuator.active(), 1U);
+}
+
 TEST_F(WayLease, what_was_driven_of_it_is_left_out) {
     bench.scene = CrossingScene(100.0, short_square());
     const core::VehicleKey vehicle =

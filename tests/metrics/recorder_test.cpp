@@ -370,6 +370,16 @@ TEST_F(TraceHashOfARun, MovesWithEveryMemberOfALease) {
     EXPECT_NE(hash({lease}), hash({lease, lease}));
 }
 
+TEST_F(TraceHashOfARun, StaysWhereAWayIsOnlyConsidered) {
+    traffic::Lease lease;
+    lease.target = VehicleKey{1};
+    lease.action = traffic::StandBack{{core::EdgeIndex{1}}};
+    EXPECT_EQ(hash({lease}), hash());
+    traffic::Lease taken = lease;
+    taken.action = traffic::TakeRoute{{core::EdgeIndex{1}}};
+    EXPECT_EQ(hash({lease, taken}), hash({taken}));
+}
+
 TEST_F(TraceHashOfARun, MovesWithTargetActionAndExpiryOfALease) {
     traffic::Lease lease;
     lease.target = VehicleKey{1};

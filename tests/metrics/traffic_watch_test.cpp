@@ -373,6 +373,37 @@ TEST_F(TrafficWatch, CountsASignalAsHeldWhileItIsAskedForGreenAndShowsIt) {
     EXPECT_THAT(tables().holds, ElementsAre(SignalHoldRow{"J", 2, 5.0}));
 }
 
+TEST_F(TrafficWatch, CountsTheEdgesOfWaysThatWereConsideredBesideTheVehicleSOwn) {
+    RoadLayout layout = crossing();
+    layout.chain.edge_ids = {"in", "out", "aside", "round"};
+    watch_anew(layout);
+    const auto edges = [](std::initializer_list<std::uint32_t> numbers) {
+        std::vector<core::EdgeIndex> found;
+        for (const std::uint32_t number : numbers)
+            found.push_back({number});
+        return found;
+    };
+    const core::VehicleKey ev = core::vehicle_key("ev");
+    roster_.add({.key = ev,
+                 .id = "ev",
+                 .vehicle_class = VehicleClass::emergency,
+                 .route = roster_.add_route(edges({0, 1}))});
+    const auto issue = [&](double time_s, traffic::Action action) {
+        traffic::Lease lease;
+        lease.target = ev;
+        lease.action = std::move(action);
+        step(time_s, "rr", {lease});
+    };
+    issue(0.0, traffic::StandBack{edges({0, 2, 1})});
+    issue(1.0, traffic::StandBack{edges({0, 3, 2, 1})});
+    issue(2.0, traffic::StandBack{});
+    issue(3.0, traffic::TakeRoute{edges({0, 3})});
+    roster_.set_route(ev, roster_.add_route(edges({0, 3})));
+    issue(4.0, traffic::StandBack{edges({0, 3, 2})});
+    EXPECT_THAT(tables().considered,
+                ElementsAre(ConsideredRow{"ev", "aside", 3}, ConsideredRow{"ev", "round", 1}));
+}
+
 TEST_F(TrafficWatch, CountsAHoldThatIsRenewedWhenItExpiresOnce) {
     traffic::Lease lease;
     lease.target = SignalIndex{0};

@@ -97,8 +97,24 @@ TEST_F(Navigation, refuses_to_assume_other_days_that_the_scenario_does_not_have)
     }
 }
 
-TEST_F(Navigation, changes_for_no_less_than_the_gain_that_it_asks) {
+TEST_F(Navigation, changes_for_no_less_than_the_gain_that_it_asks_and_says_which_way_it_considered) {
     add_queue();
+    policy::Navigate navigate({short_square()}, {.replan_s = 5.0, .gain_s = 1e6});
+    const auto leases = act_for(navigate, 60.0);
+    ASSERT_FALSE(leases.empty());
+    EXPECT_LE(leases.size(), 12U) << "where it plans, not at every decision";
+    for (const traffic::Lease& lease : leases) {
+        EXPECT_EQ(std::get<core::VehicleKey>(lease.target), ev);
+        EXPECT_EQ(lease.beneficiary, ev);
+        EXPECT_STREQ(lease.reason, "another way is faster, but not by enough");
+        EXPECT_EQ(std::get<traffic::StandBack>(lease.action).way,
+                  edges({"left0A0", "A0A1", "A1B1", "B1right1"}));
+    }
+}
+
+TEST_F(Navigation, considers_no_way_once_it_is_on_the_fastest) {
+    add_queue();
+    scene.roster().set_route(ev, scene.roster().add_route(edges({"left0A0", "A0A1", "A1B1", "B1right1"})));
     policy::Navigate navigate({short_square()}, {.gain_s = 1e6});
     EXPECT_TRUE(act_for(navigate, 60.0).empty());
 }
@@ -167,8 +183,10 @@ TEST_F(Navigation, goes_back_and_forth_between_ways_that_are_level_only_without_
         int changes = 0;
         for (int decision = 0; decision < 60; ++decision) {
             for (const traffic::Lease& lease : act_for(navigate, 5.0)) {
+                const auto* const way = std::get_if<traffic::TakeRoute>(&lease.action);
+                if (way == nullptr) continue;  // considered alone
                 traffic::Roster& roster = scene.roster();
-                roster.set_route(ev, roster.add_route(std::get<traffic::TakeRoute>(lease.action).edges));
+                roster.set_route(ev, roster.add_route(way->edges));
                 ++changes;
             }
             const core::EdgeIndex seen = edge(decision / 2 % 2 == 0 ? "A1B1" : "A0B0");

@@ -145,6 +145,18 @@ TEST(Page, draws_the_ways_that_were_changed_and_one_trip_on_both) {
     EXPECT_THAT(page_of(study), Not(HasSubstr("One trip on two ways")));
 }
 
+TEST(Page, draws_the_ways_that_were_considered_and_not_taken) {
+    StudyFacts study = tests::study({"merge"});
+    ScenarioMap& map = *study.scenarios[0].map;
+    map.changed_ways = {changed_way("one", 1.0)};
+    EXPECT_THAT(page_of(study), Not(HasSubstr("on a way considered, not taken")));
+    map.considered = {{"one", 0, 5, 3}, {"one", 1, 6, 1}, {"another", 0, 5, 1004}};
+    const std::string page = page_of(study);
+    EXPECT_EQ(count_of(page, "on a way considered, not taken"), 2u) << "of the map, and of the one trip";
+    EXPECT_EQ(count_of(page, "class=\"way considered\""), 5u) << "two edges, one, and the legends";
+    EXPECT_THAT(page, HasSubstr(">1,007</td>")) << "decisions, of all vehicles";
+}
+
 TEST(Page, marks_places_of_calls_on_the_map) {
     StudyFacts study = tests::study({"merge"});
     EXPECT_THAT(page_of(study), Not(HasSubstr("EVs are called here")));

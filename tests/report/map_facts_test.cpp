@@ -106,6 +106,25 @@ TEST_F(MapFacts, TellWhichVehiclesTookAnotherWay) {
     EXPECT_EQ(scenario.map->trips, 6U);
 }
 
+TEST_F(MapFacts, TellWhichEdgesWereConsideredUnderTheCondition) {
+    EXPECT_TRUE(crossing().map->considered.empty());
+    const results::Store store = results::Store::open(folder_.path() / "study");
+    for (const char* const condition : {"baseline", "helps"}) {
+        auto run = *store.read({"crossing", condition, 1});
+        run.traffic = store.read_traffic(run.key);
+        run.traffic.considered = {{"emergency<0>", "off the map", 1}, {"emergency<0>", "west_in", 4}};
+        std::filesystem::remove_all(folder_.path() / "study" / "runs" / "crossing" / condition / "00001");
+        store.write(run, {});
+    }
+    const ScenarioFacts scenario = crossing();
+    ASSERT_EQ(scenario.map->considered.size(), 1U);
+    const ConsideredEdge& edge = scenario.map->considered[0];
+    EXPECT_EQ(edge.vehicle, "emergency<0>");
+    EXPECT_EQ(edge.replication, 1U);
+    EXPECT_EQ(scenario.roads->edges[edge.edge].id, "west_in");
+    EXPECT_EQ(edge.decisions, 4U);
+}
+
 TEST_F(MapFacts, ReachStartsAtTheStations) {
     const ScenarioFacts scenario = crossing();
     ASSERT_TRUE(scenario.map && scenario.map->reach);

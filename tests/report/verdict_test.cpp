@@ -331,7 +331,8 @@ TEST(Verdict, says_that_most_of_a_policys_requests_were_refused_and_what_helps) 
     condition.leases = {
         {"Mine", LeaseKind::change_lane, 3600, 0, 50, 70, {{Refusal::not_controllable, 3500}}},
         {"Mine", LeaseKind::hold_green, 87, 0, 2, 70, {{Refusal::lockout, 80}}},
-        {"Mine", LeaseKind::stand_back, 90000, 0, 0, 0, {{Refusal::stood_back, 90000}}}};
+        {"Mine", LeaseKind::stand_back, 90000, 0, 0, 0, {{Refusal::stood_back, 90000}}},
+        {"Mine", LeaseKind::consider_way, 800, 0, 0, 0, {{Refusal::stood_back, 800}}}};
     EXPECT_THAT(text(), HasSubstr(" Of Mine's 3,687 requests 98 % were never carried out, mostly refused as "
                                   "not_controllable: human drivers; ask only where "
                                   "belief.vehicles.is_automated."));

@@ -60,6 +60,7 @@ TEST_F(StoreOfAStudy, KeepsWhereTimeWasLostAndReadsJourneysEdgeTimesAndHoldsOnly
     run.traffic.edge_times.clear();
     run.traffic.holds.clear();
     run.traffic.locks.clear();
+    run.traffic.considered.clear();
     EXPECT_EQ(store_.read(treated), run);
 }
 

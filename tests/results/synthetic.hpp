@@ -56,6 +56,7 @@ inline metrics::TrafficTables traffic_tables() {
     tables.edge_times = {{"ev 1", "a,\"b", 60.25, 12.5}};
     tables.holds = {{"J\n2", 3, 41.5}};
     tables.locks = {{"a,\"b", "J\n2", 60.0, 81.25, 4, 1}};
+    tables.considered = {{"ev 1", "a,\"b", 7}};
     return tables;
 }
 

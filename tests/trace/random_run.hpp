@@ -197,7 +197,9 @@ class RandomRun {
         for (const Action& action :
              {Action(DriveAt{core::MetresPerSecond(real())}), Action(ChangeLane{below(4)}),
               Action(HoldLane{}), Action(PullAside{Side::left}), Action(StopAtLine{}), Action(StandBack{}),
-              Action(HoldGreen{{1, 5, 9}, {5}}), Action(AdjustGreen{{}}), Action(PassRed{})}) {
+              Action(StandBack{{core::EdgeIndex{8}, core::EdgeIndex{70000}}}),
+              Action(TakeRoute{{core::EdgeIndex{3}, core::EdgeIndex{1}}}), Action(HoldGreen{{1, 5, 9}, {5}}),
+              Action(AdjustGreen{{}}), Action(PassRed{})}) {
             const std::array<Target, 3> targets = {
                 somebody, core::SignalIndex{below(3)},
                 Stretch{core::LaneIndex{below(9)}, real(), real(), real(),

@@ -74,6 +74,20 @@ TEST(Difference, SeesTheLinksThatAnEmergencyVehicleItselfTakes) {
     EXPECT_THAT(trace::difference(one, other).value_or(""), testing::HasSubstr("own_links"));
 }
 
+TEST(Difference, SeesAnotherWayTakenOrConsidered) {
+    const std::vector<core::EdgeIndex> way = {core::EdgeIndex{1}, core::EdgeIndex{2}};
+    const std::vector<core::EdgeIndex> beside = {core::EdgeIndex{1}, core::EdgeIndex{3}};
+    std::vector<traffic::Lease> one(2);
+    one[0].action = traffic::TakeRoute{way};
+    one[1].action = traffic::StandBack{way};
+    std::vector<traffic::Lease> other = one;
+    EXPECT_EQ(trace::difference(one, other), std::nullopt);
+    other[1].action = traffic::StandBack{beside};
+    EXPECT_THAT(trace::difference(one, other).value_or(""), testing::HasSubstr("[1].action.way"));
+    other[0].action = traffic::TakeRoute{beside};
+    EXPECT_THAT(trace::difference(one, other).value_or(""), testing::HasSubstr("[0].action.edges"));
+}
+
 void expect_same(const trace::RecordedStep& one, const trace::RecordedStep& other) {
     EXPECT_EQ(trace::difference(*one.snapshot, *other.snapshot), std::nullopt);
     EXPECT_TRUE(same(*one.events, *other.events));

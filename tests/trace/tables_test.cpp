@@ -43,7 +43,9 @@ class OneStep : public testing::Test {
             {core::SignalIndex{0}, traffic::HoldGreen{{2, 3}, {3}}, core::Seconds(20.0), 0, "preempt", "near",
              ambulance},
             {traffic::Stretch{core::LaneIndex{1}, 20.0F, 320.5F, 8.0F}, traffic::PullAside{},
-             core::Seconds(17.5), 1, "geocast", "cleared", ambulance}};
+             core::Seconds(17.5), 1, "geocast", "cleared", ambulance},
+            {ambulance, traffic::StandBack{{core::EdgeIndex{4}, core::EdgeIndex{0}}}, core::Seconds(18.0), 0,
+             "navigate", "faster", ambulance}};
         step_ = {&snapshot_, &roster_, &events_, &observation_, &belief_, leases_};
     }
     std::string lines(trace::RecordingTable table) const {
@@ -76,7 +78,8 @@ TEST_F(OneStep, IsWrittenWithNamesAndUnits) {
               "12.5,car,,change_lane,,1,,,,14,2,clear_lane,in the way,\"ambulance,1\",,,,,\n"
               "12.5,,crossing,hold_green,,,,2 3,3,20,0,preempt,near,\"ambulance,1\",,,,,\n"
               "12.5,,,pull_aside,,,right,,,17.5,1,geocast,cleared,\"ambulance,1\",first_1,20,320.5,8,"
-              "automated\n");
+              "automated\n"
+              "12.5,\"ambulance,1\",,stand_back,,,,4 0,,18,0,navigate,faster,\"ambulance,1\",,,,,\n");
 }
 
 TEST(RecordingTables, HaveAsManyCellsAsTheirHeaderInEveryLine) {

@@ -189,6 +189,39 @@ TEST_F(FrameBuilderTest, the_way_of_an_emergency_vehicle_is_shown_and_the_one_th
     EXPECT_THAT(names_.ways, ElementsAre(edges_of(other)));
 }
 
+TEST_F(FrameBuilderTest, a_way_that_was_considered_is_named_once_and_its_lease_tells_the_number) {
+    const core::VehicleKey ev = scene_.key("e1");
+    const auto considers = [&](std::vector<core::EdgeIndex> way, double for_s) {
+        return traffic::Lease{ev,
+                              traffic::StandBack{std::move(way)},
+                              core::Seconds(scene_.snapshot().time.value + for_s),
+                              0,
+                              "navigate",
+                              "faster",
+                              ev};
+    };
+    std::vector<traffic::Lease> leases = {considers({core::EdgeIndex{0}, core::EdgeIndex{9}}, 1.0)};
+    trace::RecordedStep now = step();
+    now.leases = leases;
+    const Frame& first = frame(now);
+    ASSERT_THAT(first.leases, SizeIs(1));
+    EXPECT_EQ(first.leases[0].amount, 2) << "way 1; 0 is its own";
+    ASSERT_THAT(names_.ways, SizeIs(2));
+    EXPECT_THAT(names_.ways[1], ElementsAre(0, 9));
+
+    EXPECT_EQ(frame(now).leases[0].amount, 2);
+    EXPECT_THAT(names_.ways, SizeIs(0));
+
+    leases = {considers({core::EdgeIndex{0}, core::EdgeIndex{8}}, 1.0)};
+    now.leases = leases;
+    EXPECT_EQ(frame(now).leases[0].amount, 3);
+    leases = {considers({}, 1.0)};
+    now.leases = leases;
+    EXPECT_EQ(frame(now).leases[0].amount, 0);
+    scene_.pass(core::Seconds(2.0));
+    EXPECT_THAT(frame(step()).leases, SizeIs(0));
+}
+
 TEST_F(FrameBuilderTest, a_blocked_road_is_known_from_the_report_that_knows_it_to_the_one_that_does_not) {
     traffic::Observation observation = support::perfect_observation(scene_);
     observation.is_report = true;

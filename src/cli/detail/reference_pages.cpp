@@ -35,13 +35,17 @@ ReferencePage columns() {
              table_of<metrics::LeaseRow>("Leases",
                                          "One row for each policy and action in `run.json`; `leases.csv` "
                                          "has a row for each outcome; the action `own_change_lane` is an EV "
-                                         "that changes its lane itself"),
+                                         "that changes its lane itself, `consider_way` a faster way that "
+                                         "gains too little"),
              table_of<metrics::ApproachRow>("Approaches", "Time lost by approach and class, in `run.json`"),
              table_of<metrics::RecoveryRow>("Recovery", "What a signal was like after an EV, in `run.json`"),
              table_of<metrics::JourneyRow>("Journeys",
                                            "Where an EV was, in `run.json` of the first three "
                                            "replications"),
              table_of<metrics::EdgeTimeRow>("Edge times", "How EVs drove their routes, in `run.json`"),
+             table_of<metrics::ConsideredRow>("Ways considered",
+                                              "Edges beside an EV's way that a policy considered and did "
+                                              "not ask for, in `run.json`"),
              table_of<metrics::SignalHoldRow>("Signal holds", "Signals that policies held, in `run.json`"),
              table_of<metrics::SignalEvent>("Signal events",
                                             "Event logs of signals while they are asked for, in "

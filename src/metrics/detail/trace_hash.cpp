@@ -1,5 +1,6 @@
 #include "metrics/detail/trace_hash.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 #include <variant>
@@ -77,8 +78,12 @@ void TraceHash::add(const truth::Snapshot& snapshot) {
 
 void TraceHash::add(std::span<const traffic::Lease> leases) {
     Adder adder{hash_};
-    adder.value(static_cast<std::uint64_t>(leases.size()));
+    const auto counts = [](const traffic::Lease& lease) {
+        return kind_of(lease) != traffic::LeaseKind::consider_way;
+    };
+    adder.value(static_cast<std::uint64_t>(std::ranges::count_if(leases, counts)));
     for (const traffic::Lease& lease : leases) {
+        if (!counts(lease)) continue;
         adder.value(static_cast<std::uint64_t>(lease.target.index()));
         std::visit(adder, lease.target);
         adder.text(traffic::name(lease.action));

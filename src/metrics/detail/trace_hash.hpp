@@ -10,7 +10,8 @@
 namespace clearway::metrics::detail {
 
 /// Hash over everything that happened in a run: each snapshot in full, then the leases of that step. XXH3,
-/// 128 bit, streamed. Does not depend on struct padding: every number is hashed by itself or in an array of
+/// 128 bit, streamed. Ways that were only considered are left out, because they change
+/// nothing. Does not depend on struct padding: every number is hashed by itself or in an array of
 /// numbers.
 class TraceHash {
   public:

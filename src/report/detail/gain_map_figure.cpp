@@ -58,6 +58,14 @@ void draw_changed(MapCanvas& canvas, const RoadMap& roads, const WayCounts& coun
         canvas.edge(roads.edges[edge], trips > 0 ? "way taken" : "way left");
 }
 
+/// Decisions by edge, of ways that were considered and not taken.
+std::map<std::size_t, std::uint64_t> considered_edges(const ScenarioMap& map) {
+    std::map<std::size_t, std::uint64_t> decisions;
+    for (const ConsideredEdge& one : map.considered)
+        decisions[one.edge] += one.decisions;
+    return decisions;
+}
+
 /// The ways, small changes first, so that large ones lie on top.
 void draw_ways(MapCanvas& canvas, const RoadMap& roads, const ScenarioMap& map) {
     std::vector<EdgeTimes> times = map.times;
@@ -149,6 +157,9 @@ DataTable data_of(const ScenarioFacts& scenario, const WayCounts& counts,
     for (const auto& [edge, trips] : counts)
         table.rows.push_back({"trips more than in the baseline", roads.edges[edge].id,
                               number(static_cast<double>(trips), typeset(0, Sign::always)), "", "", ""});
+    for (const auto& [edge, decisions] : considered_edges(map))
+        table.rows.push_back(
+            {"decisions with it on a way not taken", roads.edges[edge].id, grouped(decisions), "", "", ""});
     for (const MapIncident& one : roads.incidents)
         table.rows.push_back({"blocked, from and to, s", one.edge, "", number(one.from_s, typeset(0)),
                               number(one.to_s, typeset(0)), ""});
@@ -182,6 +193,7 @@ std::vector<LegendEntry> entries_of(const RoadMap& roads, const ScenarioMap& map
         entries.push_back(stripe_entry("way taken", "more EVs than in the baseline"));
         entries.push_back(stripe_entry("way left", "fewer EVs"));
     }
+    if (!map.considered.empty()) entries.push_back(considered_entry());
     if (!roads.incidents.empty()) entries.push_back({incident_sign, "road blocked for a while"});
     if (!roads.calls.empty())
         entries.push_back({"<circle class=\"call\" cx=\"20\" cy=\"6\" r=\"5\"/>", "EVs are called here"});
@@ -204,6 +216,8 @@ Figure gain_map_figure(const ScenarioFacts& scenario) {
     const WayCounts counts = way_counts(map);
     draw_changed(canvas, roads, counts);
     draw_ways(canvas, roads, map);
+    for (const auto& [edge, decisions] : considered_edges(map))
+        canvas.edge(roads.edges[edge], "way considered");
     draw_holds(canvas, roads, map);
     draw_locks(canvas, roads, map);
     canvas.incidents(roads);

@@ -54,6 +54,11 @@ inline constexpr const char* incident_sign =
     "<circle class=\"block\" cx=\"20.0\" cy=\"5.0\" r=\"7\"/><path class=\"blockBar\" d=\"M16.0 "
     "3.5h8v3h-8z\"/>\n";
 
+/// Of edges in the style `way considered`.
+inline LegendEntry considered_entry() {
+    return stripe_entry("way considered", "on a way considered, not taken: it gains too little");
+}
+
 std::vector<const MapEdge*> all_edges(const RoadMap& map);
 
 /// Whether there is something to draw.

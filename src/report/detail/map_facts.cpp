@@ -28,6 +28,15 @@ Passages passages_of(const metrics::TrafficTables& tables) {
     return passages;
 }
 
+void add_considered(const metrics::TrafficTables& tables, const EdgePlaces& edges, std::uint32_t replication,
+                    ScenarioMap& map) {
+    for (const metrics::ConsideredRow& row : tables.considered) {
+        const auto edge = edges.find(row.edge);
+        if (edge != edges.end())
+            map.considered.push_back({row.vehicle, replication, edge->second, row.decisions});
+    }
+}
+
 void add_locks(const metrics::TrafficTables& tables, const EdgePlaces& edges, std::uint64_t MapLocks::*count,
                Sums& sums) {
     for (const metrics::LockRow& row : tables.locks) {
@@ -155,6 +164,7 @@ std::optional<ScenarioMap> map_in(RunTraffic& traffic, const StudyFacts& study,
         add_trips(ends_of(without, edges, roads), ends_of(with, edges, roads), map.signal_trips);
         add_changed_ways(driven_ways(without, edges, roads), driven_ways(with, edges, roads), replication,
                          map);
+        add_considered(with, edges, replication, map);
     }
     if (sums.times.empty()) return std::nullopt;
     map.condition = static_cast<std::size_t>(condition - scenario.conditions.data());

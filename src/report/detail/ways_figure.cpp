@@ -92,6 +92,21 @@ void draw_line(MapCanvas& canvas, const std::vector<MapPlace>& line, const Serie
     canvas.path(points, line_style(series));
 }
 
+/// Whether a way was considered for the vehicle that is not its own.
+bool draw_considered(MapCanvas& canvas, const ScenarioFacts& scenario, const ChangedWay& change,
+                     const RoadMap& near) {
+    bool any = false;
+    for (const ConsideredEdge& one : scenario.map->considered) {
+        const MapEdge& edge = scenario.roads->edges[one.edge];
+        if (one.vehicle != change.vehicle || one.replication != change.replication ||
+            !near.find_edge(edge.id))
+            continue;
+        canvas.edge(edge, "way considered");
+        any = true;
+    }
+    return any;
+}
+
 /// The words stand on the side from which no way comes, where they have room.
 void draw_end(MapCanvas& canvas, const MapPlace& place, const MapPlace& next, const char* words) {
     constexpr double room = 48.0;
@@ -149,6 +164,7 @@ Figure ways_figure(const ScenarioFacts& scenario) {
     const Series without{scenario.place_of(condition.baseline)};
     draw_line(canvas, around.after, with);
     draw_line(canvas, around.before, without);
+    const bool has_others = draw_considered(canvas, scenario, *change, around.roads);
     canvas.incidents(around.roads);
     draw_end(canvas, around.after.front(), around.after[1], "start");
     draw_end(canvas, around.after.back(), around.after[around.after.size() - 2], "end");
@@ -161,6 +177,7 @@ Figure ways_figure(const ScenarioFacts& scenario) {
         line_entry(with, fmt::format("{}: {} km, {} s", condition.label(),
                                      number(length_km(*scenario.roads, change->condition), typeset(2)),
                                      number(change->condition_s, typeset(0))))};
+    if (has_others) legend.push_back(considered_entry());
     if (!around.roads.incidents.empty()) legend.push_back({incident_sign, "road blocked for a while"});
     canvas.legend(legend);
     return {"ways-" + scenario.name, "One trip on two ways", canvas.finish(),

@@ -11,6 +11,7 @@ namespace clearway::results::detail {
 namespace {
 
 using metrics::ApproachRow;
+using metrics::ConsideredRow;
 using metrics::EdgeTimeRow;
 using metrics::JourneyRow;
 using metrics::LockRow;
@@ -26,6 +27,9 @@ std::string words_of(const JourneyRow& row) {
                        core::csv_text(row.state));
 }
 std::string words_of(const EdgeTimeRow& row) {
+    return fmt::format("{},{}", core::csv_text(row.vehicle), core::csv_text(row.edge));
+}
+std::string words_of(const ConsideredRow& row) {
     return fmt::format("{},{}", core::csv_text(row.vehicle), core::csv_text(row.edge));
 }
 std::string words_of(const SignalHoldRow& row) {
@@ -51,6 +55,11 @@ std::size_t read_words(const Cells& cells, JourneyRow& row) {
     return 3;
 }
 std::size_t read_words(const Cells& cells, EdgeTimeRow& row) {
+    row.vehicle = cells.at(0);
+    row.edge = cells.at(1);
+    return 2;
+}
+std::size_t read_words(const Cells& cells, ConsideredRow& row) {
     row.vehicle = cells.at(0);
     row.edge = cells.at(1);
     return 2;
@@ -119,6 +128,8 @@ core::Json traffic_to_json(const metrics::TrafficTables& tables) {
     object["edge_times"] = to_csv(tables.edge_times, "vehicle,edge");
     object["holds"] = to_csv(tables.holds, "signal");
     object["locks"] = to_csv(tables.locks, "edge,junction");
+    // Left out where it is empty, as in older run folders.
+    if (!tables.considered.empty()) object["considered"] = to_csv(tables.considered, "vehicle,edge");
     return object;
 }
 
@@ -135,6 +146,8 @@ metrics::TrafficTables all_traffic_from_json(const core::Json& run, const std::s
     tables.edge_times = from_csv<EdgeTimeRow>(run, "edge_times", where);
     tables.holds = from_csv<SignalHoldRow>(run, "holds", where);
     tables.locks = from_csv<LockRow>(run, "locks", where);
+    if (const auto written = run.find("traffic"); written != run.end() && written->contains("considered"))
+        tables.considered = from_csv<ConsideredRow>(run, "considered", where);
     return tables;
 }
 

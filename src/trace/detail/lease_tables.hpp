@@ -22,6 +22,12 @@ template <class Number>
 std::string number_list(const std::vector<Number>& numbers) {
     return fmt::format("{}", fmt::join(numbers, " "));
 }
+inline std::string number_list(const std::vector<core::EdgeIndex>& way) {
+    std::vector<std::uint32_t> edges;
+    for (const core::EdgeIndex edge : way)
+        edges.push_back(edge.value);
+    return number_list(edges);
+}
 template <class Number>
 std::vector<Number> numbers_from(const std::string& text) {
     std::vector<Number> numbers;
@@ -33,6 +39,13 @@ std::vector<Number> numbers_from(const std::string& text) {
         at = next;
     }
     return numbers;
+}
+
+inline std::vector<core::EdgeIndex> way_from(const std::string& text) {
+    std::vector<core::EdgeIndex> way;
+    for (const std::uint32_t edge : numbers_from<std::uint32_t>(text))
+        way.push_back({edge});
+    return way;
 }
 
 /// The leases that a decision issued.
@@ -141,10 +154,9 @@ class LeaseTables {
         } else if constexpr (std::is_same_v<Action, traffic::AdjustGreen>) {
             members.links = number_list(action.links);
         } else if constexpr (std::is_same_v<Action, traffic::TakeRoute>) {
-            std::vector<std::uint32_t> edges;
-            for (const core::EdgeIndex edge : action.edges)
-                edges.push_back(edge.value);
-            members.links = number_list(edges);
+            members.links = number_list(action.edges);
+        } else if constexpr (std::is_same_v<Action, traffic::StandBack>) {
+            members.links = number_list(action.way);
         } else {
             static_assert(std::is_empty_v<Action>, "a new action must be coded here");
         }
@@ -164,8 +176,9 @@ class LeaseTables {
         } else if constexpr (std::is_same_v<Action, traffic::AdjustGreen>) {
             action.links = numbers_from<std::uint16_t>(members.links);
         } else if constexpr (std::is_same_v<Action, traffic::TakeRoute>) {
-            for (const std::uint32_t edge : numbers_from<std::uint32_t>(members.links))
-                action.edges.push_back(core::EdgeIndex{edge});
+            action.edges = way_from(members.links);
+        } else if constexpr (std::is_same_v<Action, traffic::StandBack>) {
+            action.way = way_from(members.links);
         } else {
             static_assert(std::is_empty_v<Action>, "a new action must be coded here");
         }
