@@ -232,7 +232,8 @@ export class Pane {
     const boxes = this.emptied("ways");
     const { now } = moment;
     const width_m = Math.max(1.4, 4 * metresPerPixel);
-    for (const { slot, way, at } of now.ways) {
+    for (const seen of now.ways) {
+      const { slot, way, at } = seen;
       const place = slots.has(slot) ? this.placeOf(slot, moment) : undefined;
       const edges = this.track.names.ways[way];
       if (place === undefined || edges === undefined) continue;
@@ -242,7 +243,7 @@ export class Pane {
         for (const line of formerLines(this.drawing, former, edges, change.at))
           dashesOf(boxes, line, width_m, Math.max(5, 9 * metresPerPixel), theme.way);
       }
-      for (const line of consideredLines(this.drawing, now.leases, slot, this.track.names.ways, edges))
+      for (const line of consideredLines(this.drawing, now.leases, seen, this.track.names.ways))
         dashesOf(boxes, line, 0.5 * width_m, Math.max(2, 3 * metresPerPixel), theme.way);
       lineOf(boxes, lineAhead(this.drawing, edges, at, place), width_m, theme.way);
     }

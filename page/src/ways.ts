@@ -133,16 +133,12 @@ export function consideredWay(lease: Lease): number | undefined {
   return lease.action === standBack && lease.amount > 0 ? lease.amount - 1 : undefined;
 }
 
-/** Where the present way comes to the first edge of one that was considered. */
-function forkOf(considered: number[], present: number[]): number {
-  return Math.max(0, present.indexOf(considered[0] as number));
-}
-
-/** The pieces of the ways considered for a vehicle that its present one does not take. */
-export function consideredLines(drawing: Drawing, leases: Lease[], slot: number, ways: number[][], present: number[]): Point[][] {
+/** The pieces of the ways considered for a vehicle that its present one does not take any more. */
+export function consideredLines(drawing: Drawing, leases: Lease[], { slot, way, at }: SeenWay, ways: number[][]): Point[][] {
+  const ahead = (ways[way] ?? []).slice(at);
   return leases.filter(({ onSignal, target }) => !onSignal && target === slot).flatMap((lease) => {
-    const way = ways[consideredWay(lease) ?? -1];
-    return way === undefined ? [] : formerLines(drawing, way, present.slice(forkOf(way, present)), 0);
+    const considered = ways[consideredWay(lease) ?? -1] ?? [];
+    return formerLines(drawing, considered.slice(Math.max(0, considered.indexOf(ahead[0] as number))), ahead, 0);
   });
 }
 
@@ -171,7 +167,8 @@ export function consideredText(lease: Lease, from_s: number, track: Track, drawi
   const considered = track.names.ways[consideredWay(lease) ?? -1];
   const present = track.names.ways[track.ways.at(lease.target, from_s) ?? -1];
   if (considered === undefined || present === undefined) return undefined;
-  const [other_m, own_m] = [restOf(drawing, considered, 0), restOf(drawing, present, forkOf(considered, present))];
+  const from = Math.max(0, present.indexOf(considered[0] as number));
+  const [other_m, own_m] = [restOf(drawing, considered, 0), restOf(drawing, present, from)];
   const text = (number: number) => track.names.texts[number] ?? "?";
   return `considered another way, ${lengths(other_m, own_m)}: ${text(lease.reason)} (${text(lease.policy)})`;
 }

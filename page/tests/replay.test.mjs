@@ -383,6 +383,42 @@ test("the way of the followed vehicle is drawn and, when it changes, both ways, 
   }
 });
 
+test("a way that is considered and not taken is dotted while it is considered, and told with both lengths", options, async () => {
+  const { page, faults, close, lookAt, shapes, edges } = await openBlocked();
+  const { vehicle, time_s, links } = rows(clearway("replay", "runs/blocked/city_v2/navigate/0", "--csv", "leases"))
+    .find(({ action, links }) => action === "stand_back" && links !== "");
+  const considered_s = Number(time_s);
+  await page.getByLabel("Emergency vehicle to follow").selectOption(vehicle);
+  const drawnAt = async (moment_s, place) => {
+    await lookAt(moment_s, place);
+    return near(page, 1, teal);
+  };
+  let aside;
+  for (const edge of links.split(" ").map((number) => edges[Number(number)])) {
+    const place = halfWay(shapes.get([3, 2, 1, 0].map((lane) => `${edge}_${lane}`).find((lane) => shapes.has(lane))));
+    if ((await drawnAt(considered_s - 1, place)) > 0 || (await drawnAt(considered_s + 1, place)) === 0) continue;
+    aside = place;
+    break;
+  }
+  assert.ok(aside !== undefined, "no edge of the way is seen while it is considered, and not before");
+  await page.getByLabel("way", { exact: true }).uncheck();
+  assert.equal(await drawnAt(considered_s + 1, aside), 0);
+  await page.getByLabel("way", { exact: true }).check();
+  await page.evaluate((hash) => (location.hash = hash), `time=${considered_s + 1}`);
+  await page.getByLabel("follow the emergency vehicle").check();
+  await settled(page);
+  const box = await page.locator(".map").boundingBox();
+  await page.mouse.click(box.x + box.width * 0.75, box.y + box.height / 2);
+  assert.match(await page.locator(".asked li").first().textContent(),
+    /^\d+\.\d+ s to now: considered another way, \d+ m ahead instead of \d+ m: another way is faster, but not by enough \(navigate\)$/);
+  assert.match(await page.locator(".legend").first().textContent(), /a way considered, not taken/);
+  await page.getByRole("button", { name: "The way ahead" }).click();
+  await settled(page);
+  await keepPicture(page, "considered-1440-light");
+  assert.deepEqual(faults, []);
+  await close();
+});
+
 test("both runs show the same moment, and the marks are those of the recording", options, async () => {
   const { page, close } = await openPage(browser, address(pair));
   const events = rows(clearway("replay", run, "--csv", "events"));

@@ -70,14 +70,15 @@ test("a track marks a change and tells its reason", () => {
 const considered = (way, more = {}) => ({ onSignal: false, target: 0, action: 8, amount: way + 1, policy: 0, reason: 2, beneficiary: 0, ...more });
 
 test("of a way that was considered only what the present one does not take is drawn", () => {
-  const ways = [[0, 1, 3], [0, 2, 3]];
-  const lines = (leases, present) => consideredLines(drawing, leases, 0, ways, present);
+  const ways = [[0, 1, 3], [0, 2, 3], [5, 0, 1, 3], [5, 0, 2, 3]];
+  const lines = (leases, way, at) => consideredLines(drawing, leases, { slot: 0, way, at }, ways);
   const aside = [[100, 0], [100, 0], [100, 50], [200, 0]];
-  assert.deepEqual(lines([considered(1)], [0, 1, 3]), [aside]);
-  assert.deepEqual(lines([considered(1)], [5, 0, 1, 3]), [aside], "what was driven before is no matter");
-  assert.deepEqual(lines([considered(0)], [0, 1, 3]), [], "it is the present one");
+  assert.deepEqual(lines([considered(1)], 0, 0), [aside]);
+  assert.deepEqual(lines([considered(1)], 2, 1), [aside], "what was driven before is no matter");
+  assert.deepEqual(lines([considered(3)], 2, 1), [aside], "of neither way");
+  assert.deepEqual(lines([considered(0)], 0, 0), [], "it is the present one");
   const others = [considered(1, { target: 4 }), considered(1, { onSignal: true }), considered(1, { action: 9 }), considered(-1), considered(7)];
-  assert.deepEqual(lines(others, [0, 1, 3]), []);
+  assert.deepEqual(lines(others, 0, 0), []);
 });
 
 test("a way that was considered is told with both lengths and its reason, each way once", () => {

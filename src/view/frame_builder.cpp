@@ -115,9 +115,14 @@ std::uint32_t FrameBuilder::way_of(core::RouteIndex route, const traffic::Roster
     return is_new ? name_way(roster.route(route)) : at->second;
 }
 
-std::uint32_t FrameBuilder::way_of(const std::vector<core::EdgeIndex>& considered) {
-    const auto [at, is_new] = considered_.try_emplace(considered, way_count_);
-    return is_new ? name_way(considered) : at->second;
+std::uint32_t FrameBuilder::considered_way_of(core::VehicleKey vehicle,
+                                              const std::vector<core::EdgeIndex>& edges) {
+    ConsideredWay& known = considered_[vehicle];
+    // Further on, what is left of a way is the same way.
+    const bool is_rest =
+        edges.size() <= known.edges.size() && std::equal(edges.rbegin(), edges.rend(), known.edges.rbegin());
+    if (!is_rest) known = {edges, name_way(edges)};
+    return known.number;
 }
 
 std::uint32_t FrameBuilder::name_way(std::span<const core::EdgeIndex> edges) {
@@ -278,7 +283,7 @@ void FrameBuilder::draw_leases(const trace::RecordedStep& step) {
             seen.amount = std::visit(Amount(), lease.action);
             if (const auto* const back = std::get_if<traffic::StandBack>(&lease.action);
                 back != nullptr && !back->way.empty())
-                seen.amount = static_cast<std::int32_t>(way_of(back->way)) + 1;
+                seen.amount = static_cast<std::int32_t>(considered_way_of(lease.beneficiary, back->way)) + 1;
             seen.policy = text_of(lease.policy);
             seen.reason = text_of(lease.reason);
             if (lease.beneficiary.value != 0) seen.beneficiary = slot_of(lease.beneficiary, *step.roster) + 1;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,7 +40,7 @@ class FrameBuilder {
     Slot slot_of(core::VehicleKey key, const traffic::Roster& roster);
     std::uint32_t text_of(const std::string& text);
     std::uint32_t way_of(core::RouteIndex route, const traffic::Roster& roster);
-    std::uint32_t way_of(const std::vector<core::EdgeIndex>& considered);
+    std::uint32_t considered_way_of(core::VehicleKey vehicle, const std::vector<core::EdgeIndex>& edges);
     std::uint32_t name_way(std::span<const core::EdgeIndex> edges);
     std::vector<LinkedPair>& links(Layer layer) { return links_[static_cast<std::size_t>(layer)]; }
     bool shows(double x_m, double y_m) const { return !area_ || area_(x_m, y_m); }
@@ -71,7 +70,11 @@ class FrameBuilder {
     std::unordered_map<core::VehicleKey, Slot> slots_;
     std::unordered_map<std::string, std::uint32_t> texts_;
     std::unordered_map<std::uint32_t, std::uint32_t> ways_;  ///< Their numbers, by core::RouteIndex.
-    std::map<std::vector<core::EdgeIndex>, std::uint32_t> considered_;  ///< Likewise, of those not taken.
+    struct ConsideredWay {
+        std::vector<core::EdgeIndex> edges;
+        std::uint32_t number = 0;
+    };
+    std::unordered_map<core::VehicleKey, ConsideredWay> considered_;  ///< The newest.
     std::uint32_t way_count_ = 0;
     Names new_names_;
     std::vector<core::VehicleKey> dark_;  ///< Ascending.

@@ -200,19 +200,22 @@ TEST_F(FrameBuilderTest, a_way_that_was_considered_is_named_once_and_its_lease_t
                               "faster",
                               ev};
     };
-    std::vector<traffic::Lease> leases = {considers({core::EdgeIndex{0}, core::EdgeIndex{9}}, 1.0)};
+    const core::EdgeIndex here{0}, next{5}, aside{9}, other{8};
+    std::vector<traffic::Lease> leases = {considers({here, next, aside}, 1.0)};
     trace::RecordedStep now = step();
     now.leases = leases;
     const Frame& first = frame(now);
     ASSERT_THAT(first.leases, SizeIs(1));
     EXPECT_EQ(first.leases[0].amount, 2) << "way 1; 0 is its own";
     ASSERT_THAT(names_.ways, SizeIs(2));
-    EXPECT_THAT(names_.ways[1], ElementsAre(0, 9));
+    EXPECT_THAT(names_.ways[1], ElementsAre(0, 5, 9));
 
-    EXPECT_EQ(frame(now).leases[0].amount, 2);
+    leases = {considers({next, aside}, 1.0)};
+    now.leases = leases;
+    EXPECT_EQ(frame(now).leases[0].amount, 2) << "further on it is the same way";
     EXPECT_THAT(names_.ways, SizeIs(0));
 
-    leases = {considers({core::EdgeIndex{0}, core::EdgeIndex{8}}, 1.0)};
+    leases = {considers({next, other}, 1.0)};
     now.leases = leases;
     EXPECT_EQ(frame(now).leases[0].amount, 3);
     leases = {considers({}, 1.0)};
