@@ -8,7 +8,7 @@ import type { Drawing } from "./drawing";
 import { type FrameState, type Ghost, linkFactor } from "./stream";
 import { type Rgba, signalColour, type Theme } from "./theme";
 import type { Moment, Track } from "./track";
-import { consideredLines, formerLines, lineAhead, type Point } from "./ways";
+import { consideredLines, consideredWay, formerLines, lineAhead, type Point } from "./ways";
 
 export interface Shown {
   links: [boolean, boolean, boolean];
@@ -310,6 +310,7 @@ export class Pane {
   private leaseLayers(moment: Moment, theme: Theme): Layer[] {
     const rings: { at: [number, number]; radius_m: number }[] = [];
     for (const lease of moment.now.leases) {
+      if (consideredWay(lease) !== undefined) continue;
       if (!lease.onSignal) {
         const at = this.placeOf(lease.target, moment);
         if (at !== undefined) rings.push({ at, radius_m: 4 });
