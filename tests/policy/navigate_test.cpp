@@ -72,6 +72,25 @@ TEST_F(Navigation, takes_the_way_that_is_faster_on_other_days) {
     EXPECT_LE(leases.front().expiry.value, now_s) << "later the crew may have turned";
 }
 
+TEST_F(Navigation, considers_a_way_that_gains_too_little_and_none_that_is_level) {
+    const auto asked_with = [&](double longer_s) {
+        std::vector<double> mean_s(short_square().edges().size(), 0.0);
+        for (const char* const each : {"A0B0", "B0B1", "A0A1", "A1B1"})
+            mean_s[edge(each).value] = 20.0;
+        mean_s[edge("A0B0").value] += longer_s;
+        policy::Navigate navigate({.network = short_square(), .mean_times_s = mean_s},
+                                  {.observes = 0, .prior = policy::Prior::mean_times});
+        return act_for(navigate, 2.0);
+    };
+    EXPECT_TRUE(asked_with(0.05).empty());
+    const auto below = asked_with(9.5);
+    ASSERT_EQ(below.size(), 1U) << "where it plans";
+    EXPECT_TRUE(std::holds_alternative<traffic::StandBack>(below.front().action));
+    const auto above = asked_with(10.5);
+    ASSERT_EQ(above.size(), 1U);
+    EXPECT_TRUE(std::holds_alternative<traffic::TakeRoute>(above.front().action));
+}
+
 TEST_F(Navigation, takes_free_flow_where_other_days_know_nothing) {
     const std::vector<double> mean_s(short_square().edges().size(), 0.0);
     add_queue();
