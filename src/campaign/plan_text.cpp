@@ -121,7 +121,7 @@ Rest rest_of(const std::vector<Cell>& cells, unsigned workers) {
 /// Whether choices are tried in copies of the run, whose cost no estimate knows.
 bool drives_copies(const experiment::ConditionSpec& condition) {
     const experiment::LoopConfig loop = experiment::loop_config(condition);
-    return loop.ways_tried > 0 || loop.units_tried > 0;
+    return loop.ways_tried > 0 || loop.holds_tried > 0 || loop.units_tried > 0;
 }
 
 std::string size_text(double bytes) {

@@ -34,6 +34,10 @@ struct LoopConfig : LinkSettings {
     int ways_tried = 0;
     double ways_every_s = 120.0;
     int best_way_taken = 0;
+    int holds_tried = 0;
+    double holds_every_s = 0.0;
+    int best_hold_taken = 0;
+    double others_price = 0.0;
     int units_tried = 0;
 
     static constexpr void fields(const auto& table) {
@@ -50,6 +54,19 @@ struct LoopConfig : LinkSettings {
                         "1: an EV takes the best of these ways where it beats its own, as one who knows the "
                         "future",
                         "0; 1 is the bound of every choice"},
+            core::Field{"holds_tried", "1", &LoopConfig::holds_tried, 0, 16,
+                        "Times of a hold, the last of them never, that are tried in copies of the run when "
+                        "an EV comes near a signal, which gives the regret of the condition's rule; 0: none",
+                        "0: each costs the rest of a run"},
+            core::Field{"holds_every_s", "s", &LoopConfig::holds_every_s, 0.0, 86400.0,
+                        "Least time between two such signals of an EV", "0: at every signal"},
+            core::Field{"best_hold_taken", "1", &LoopConfig::best_hold_taken, 0, 1,
+                        "1: the signal is held from the best of these times where that beats the rule, as "
+                        "by one who knows the future",
+                        "0; 1 shows what other times would gain at least"},
+            core::Field{"others_price", "1", &LoopConfig::others_price, 0.0, 10.0,
+                        "Then best means: EV seconds, plus this times those of the others in four minutes",
+                        "0: the EV alone"},
             core::Field{"units_tried", "1", &LoopConfig::units_tried, 0, 16,
                         "Stations, the nearest first, whose unit is driven to each call in a copy of the "
                         "run, which gives the regret of the one that was sent; 0: none",

@@ -162,9 +162,16 @@ void check_link_radius(const ConditionSpec& condition, const std::string& where,
                                   problems);
 }
 
-/// The penalty is the device's own.
+/// The penalty is the device's own, and the way of an EV is chosen by one alone.
 void check_rerouting(const ConditionSpec& condition, const std::string& where,
                      std::vector<core::Problem>& problems) {
+    if (condition.rerouting_s > 0.0 &&
+        std::ranges::find(condition.policies, "navigate") != condition.policies.end())
+        problems.push_back(
+            {where + "rerouting_s",
+             fmt::format("is {:g}: SUMO's rerouting device and navigate would both choose the way",
+                         condition.rerouting_s),
+             "0 with navigate", "Leave it out, or give the device a condition of its own"});
     if (condition.rerouting_signal_penalty == 0.0 || condition.rerouting_s > 0.0) return;
     problems.push_back({where + "rerouting_signal_penalty",
                         fmt::format("is {:g}, and no vehicle has SUMO's rerouting device",
@@ -183,8 +190,21 @@ void check_copies(const ConditionSpec& condition, const std::string& where,
     if (loop.best_way_taken > 0 && loop.ways_tried == 0)
         problems.push_back({where + "loop.best_way_taken", "is 1, and no ways are tried",
                             "1 with loop.ways_tried above 0", "Set loop.ways_tried, or leave it out."});
+    if (loop.holds_tried > 0 && condition.policies.empty())
+        problems.push_back({where + "loop.holds_tried", "is set where no policy asks signals",
+                            "0 without a policy", "Name a policy, or leave it out."});
+    if (loop.holds_tried == 1)
+        problems.push_back({where + "loop.holds_tried", "is 1, which tries no hold alone", "0, or 2 to 16",
+                            "Set 8, for instance."});
+    if (loop.best_hold_taken > 0 && loop.holds_tried == 0)
+        problems.push_back({where + "loop.best_hold_taken", "is 1, and no holds are tried",
+                            "1 with loop.holds_tried above 0", "Set loop.holds_tried, or leave it out."});
+    if (loop.others_price > 0.0 && loop.best_hold_taken == 0)
+        problems.push_back({where + "loop.others_price",
+                            fmt::format("is {:g}, and no best hold is taken", loop.others_price),
+                            "above 0 with loop.best_hold_taken = 1", "Set that, or leave it out."});
     if (!has_code) return;
-    for (const char* const setting : {"loop.ways_tried", "loop.units_tried"}) {
+    for (const char* const setting : {"loop.ways_tried", "loop.holds_tried", "loop.units_tried"}) {
         const auto tried = condition.settings.find(setting);
         if (tried == condition.settings.end() || tried->second == "0") continue;
         problems.push_back(

@@ -47,7 +47,8 @@ void ClosedLoop::run(core::Seconds horizon) {
            session_.time().value < horizon.value - core::clock_tolerance_s) {
         step();
         if (dispatcher_ != nullptr) dispatcher_->step(*this, horizon);
-        if (trials_ != nullptr) trials_->look(*this, horizon);
+        for (TriedAtSteps* const each : trials_)
+            each->look(*this, horizon);
     }
 }
 
@@ -56,20 +57,35 @@ void ClosedLoop::send(const traffic::EmergencyDeparture& departure, bool before_
     if (before_incident && incidents_) incidents_->expect(core::vehicle_key(departure.id));
 }
 
-core::Seconds ClosedLoop::arrival_after(const std::function<bool()>& change, core::VehicleKey vehicle,
-                                        core::Seconds horizon, const std::filesystem::path& folder) {
+CopyEnd ClosedLoop::end_after(const std::function<bool()>& change, core::VehicleKey vehicle,
+                              core::Seconds horizon, const std::filesystem::path& folder,
+                              core::Seconds watched) {
     session_.continue_in(folder);
     listener_ = nullptr;
-    trials_ = nullptr;
+    trials_.clear();
     if (dispatcher_ != nullptr) dispatcher_->try_none();
-    if (!change()) return horizon;
-    while (session_.time().value < horizon.value - core::clock_tolerance_s) {
+    CopyEnd end{.arrival = horizon};
+    if (!change()) return end;
+    const core::Seconds watched_until = session_.time() + watched;
+    bool has_arrived = false;
+    while (session_.time().value < horizon.value - core::clock_tolerance_s &&
+           (!has_arrived || session_.time().value + core::clock_tolerance_s < watched_until.value)) {
+        const core::Seconds before = session_.time();
         step();
         if (dispatcher_ != nullptr) dispatcher_->step(*this, horizon);
+        if (before.value + core::clock_tolerance_s < watched_until.value)
+            end.others_s += (session_.time() - before).value * others_under_way();
         const auto& arrived = session_.events().arrived;
-        if (std::ranges::find(arrived, vehicle) != arrived.end()) return session_.time();
+        if (has_arrived || std::ranges::find(arrived, vehicle) == arrived.end()) continue;
+        has_arrived = true;
+        end.arrival = session_.time();
     }
-    return horizon;
+    return end;
+}
+
+double ClosedLoop::others_under_way() const {
+    const auto emergency = std::ranges::count(snapshot().vehicle_class, traffic::VehicleClass::emergency);
+    return static_cast<double>(session_.expected_vehicles() - emergency);
 }
 
 bool ClosedLoop::keep_to(const traffic::SetRoute& way) {

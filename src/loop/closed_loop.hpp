@@ -11,7 +11,7 @@
 #include "loop/controller.hpp"
 #include "loop/dispatcher.hpp"
 #include "loop/incidents.hpp"
-#include "loop/way_trials.hpp"
+#include "loop/trials.hpp"
 #include "metrics/recorder.hpp"
 #include "sumo/session.hpp"
 #include "trace/step_listener.hpp"
@@ -25,6 +25,14 @@ struct LoopTiming {
     double coupling_s = 0.0;
     std::uint64_t steps = 0;
     std::uint64_t vehicle_steps = 0;
+};
+
+/// How a copy of a run ended.
+struct CopyEnd {
+    core::Seconds arrival;  ///< Of the vehicle, or the horizon.
+    /// Time of vehicles other than emergency vehicles while it was watched, summed: of those on the road, of
+    /// those that wait to enter, and of those that are not due yet, which is the same in every copy.
+    double others_s = 0.0;
 };
 
 /// Every step of every run is made here: the simulator, then the controller (whose types know the order of
@@ -41,8 +49,8 @@ class ClosedLoop {
     void begin(const experiment::ConditionSpec& condition, const ControllerContext& context);
     /// From the next step on, `listener` is told of each step; it outlives the loop and may be null.
     void tell(trace::StepListener* listener) { listener_ = listener; }
-    /// From the next step on, `trials` look at each step of `run`; they outlive the loop, and may be null.
-    void try_ways(WayTrials* trials) { trials_ = trials; }
+    /// From the next step on, these look at each step of `run`; they outlive the loop.
+    void try_choices(std::vector<TriedAtSteps*> trials) { trials_ = std::move(trials); }
     /// From the next step on, calls are answered by `dispatcher`; it outlives the loop, and may be null.
     void answer_calls(Dispatcher* dispatcher) { dispatcher_ = dispatcher; }
     /// Adds an emergency vehicle; `before_incident`: it is called to a road that an incident closes.
@@ -58,13 +66,17 @@ class ClosedLoop {
     void warm_up(core::Seconds end, core::Seconds step_length);
     /// Steps until no vehicle is left and no call to come, or `horizon` is reached.
     void run(core::Seconds horizon);
-    /// In a copy of the run, after `change`: when the vehicle has arrived, or `horizon`; at once where
-    /// `change` says that it cannot be done. Outputs go to `folder`.
-    core::Seconds arrival_after(const std::function<bool()>& change, core::VehicleKey vehicle,
-                                core::Seconds horizon, const std::filesystem::path& folder);
+    /// In a copy of the run, after `change`: drives on until the vehicle has arrived, and for `watched` at
+    /// least; at once to `horizon` where `change` says that it cannot be done. Outputs go to `folder`.
+    CopyEnd end_after(const std::function<bool()>& change, core::VehicleKey vehicle, core::Seconds horizon,
+                      const std::filesystem::path& folder, core::Seconds watched = {});
     /// In a copy of the run, and for LoopConfig::best_way_taken: the vehicle drives this way, which nothing
     /// changes any more. Returns whether SUMO knows the way.
     bool keep_to(const traffic::SetRoute& way);
+    /// Likewise, and for LoopConfig::best_hold_taken: see Controller.
+    void hold_from(policy::RequestKey request, core::Seconds time) {
+        if (controller_) controller_->hold_from(request, time);
+    }
     /// Releases everything that the controller holds. Returns what became of its leases.
     metrics::LeaseTotals finish();
 
@@ -84,13 +96,15 @@ class ClosedLoop {
     /// The controller's part of a step. Returns whether a decision was made.
     bool control(const truth::Snapshot& snapshot);
     void tell_listener(const truth::Snapshot& snapshot, bool decided);
+    /// Those that are loaded and have not arrived.
+    double others_under_way() const;
 
     sumo::Session& session_;
     metrics::Recorder& recorder_;
     std::optional<Incidents> incidents_;
     std::optional<Controller> controller_;
     trace::StepListener* listener_ = nullptr;
-    WayTrials* trials_ = nullptr;
+    std::vector<TriedAtSteps*> trials_;
     Dispatcher* dispatcher_ = nullptr;
 
     metrics::TrueLinks true_links_{graph::LinkRules{}};

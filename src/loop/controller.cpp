@@ -40,6 +40,7 @@ Controller::Controller(const experiment::ConditionSpec& condition, const Control
                        const pipeline::ChainContext& chain, const actuation::ActuatorConfig& actuation)
     : chain_(condition, chain),
       requests_(condition, chain),
+      holds_({.network = context.network, .period = core::Seconds(chain.policy_period_s)}),
       actuator_(context.network, actuation),
       greens_(context.network),
       is_read_(context.is_read) {
@@ -74,7 +75,8 @@ Step<Done::acted> Controller::act(Step<Done::decided> step, const truth::SelfKno
     actuator_.know(chain_.observation().incidents);
     requests_.step({chain_.leases(), chain_.unreachable(), step.has_decision(), chain_.decided_there()},
                    snapshot, roster);
-    actuator_.accept(requests_.arrived(), snapshot.time, chain_.unreachable());
+    actuator_.accept(holds_.in_place_of(requests_.arrived(), chain_.belief(), step.has_decision()),
+                     snapshot.time, chain_.unreachable());
     actuator_.refuse(requests_.lost(), traffic::Refusal::unheard);
     actuator_.refuse(requests_.outdated(), traffic::Refusal::outdated);
     actuator_.step(snapshot, roster, self, commands);

@@ -15,6 +15,7 @@
 #include "pipeline/decision_chain.hpp"
 #include "pipeline/green_watch.hpp"
 #include "pipeline/requests.hpp"
+#include "policy/timed_holds.hpp"
 #include "roads/network.hpp"
 #include "sumo/session.hpp"
 
@@ -81,6 +82,9 @@ class Controller {
 
     /// From now on no lease changes the way of this vehicle.
     void keep_way(core::VehicleKey vehicle) { actuator_.keep_way(vehicle); }
+    /// From now on this vehicle's request at this signal acts from that time on, whatever its policies ask;
+    /// at a time that never comes, not at all. No channel stands between.
+    void hold_from(policy::RequestKey request, core::Seconds time) { holds_.hold_from(request, time); }
 
     /// Appends the commands that release everything that is held.
     void restore_all(std::vector<traffic::Command>& commands);
@@ -97,6 +101,7 @@ class Controller {
 
     pipeline::DecisionChain chain_;
     pipeline::Requests requests_;
+    policy::TimedHolds holds_;
     actuation::Actuator actuator_;
     pipeline::GreenWatch greens_;
     std::optional<drivers::Siren> siren_;          ///< Where drivers react to a siren.

@@ -1,11 +1,12 @@
 #include "loop/copy_of_run.hpp"
 
+#include <cassert>
 #include <cerrno>
+#include <climits>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <limits>
 
 #include <fmt/format.h>
 #include <sys/prctl.h>
@@ -22,23 +23,27 @@ namespace {
 
 /// Everything of a copy but its number. Never returns, because objects of the parent must not be destroyed
 /// twice.
-[[noreturn]] void be_copy(const std::filesystem::path& folder, const std::function<core::Seconds()>& drive,
-                          int answer) {
-    double found_s = std::numeric_limits<double>::quiet_NaN();
+[[noreturn]] void be_copy(const std::filesystem::path& folder, const std::function<void()>& drive,
+                          const void* answer, std::size_t size, int pipe) {
+    bool is_found = false;
     try {
         core::make_folder(folder);
-        found_s = drive().value;
+        drive();
+        is_found = true;
     } catch (const std::exception& error) {
         core::complain("a copy of the run", error);
     }
     std::fflush(nullptr);
-    const ssize_t written = ::write(answer, &found_s, sizeof found_s);
-    _exit(written == sizeof found_s ? 0 : 1);
+    _exit(is_found && ::write(pipe, answer, size) == static_cast<ssize_t>(size) ? 0 : 1);
 }
 
 }  // namespace
 
-core::Seconds in_copy(const std::filesystem::path& folder, const std::function<core::Seconds()>& drive) {
+namespace detail {
+
+void in_copy(const std::filesystem::path& folder, const std::function<void()>& drive, void* answer,
+             std::size_t size) {
+    assert(size <= PIPE_BUF && "it is written and read at once");
     int ends[2];
     if (pipe(ends) != 0)
         throw core::EnvironmentError(
@@ -53,13 +58,12 @@ core::Seconds in_copy(const std::filesystem::path& folder, const std::function<c
     }
     if (child == 0) {
         prctl(PR_SET_PDEATHSIG, SIGKILL);
-        be_copy(folder, drive, ends[1]);
+        be_copy(folder, drive, answer, size, ends[1]);
     }
     ::close(ends[1]);
-    double found_s = std::numeric_limits<double>::quiet_NaN();
     ssize_t got = 0;
     do {
-        got = ::read(ends[0], &found_s, sizeof found_s);
+        got = ::read(ends[0], answer, size);
     } while (got < 0 && errno == EINTR);
     ::close(ends[0]);
     int status = 0;
@@ -67,10 +71,10 @@ core::Seconds in_copy(const std::filesystem::path& folder, const std::function<c
     }
     std::error_code ignored;
     std::filesystem::remove_all(folder, ignored);
-    if (got != sizeof found_s || !(found_s == found_s))
-        throw core::SimulatorError(
-            "a copy of the run that tried another way or unit did not come to its end");
-    return core::Seconds(found_s);
+    if (got != static_cast<ssize_t>(size))
+        throw core::SimulatorError("a copy of the run that tried another choice did not come to its end");
 }
+
+}  // namespace detail
 
 }  // namespace clearway::loop

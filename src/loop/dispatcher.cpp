@@ -113,7 +113,7 @@ void Dispatcher::try_units(ClosedLoop& loop, core::Seconds horizon, const scenar
                 step(loop, horizon);  // the other vehicles of this step
                 return true;
             };
-            return loop.arrival_after(change, vehicle, horizon, orders_.folder);
+            return loop.end_after(change, vehicle, horizon, orders_.folder).arrival;
         });
         const auto [known, is_new] = arrivals_s.try_emplace(each.station, arrival.value);
         known->second = std::min(known->second, arrival.value);

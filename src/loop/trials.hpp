@@ -11,6 +11,21 @@
 
 namespace clearway::loop {
 
+class ClosedLoop;
+
+/// Tries other choices in copies of a run, after its steps.
+class TriedAtSteps {
+  public:
+    TriedAtSteps() = default;
+    TriedAtSteps(const TriedAtSteps&) = delete;
+    TriedAtSteps& operator=(const TriedAtSteps&) = delete;
+    virtual ~TriedAtSteps() = default;
+
+    /// After each step of `loop`: tries what is due, up to `horizon`. Throws core::EnvironmentError when no
+    /// copy can be made, core::SimulatorError when one fails.
+    virtual void look(ClosedLoop& loop, core::Seconds horizon) = 0;
+};
+
 /// Moments at which other choices for an emergency vehicle were driven to their ends in copies of the run.
 class Trials {
   public:

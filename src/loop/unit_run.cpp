@@ -5,12 +5,15 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/files.hpp"
 #include "experiment/code_parts.hpp"
+#include "experiment/equipped_signals.hpp"
 #include "experiment/settings.hpp"
+#include "loop/hold_trials.hpp"
 #include "loop/road_layout.hpp"
 #include "loop/way_trials.hpp"
 #include "scenario/sumo_files.hpp"
@@ -208,14 +211,21 @@ metrics::LeaseTotals UnitRun::run_together(const experiment::ConditionSpec& cond
                                            trace::StepListener* listener) {
     start_together(condition, listener);
     const LoopConfig config = experiment::loop_config(condition);
-    std::optional<WayTrials> trials;
-    if (config.ways_tried > 0)
-        trials.emplace(network_.network, config, session_->trip_file().parent_path() / "way");
-    loop_.try_ways(trials ? &*trials : nullptr);
+    const std::filesystem::path folder = session_->trip_file().parent_path();
+    std::optional<WayTrials> ways;
+    std::optional<HoldTrials> holds;
+    std::vector<TriedAtSteps*> trials;
+    if (config.ways_tried > 0) trials.push_back(&ways.emplace(network_.network, config, folder / "way"));
+    if (config.holds_tried > 0)
+        trials.push_back(&holds.emplace(network_.network, config,
+                                        experiment::equipped_signals(condition, network_.network),
+                                        folder / "hold"));
+    loop_.try_choices(std::move(trials));
     loop_.run(horizon());
-    loop_.try_ways(nullptr);
+    loop_.try_choices({});
     metrics::LeaseTotals totals = loop_.finish();
-    if (trials) totals.ways = trials->result(horizon());
+    if (ways) totals.ways = ways->result(horizon());
+    if (holds) totals.holds = holds->result(horizon());
     return totals;
 }
 

@@ -75,7 +75,7 @@ void WayTrials::try_ways(ClosedLoop& loop, std::uint32_t row, core::Seconds hori
 
 double WayTrials::arrival_s(ClosedLoop& loop, core::VehicleKey vehicle, core::Seconds horizon,
                             const std::function<bool()>& change) {
-    return in_copy(folder_, [&] { return loop.arrival_after(change, vehicle, horizon, folder_); }).value;
+    return in_copy(folder_, [&] { return loop.end_after(change, vehicle, horizon, folder_); }).arrival.value;
 }
 
 }  // namespace clearway::loop

@@ -15,21 +15,17 @@
 
 namespace clearway::loop {
 
-class ClosedLoop;
-
 /// Drives other ways of emergency vehicles to their ends in forked children of the run, whose future is the
 /// true one: the same vehicles, signals and drivers, and the condition's own policies for all but the choice
 /// of the way. What the best of them would have saved is the regret of the way that was chosen. The run
 /// itself does not notice, unless LoopConfig::best_way_taken asks for the best one.
-class WayTrials {
+class WayTrials : public TriedAtSteps {
   public:
     /// Keeps a reference to the network. Children write into `folder`, which is removed.
     WayTrials(const roads::Network& network, const experiment::LoopConfig& config,
               std::filesystem::path folder);
 
-    /// After each step of `loop`: tries ways of those vehicles for which it is time, up to `horizon`. Throws
-    /// core::EnvironmentError when no child can be made, core::SimulatorError when one fails.
-    void look(ClosedLoop& loop, core::Seconds horizon);
+    void look(ClosedLoop& loop, core::Seconds horizon) override;
     /// Once the run is over: an emergency vehicle that did not arrive counts with `horizon`.
     metrics::TriedChoices result(core::Seconds horizon) const { return trials_.result(horizon); }
 

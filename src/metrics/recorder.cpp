@@ -443,6 +443,10 @@ RunSummary Recorder::finish(const RunEnd& end) const {
     metrics.way_decisions_best = end.leases.ways.best;
     metrics.ways_tried = end.leases.ways.tried;
     metrics.way_regret_s = end.leases.ways.mean_regret_s();
+    metrics.hold_decisions = end.leases.holds.decisions;
+    metrics.hold_decisions_best = end.leases.holds.best;
+    metrics.holds_tried = end.leases.holds.tried;
+    metrics.hold_regret_s = end.leases.holds.mean_regret_s();
     metrics.units_sent = end.dispatch.sent;
     metrics.units_missing = end.dispatch.missing;
     metrics.unit_decisions = end.dispatch.units.decisions;

@@ -42,6 +42,7 @@ struct LeaseTotals {
     traffic::SignalRequestCounts signal_requests = {};
     traffic::HeldGreenCounts greens = {};
     TriedChoices ways = {};
+    TriedChoices holds = {};
 
     bool operator==(const LeaseTotals&) const = default;
 };
@@ -122,6 +123,10 @@ struct RunMetrics {
     std::uint64_t way_decisions_best = 0;
     std::uint64_t ways_tried = 0;
     std::optional<double> way_regret_s;
+    std::uint64_t hold_decisions = 0;
+    std::uint64_t hold_decisions_best = 0;
+    std::uint64_t holds_tried = 0;
+    std::optional<double> hold_regret_s;
 
     std::uint64_t units_sent = 0;
     std::uint64_t units_missing = 0;
@@ -340,6 +345,17 @@ struct RunMetrics {
                   "copies of the run"},
             Field{"way_regret_s", "s", &M::way_regret_s, 0.0, 1e9,
                   "Time that EVs lost against the fastest of these ways, mean of the moments",
+                  "copies of the run"},
+            Field{
+                "hold_decisions", "1", &M::hold_decisions, 0.0, 1e9,
+                "Signals that EVs came near, for which other times of a hold were tried in copies of the run",
+                "setting loop.holds_tried"},
+            Field{"hold_decisions_best", "1", &M::hold_decisions_best, 0.0, 1e9,
+                  "Of these: no other time was more than 1 s faster", "copies of the run"},
+            Field{"holds_tried", "1", &M::holds_tried, 0.0, 1e9, "Times that were tried at them",
+                  "copies of the run"},
+            Field{"hold_regret_s", "s", &M::hold_regret_s, 0.0, 1e9,
+                  "Time that EVs lost against the best of these times, mean of the signals",
                   "copies of the run"});
     }
     static constexpr void incident_fields(const auto& table) {

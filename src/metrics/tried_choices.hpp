@@ -7,7 +7,7 @@ namespace clearway::metrics {
 
 /// What choices cost against others that were tried to their ends in copies of the same simulation.
 struct TriedChoices {
-    std::uint64_t decisions = 0;  ///< Choices of a way or unit, for which others were tried.
+    std::uint64_t decisions = 0;  ///< Choices of a way, a unit or a hold, for which others were tried.
     std::uint64_t best = 0;       ///< Of these: none was more than a second faster.
     std::uint64_t tried = 0;      ///< At them.
     double regret_s = 0.0;        ///< Time lost against the fastest of them, summed.

@@ -15,6 +15,7 @@
 namespace clearway::experiment {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -416,7 +417,7 @@ TEST(Settings, APolicyThatNeedsTheSublaneModelIsRefusedWithoutIt) {
 }
 
 TEST(Settings, PartsInPythonAreNotCopied) {
-    for (const char* const setting : {"loop.ways_tried", "loop.units_tried"}) {
+    for (const char* const setting : {"loop.ways_tried", "loop.holds_tried", "loop.units_tried"}) {
         ConditionSpec condition = corridor();
         condition.settings[setting] = "4";
         EXPECT_EQ(problems_of(condition), "") << setting;
@@ -438,6 +439,23 @@ TEST(Settings, TheBestWayIsAmongThoseThatAreTried) {
     EXPECT_EQ(problems_of(condition), "");
 }
 
+TEST(Settings, TheBestHoldIsAmongThoseThatAreTried) {
+    ConditionSpec condition = corridor();
+    condition.settings["loop.best_hold_taken"] = "1";
+    EXPECT_THAT(problems_of(condition), HasSubstr("loop.best_hold_taken: is 1, and no holds are tried"));
+    condition.settings["loop.holds_tried"] = "1";
+    EXPECT_THAT(problems_of(condition), HasSubstr("loop.holds_tried: is 1, which tries no hold alone"));
+    condition.settings["loop.holds_tried"] = "8";
+    EXPECT_EQ(problems_of(condition), "");
+    condition.settings["loop.others_price"] = "0.05";
+    EXPECT_EQ(problems_of(condition), "");
+    condition.settings.erase("loop.best_hold_taken");
+    EXPECT_THAT(problems_of(condition), HasSubstr("loop.others_price: is 0.05, and no best hold is taken"));
+    condition.settings.erase("loop.others_price");
+    condition.policies.clear();
+    EXPECT_THAT(problems_of(condition), HasSubstr("loop.holds_tried: is set where no policy asks signals"));
+}
+
 TEST(Settings, OfSumosDeviceNeedTheDevice) {
     ConditionSpec condition = corridor();
     condition.rerouting_signal_penalty = 1.0;
@@ -446,6 +464,16 @@ TEST(Settings, OfSumosDeviceNeedTheDevice) {
     EXPECT_EQ(problems_of(condition), "");
     EXPECT_EQ(to_text(process_of(condition)), "standard-penalty-1");
     EXPECT_THAT(described_name(condition), HasSubstr("rerouting_30s_penalty_1"));
+}
+
+TEST(Settings, OneAloneChoosesTheWay) {
+    ConditionSpec condition = corridor();
+    condition.policies = {"corridor", "navigate"};
+    EXPECT_EQ(problems_of(condition), "");
+    condition.rerouting_s = 5.0;
+    EXPECT_THAT(problems_of(condition),
+                AllOf(HasSubstr("rerouting_s: is 5: SUMO's rerouting device and navigate"),
+                      HasSubstr("0 with navigate"), HasSubstr("Leave it out")));
 }
 
 TEST(Settings, WithoutFailureNothingFailsAndNothingIsRepaired) {

@@ -103,9 +103,9 @@ TEST(Dispatcher, WhoKnowsOfABlockSendsFromTheOtherSide) {
     EXPECT_EQ(start_of(blocked, Dispatch::free_flow), "west");
     EXPECT_EQ(start_of(blocked, Dispatch::believed), "east");
     EXPECT_EQ(start_of(blocked, Dispatch::true_times), "east");
-    // Nobody is told of it, and no sensor passes: beliefs do not know it, the truth does.
+    // Nobody is told of it in time, and no sensor passes: beliefs do not know it, the truth does.
     std::string unheard = blocked;
-    unheard.replace(unheard.find("known_after_s = 0.0"), 19, "known_after_s = 500.0");
+    unheard.replace(unheard.find("known_after_s = 0.0"), 19, "known_after_s = 104.0");
     EXPECT_EQ(start_of(unheard, Dispatch::believed), "west");
     EXPECT_EQ(start_of(unheard, Dispatch::true_times), "east");
 }
@@ -176,8 +176,8 @@ TEST(Dispatcher, ACopyOfTheRunIsNotCopiedAgain) {
     loop.run(core::Seconds(140.0));
     // The call comes in while the copy runs, as where another way of a vehicle is tried.
     const core::Seconds largest_kib = in_copy(folder.path() / "copy", [&] {
-        loop.arrival_after([] { return true; }, core::VehicleKey{1}, core::Seconds(160.0),
-                           folder.path() / "copy");
+        loop.end_after([] { return true; }, core::VehicleKey{1}, core::Seconds(160.0),
+                       folder.path() / "copy");
         rusage children{};
         getrusage(RUSAGE_CHILDREN, &children);
         return core::Seconds(static_cast<double>(children.ru_maxrss));

@@ -52,8 +52,8 @@ class Golden : public testing::Test {
         core::Json all = core::Json::array();
         const auto add = [&](const auto& row) { core::write_fields(all.emplace_back(), row); };
         add(record.metrics);
-        // These are younger than the file. They count where there is a lock, where ways are tried, where an
-        // incident is, or where somebody is called.
+        // These are younger than the file. They count where there is a lock, where ways or holds are tried,
+        // where an incident is, or where somebody is called.
         if (record.metrics.locks == 0)
             for (const char* const column : {"locks", "locked_vehicles", "locked_emergency_vehicles",
                                              "locked_vehicle_s", "longest_lock_s"})
@@ -61,6 +61,10 @@ class Golden : public testing::Test {
         if (record.metrics.way_decisions == 0)
             for (const char* const column :
                  {"way_decisions", "way_decisions_best", "ways_tried", "way_regret_s"})
+                all.back().erase(column);
+        if (record.metrics.hold_decisions == 0)
+            for (const char* const column :
+                 {"hold_decisions", "hold_decisions_best", "holds_tried", "hold_regret_s"})
                 all.back().erase(column);
         if (!record.metrics.incident_delay_s)
             for (const char* const column : {"emergency_met_incident", "emergency_turned_round",

@@ -4,9 +4,8 @@
 #include <map>
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
+#include "loop/copy_of_run.hpp"
 #include "loop/study_folder.hpp"
 #include "loop/unit_run.hpp"
 
@@ -93,18 +92,11 @@ TEST(WayTrials, TheWayThatIsDrivenAnywayArrivesWhenTheRunDoes) {
     const core::VehicleKey vehicle = loop.snapshot().key[row];
     const std::vector<core::EdgeIndex>& route = loop.roster().route(loop.roster().find(vehicle)->route);
     const traffic::SetRoute way{vehicle, {route.begin() + loop.snapshot().route_edge[row], route.end()}};
-    int ends[2];
-    ASSERT_EQ(pipe(ends), 0);
-    const pid_t child = fork();
-    if (child == 0) {
-        const auto change = [&] { return loop.keep_to(way); };
-        const double arrival_s =
-            loop.arrival_after(change, vehicle, run.horizon(), folder.path() / "child").value;
-        _exit(write(ends[1], &arrival_s, sizeof arrival_s) == sizeof arrival_s ? 0 : 1);
-    }
-    double arrival_s = 0.0;
-    ASSERT_EQ(read(ends[0], &arrival_s, sizeof arrival_s), static_cast<ssize_t>(sizeof arrival_s));
-    waitpid(child, nullptr, 0);
+    const std::filesystem::path copy = folder.path() / "copy";
+    const double arrival_s =
+        loop::in_copy(copy, [&] {
+            return loop.end_after([&] { return loop.keep_to(way); }, vehicle, run.horizon(), copy);
+        }).arrival.value;
     loop.run(run.horizon());
     ASSERT_TRUE(arrivals.at_s.contains(vehicle));
     EXPECT_DOUBLE_EQ(arrival_s, arrivals.at_s.at(vehicle));
