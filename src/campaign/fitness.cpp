@@ -67,13 +67,23 @@ std::string kinds_words(const results::RunRecord& record, bool are_drawn) {
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
-Finding emergency_finding(const results::RunRecord& record, const Checked& checked, const std::string& less) {
-    std::size_t entered = 0;
-    std::size_t arrived = 0;
+/// `emergency.2 in replication 8`.
+std::string trip_name(const std::string& id, std::uint32_t replication) {
+    return fmt::format("{} in replication {}", id, replication);
+}
+
+/// `queueing`: the trips that detail::queueing_trips names.
+Finding emergency_finding(const results::RunRecord& record, const Checked& checked, const std::string& less,
+                          const std::map<std::string, std::string>& queueing) {
+    std::size_t entered = 0, arrived = 0, queued = 0;
     for (const metrics::VehicleRow& row : record.vehicles) {
         if (row.vehicle_class != traffic::VehicleClass::emergency) continue;
-        entered += row.outcome != metrics::VehicleOutcome::not_inserted ? 1 : 0;
-        arrived += row.outcome == metrics::VehicleOutcome::arrived ? 1 : 0;
+        if (row.outcome == metrics::VehicleOutcome::not_inserted) continue;
+        ++entered;
+        if (row.outcome == metrics::VehicleOutcome::arrived)
+            ++arrived;
+        else if (queueing.contains(trip_name(row.id, 0)))
+            ++queued;
     }
     const std::uint64_t count = record.metrics.emergency_count;
     Finding finding{
@@ -83,7 +93,10 @@ Finding emergency_finding(const results::RunRecord& record, const Checked& check
         finding.advice = "set demand.emergency in scenario.toml";
     else
         finding.text += "; " + kinds_words(record, checked.config.emergency_trips.empty());
-    if (arrived < count)
+    if (queued > 0) finding.text += fmt::format("; {} called to a closed road did not arrive", queued);
+    if (queued > 0 && arrived + queued == count)
+        finding.advice = detail::queueing_cure;
+    else if (arrived < count)
         finding.advice = less + ", or a longer --horizon, if EVs cannot enter or do not arrive";
     if (!finding.advice.empty()) finding.grade = Grade::falls_short;
     return finding;
@@ -114,23 +127,29 @@ RouteCount traffic_routes(const std::string& xml) {
 /// A vehicle with a single edge passes no junction, so it meets no signal and no crossing traffic.
 Finding routes_finding(const std::filesystem::path& demand, const std::vector<detail::EmergencyTrip>& trips) {
     const RouteCount traffic = traffic_routes(core::read_file(demand / "traffic.rou.xml"));
-    RouteCount emergency;
-    for (const detail::EmergencyTrip& trip : trips)
+    RouteCount emergency, called;
+    for (const detail::EmergencyTrip& trip : trips) {
         emergency.add(trip.edges.size() == 1);
+        if (trip.id.starts_with(scenario::called_prefix)) called.add(trip.edges.size() == 1);
+    }
     const bool is_short = traffic.mostly_single() || emergency.mostly_single();
+    const bool are_called = !traffic.mostly_single() && called.single == emergency.single;
     return {"routes", is_short ? Grade::falls_short : Grade::ok,
             fmt::format("on a single edge, through no junction: {} of {}, {} of {}", traffic.single,
                         core::counted(traffic.all, "vehicle"), emergency.single,
                         core::counted(emergency.all, "EV")),
-            is_short ? "a larger part of the map, or longer trips: trips.minimum_length_m, and "
-                       "trips.emergency_minimum_length_m for EVs"
-                     : ""};
+            !is_short    ? ""
+            : are_called ? "another edge for the call: its station lies on the same"
+                         : "a larger part of the map, or longer trips: trips.minimum_length_m, and "
+                           "trips.emergency_minimum_length_m for EVs"};
 }
 
 Finding jams_finding(const metrics::RunMetrics& run, const RoadUse& use, const Checked& checked) {
     constexpr const char* words[] = {"fits", "too empty", "too full", "gridlock"};
     const bool is_full = use.state == TrafficState::too_full || use.state == TrafficState::gridlock;
     const bool is_blocked = !checked.config.incidents.empty();
+    const bool is_called =
+        std::ranges::any_of(checked.config.calls, [](const auto& call) { return call.incident.has_value(); });
     return {
         "jams",
         is_full && !is_blocked                 ? Grade::falls_short
@@ -142,8 +161,10 @@ Finding jams_finding(const metrics::RunMetrics& run, const RoadUse& use, const C
                     words[static_cast<std::size_t>(use.state)], core::counted(run.teleports, "teleport"),
                     run.unfinished, run.simulated_s, run.others_time_loss_s.value_or(0.0), use.per_lane_km),
         use.state == TrafficState::fits ? ""
-        : is_full && is_blocked         ? "the incidents make queues: check it without them, --incident none"
-                                        : density_advice(checked, use.factor)};
+        : is_full && is_blocked
+            ? "the incidents make queues: check it without them, " +
+                  std::string(is_called ? "and without the calls to them" : "--incident none")
+            : density_advice(checked, use.factor)};
 }
 
 constexpr const char* signals_name = "signals";
@@ -306,9 +327,11 @@ std::vector<detail::EmergencyTrip> planned_trips(const scenario::ScenarioConfig&
         const core::TemporaryFolder folder;
         const scenario::Prepared prepared = scenario::prepare(scenario, built, core::StudySeed{seed},
                                                               core::Replication{replication}, folder.path());
+        const double delay_s =
+            prepared.incidents.front().closed.from.value - scenario.incidents.front().from_s;
         for (const traffic::EmergencyDeparture& departure : prepared.emergency)
             trips.push_back(
-                {fmt::format("{} in replication {}", departure.id, replication), departure.edges});
+                {trip_name(departure.id, replication), departure.edges, departure.depart.value - delay_s});
     }
     return trips;
 }
@@ -319,9 +342,10 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
     const RoadUse use = road_use(run, checked.config.time, lane_km(checked.network));
     const std::string less = density_advice(checked, use.factor < 1.0 ? use.factor : 0.8);
     const auto trips = detail::emergency_trips_in(core::read_file(checked.demand / "emergency.csv"));
+    const auto queueing = detail::queueing_trips(checked.config, checked.network, of_seeds);
     std::vector<Finding> findings = {{"loads", Grade::ok, "SUMO loads the network and the demand"},
                                      insertion_finding(run, less),
-                                     emergency_finding(record, checked, less),
+                                     emergency_finding(record, checked, less, queueing),
                                      detail::sites_finding(checked.config),
                                      routes_finding(checked.demand, trips),
                                      jams_finding(run, use, checked),

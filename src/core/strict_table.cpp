@@ -19,7 +19,7 @@ const char* type_word(const toml::node& node) {
         case toml::node_type::floating_point:
             return "a number";
         case toml::node_type::boolean:
-            return "true or false";
+            return "a truth value";
         case toml::node_type::array:
             return "an array";
         case toml::node_type::table:
@@ -27,6 +27,15 @@ const char* type_word(const toml::node& node) {
         default:
             return "another type";
     }
+}
+
+/// `text, ""`, `a truth value, true`, `a table`: its type, with the value where that is one.
+std::string type_and_value(const toml::node& node) {
+    if (!node.is_value()) return type_word(node);
+    if (const auto text = node.value_exact<std::string>()) return fmt::format("text, \"{}\"", *text);
+    std::ostringstream value;
+    node.visit([&](const auto& one) { value << one; });
+    return fmt::format("{}, {}", type_word(node), value.str());
 }
 
 /// What the parser found, in other words where its own mislead: it takes a bare word for a boolean or a
@@ -94,8 +103,8 @@ void StrictTable::problem(const std::string& key, std::string what, std::string 
     reading_.problems.push_back({where(key), std::move(what), std::move(allowed), std::move(cure)});
 }
 
-void StrictTable::wrong_type(const toml::node& node, const std::string& key, const char* wanted) {
-    problem(key, fmt::format("is {}", type_word(node)), wanted, "");
+void StrictTable::wrong_type(const toml::node& node, const std::string& key, std::string wanted) {
+    problem(key, "is " + type_and_value(node), std::move(wanted), "");
 }
 
 std::optional<std::string> StrictTable::any_text(const std::string& key) {
@@ -107,7 +116,8 @@ std::optional<std::string> StrictTable::any_text(const std::string& key) {
 }
 
 void StrictTable::text_or_empty(const std::string& key, std::string& target) {
-    if (const auto value = any_text(key)) target = *value;
+    const auto value = any_text(key);
+    if (has(key)) target = value.value_or("");  // its default would be taken for what was given
 }
 
 void StrictTable::text(const std::string& key, std::string& target) {
@@ -172,7 +182,7 @@ std::optional<std::int64_t> StrictTable::whole_number(const std::string& key, st
     if (node == nullptr) return std::nullopt;
     const auto value = node->value_exact<std::int64_t>();
     if (!value) {
-        wrong_type(*node, key, "a whole number");
+        wrong_type(*node, key, fmt::format("a whole number from {} to {}", minimum, maximum));
         return std::nullopt;
     }
     if (*value >= minimum && *value <= maximum) return value;

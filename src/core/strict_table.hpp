@@ -40,6 +40,7 @@ class StrictTable {
     }
     /// Text that is not empty.
     void text(const std::string& key, std::string& target);
+    /// Empty for what is no text, too.
     void text_or_empty(const std::string& key, std::string& target);
     void texts(const std::string& key, std::vector<std::string>& target);
     /// An array of arrays of texts.
@@ -85,7 +86,7 @@ class StrictTable {
     const toml::node* find(const std::string& key);
     std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
     std::string place(const toml::source_region& source, const std::string& name) const;
-    void wrong_type(const toml::node& node, const std::string& key, const char* wanted);
+    void wrong_type(const toml::node& node, const std::string& key, std::string wanted);
     std::optional<std::string> any_text(const std::string& key);
     std::optional<double> number_within(const std::string& key, double minimum, double maximum);
     std::optional<std::int64_t> whole_number(const std::string& key, std::int64_t minimum,

@@ -66,17 +66,20 @@ void check_place(const ScenarioConfig& config, std::size_t row, Problems& proble
     const bool both = call.longitude && call.latitude;
     const int places = (call.edge.empty() ? 0 : 1) + (any ? 1 : 0) + (names_incident(config, row) ? 1 : 0);
     if (places != 1 || any != both)
-        problems.push_back({config.where(key),
+        problems.push_back({detail::place_of_row(config, key, places > 0),
                             places == 0  ? "has no place"
                             : places > 1 ? "has more than one place"
                                          : "has but one of longitude and latitude",
                             "edge, or longitude and latitude, or incident", "give one of the three"});
     if (call.incident && incident_of(config, call) == nullptr)
-        problems.push_back({detail::place_of_key(config, key, "incident"),
-                            fmt::format("there is no incident {}", *call.incident),
-                            config.incidents.empty() ? "a scenario with [[incident]]"
-                                                     : fmt::format("0 to {}", config.incidents.size() - 1),
-                            "count from 0, or give edge instead"});
+        problems.push_back(
+            {detail::place_of_key(config, key, "incident"),
+             fmt::format("there is no incident {}", *call.incident),
+             config.incidents.empty() ? "a scenario with [[incident]]"
+                                      : fmt::format("0 to {}", config.incidents.size() - 1),
+             config.incidents.empty() && config.origins.contains("incident")
+                 ? "the override incident removes those of the file: give one there, or leave it out"
+                 : "count from 0, or give edge instead"});
     if (call.incident && call.position_m)
         problems.push_back({detail::place_of_key(config, key, "position_m"),
                             "is given for a call to an incident", "the place before the incident",
@@ -93,6 +96,13 @@ void check_moment(const ScenarioConfig& config, std::size_t row, Problems& probl
             return;  // the fault that is told
         problems.push_back({where, "is not given", "when the call comes in, s",
                             call.incident ? "set it, or known_after_s of the incident" : "set it"});
+    } else if (const Incident* const incident = incident_of(config, call);
+               incident != nullptr && call.at_s && incident->to_s && *incident->to_s <= *at_s &&
+               *incident->to_s > incident->from_s) {
+        problems.push_back({where,
+                            fmt::format("{} is not before incident[{}] is over", *at_s, *call.incident),
+                            fmt::format("below {} (its to_s)", *incident->to_s),
+                            "call earlier, or give edge instead of incident"});
     } else if (*at_s < time.warm_up_s ||
                time.latest_s(*at_s) + call.spread_s + call.turnout_s >= time.horizon_s) {
         std::string spread;

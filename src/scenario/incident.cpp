@@ -1,12 +1,15 @@
 #include "scenario/incident.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/number.hpp"
+#include "roads/closure.hpp"
 #include "roads/network.hpp"
 #include "scenario/config.hpp"
 #include "scenario/detail/checks.hpp"
@@ -41,7 +44,9 @@ std::vector<std::uint32_t> numbers_in(const std::string& text, const std::string
         }
     }
     std::ranges::sort(numbers);
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    if (const auto twice = std::ranges::adjacent_find(numbers); twice != numbers.end())
+        problems.push_back({where, fmt::format("names lane {} twice", *twice), "each lane once",
+                            "name another, or it once"});
     return numbers;
 }
 
@@ -98,6 +103,9 @@ class Placing {
             .emergency_passes = incident.emergency_passes == 1};
         if (incident.known_after_s) placed.known_after = core::Seconds(*incident.known_after_s);
         if (placed.lanes.empty()) return;
+        if (incident.speed_past_kmh >= 1.0 && roads::closes_to_emergency(network_, placed))
+            report("speed_past_kmh", fmt::format("{} km/h, but no lane stays open", incident.speed_past_kmh),
+                   "with lanes that leave one open, or emergency_passes = 1", "leave it out, or set lanes");
         placed_.push_back({std::move(placed), incident.reroute_share, row_});
     }
 
@@ -168,9 +176,11 @@ class Placing {
                 if (has_station && config_.emergency_sites[row].kind == SiteKind::hospital) continue;
                 check_start(fmt::format("emergency_site[{}]", row), sites[row], first_s, time.window_s);
             }
+            std::set<std::string> told;  // several flows may begin on an edge
             for (std::size_t row = 0; row < config_.flows.size(); ++row)
-                check_start(fmt::format("flow[{}]", row), edge_of(config_.flows[row].from), first_s,
-                            time.window_s);
+                if (told.insert(config_.flows[row].from).second)
+                    check_start(fmt::format("flow[{}]", row), edge_of(config_.flows[row].from), first_s,
+                                time.window_s);
         }
         for (std::size_t row = 0; row < config_.emergency_trips.size(); ++row) {
             const EmergencyTrip& trip = config_.emergency_trips[row];
@@ -199,7 +209,10 @@ class Placing {
 /// What needs no network.
 void check_one(const ScenarioConfig& config, std::size_t row, Problems& problems) {
     const Incident& incident = config.incidents[row];
-    detail::check_edge_or_coordinates(incident, config.where(fmt::format("incident[{}]", row)), problems);
+    const std::string key = fmt::format("incident[{}]", row);
+    // A row of --incident that was refused, which is told.
+    if (std::isnan(incident.from_s) && !config.origins.contains(key + ".from_s")) return;
+    detail::check_edge_or_coordinates(incident, config, key, problems);
     const double to_s = end_s(config, incident);
     const Times& time = config.time;
     if (time.latest_s(incident.from_s) >= time.horizon_s)
@@ -212,6 +225,11 @@ void check_one(const ScenarioConfig& config, std::size_t row, Problems& problems
         problems.push_back({place(config, row, "to_s"),
                             fmt::format("{} is not after from_s, {}", to_s, incident.from_s),
                             fmt::format("above {}", incident.from_s), "exchange the two, or leave to_s out"});
+    else if (const double lasts_s = to_s - incident.from_s; incident.known_after_s >= lasts_s)
+        problems.push_back({place(config, row, "known_after_s"),
+                            fmt::format("{} is not before it is over", *incident.known_after_s),
+                            fmt::format("below {} (to_s less from_s)", lasts_s),
+                            "lower it, raise to_s, or leave it out"});
     numbers_in(incident.lanes, place(config, row, "lanes"), problems);
 }
 

@@ -65,8 +65,9 @@ struct PlacedIncident {
 
 /// The incidents of a scenario on its network, in the order of the file. Throws core::InputError with every
 /// problem: an unknown edge or lane, coordinates off the network or without a projection, an edge closed to
-/// emergency vehicles, a position beyond the edge, two incidents on one lane at a time, and an incident that
-/// closes the only way out of a station, of the start of an emergency vehicle's trip, or of a flow.
+/// emergency vehicles, a position beyond the edge, a limit past it with no lane open, two incidents on one
+/// lane at a time, and incidents that together close the only way out of a station, of the start of an
+/// emergency vehicle's trip, or of a flow.
 std::vector<PlacedIncident> place_incidents(const ScenarioConfig& config, const roads::Network& network);
 
 }  // namespace clearway::scenario

@@ -40,6 +40,12 @@ class WayFindings : public testing::Test {
         return passing_finding(way.config, way.built.network, trips, 2);
     }
 
+    std::map<std::string, std::string> queueing(const std::string& incident,
+                                                const std::vector<EmergencyTrip>& trips) const {
+        const Roads way = roads("[[incident]]\n" + incident);
+        return queueing_trips(way.config, way.built.network, trips);
+    }
+
     /// 400 vehicles, some of them in locks.
     Finding locks(std::uint64_t locked, std::uint64_t emergency, const std::string& time = "") const {
         const Roads way = roads(time);
@@ -100,6 +106,54 @@ TEST_F(WayFindings, say_how_many_pass_a_block_and_where_more_would) {
               "most pass, near their middles, with a way round: edge main, 2 trips; edge down, 1 trip");
     const Finding called = passing("edge = \"goal\"\n", {{"a", {"gate", "far"}}});
     EXPECT_EQ(called.advice, "no road in the middle of an EV trip has a way round");
+}
+
+TEST_F(WayFindings, count_a_trip_only_while_the_block_lasts) {
+    // 1000 m at 20 m/s: on the road for 50 s at free flow, for 320 s at the very most.
+    const std::vector<EmergencyTrip> ways = {{"a", {"gate", "main", "goal"}, 100.0}};
+    const std::string main = "edge = \"main\"\n";
+    EXPECT_THAT(passing(main + "from_s = 340.0\n", ways).text, HasSubstr("1 of 1"));
+    const Finding later = passing(main + "from_s = 440.0\n", ways);
+    EXPECT_THAT(later.text, HasSubstr("0 of 1"));
+    EXPECT_EQ(later.advice, "other times: no EV is on the road while an incident lasts");
+    EXPECT_THAT(passing(main + "to_s = 90.0\n", ways).text, HasSubstr("0 of 1"));
+
+    const std::vector<EmergencyTrip> far = {{"one", {"gate", "far"}, 100.0}};
+    const std::string block = "[[incident]]\nedge = \"far\"\n";
+    EXPECT_EQ(cut_off(block + "to_s = 110.0\n", {}, far).grade, Grade::falls_short);
+    EXPECT_EQ(cut_off(block + "to_s = 90.0\n", {}, far).grade, Grade::ok);
+    EXPECT_EQ(cut_off(block + "from_s = 600.0\n", {}, far).grade, Grade::ok);
+}
+
+TEST_F(WayFindings, say_that_those_who_are_called_to_a_closed_road_may_end_in_the_queue) {
+    const std::vector<EmergencyTrip> called = {
+        {"emergency.call.0.0 in replication 0", {"gate", "far"}, 100.0},
+        {"emergency.call.1.0 in replication 0", {"gate", "main"}, 100.0}};
+    const Finding found = passing("edge = \"far\"\nto_s = 250.0\n", called);
+    EXPECT_EQ(found.text,
+              "0 of 2 EV trips of 2 seeds pass a blocked road; 1 of them is called to edge far, closed until "
+              "250 s: if a queue stands before it, they end there");
+    EXPECT_EQ(found.grade, Grade::note);
+    EXPECT_EQ(found.advice, queueing_cure);
+    EXPECT_THAT(queueing("edge = \"far\"\n", called),
+                testing::ElementsAre(
+                    std::pair("emergency.call.0.0 in replication 0", "edge far, closed until 900 s")));
+    EXPECT_THAT(queueing("edge = \"far\"\nto_s = 90.0\n", called), testing::IsEmpty());
+    EXPECT_THAT(queueing("edge = \"far\"\nemergency_passes = 1\n", called), testing::IsEmpty());
+}
+
+TEST_F(WayFindings, say_whether_a_call_has_a_choice_of_stations) {
+    const std::string station = "[[emergency_site]]\nkind = \"ambulance_station\"\nunits = 2\nedge = ";
+    const std::string call = "[[call]]\nedge = \"goal\"\nat_s = 100.0\n";
+    const Finding one = findings(station + "\"gate\"\n" + call)[1];
+    EXPECT_EQ(one.text, "1 call, 1 station; no call has two stations of its kind to choose from");
+    EXPECT_EQ(one.grade, Grade::note);
+    EXPECT_THAT(one.advice, HasSubstr("loop.units_tried"));
+    const Finding two = findings(station + "\"gate\"\n" + station + "\"main\"\n" + call)[1];
+    EXPECT_EQ(two.text,
+              "1 call, 2 stations; the nearest in a straight line is not the first at free flow for none of "
+              "them");
+    EXPECT_EQ(two.grade, Grade::ok);
 }
 
 TEST_F(WayFindings, count_those_who_can_choose) {
@@ -167,7 +221,7 @@ TEST_F(WayFindings, name_those_whom_an_incident_cuts_off) {
     EXPECT_EQ(round[2].grade, Grade::ok);
     const auto off = findings("[[incident]]\nedge = \"far\"\n");
     EXPECT_EQ(off[1].grade, Grade::falls_short);
-    EXPECT_EQ(off[1].text, "1 incident on edge far, all lanes: no way round while all last for two");
+    EXPECT_EQ(off[1].text, "1 incident on edge far, all lanes: no way round then for two");
     // It lasts for 900 s, and SUMO waits for 300.
     EXPECT_EQ(off[2].grade, Grade::note);
     EXPECT_THAT(off[2].advice, HasSubstr("time_to_teleport_s = -1"));
@@ -190,9 +244,9 @@ TEST_F(WayFindings, look_for_whom_an_incident_cuts_off_in_more_seeds_than_are_ru
 TEST_F(WayFindings, those_who_are_called_to_an_incident_are_not_cut_off) {
     const std::string called = "emergency.call.0.0,t,ambulance,60.00,best,max,gate far\n";
     EXPECT_EQ(findings("[[incident]]\nedge = \"far\"\n", called)[1].text,
-              "1 incident on edge far, all lanes: no way round while all last for two");
+              "1 incident on edge far, all lanes: no way round then for two");
     EXPECT_EQ(findings("[[incident]]\nedge = \"goal\"\n", called)[1].text,
-              "1 incident on edge goal, all lanes: no way round while all last for one");
+              "1 incident on edge goal, all lanes: no way round then for one");
 }
 
 }  // namespace

@@ -245,6 +245,28 @@ TEST_F(CityTest, check_says_when_vehicles_drive_one_edge_alone) {
                 AllOf(testing::ContainsRegex("short +routes"), testing::ContainsRegex("1 of\\s+1 EV")));
 }
 
+TEST_F(CityTest, check_does_not_blame_density_where_evs_are_called_to_a_closed_road) {
+    ASSERT_EQ(clearway({"scenario", "init", "grid", "--from", "grid_signals_v2"}).code, 0);
+    const std::string drawn = read("grid/scenario.toml");
+    const std::size_t emergency = drawn.find("emergency = 4");
+    ASSERT_NE(emergency, std::string::npos);
+    std::string text = drawn;
+    text.replace(emergency, 13, "emergency = 0");
+    text += "[[emergency_site]]\nkind = \"ambulance_station\"\nedge = \"A1A0\"\nunits = 6\n";
+    write("grid/scenario.toml", text +
+                                    "[[incident]]\nedge = \"B1C1\"\nfrom_s = 100\nto_s = 900\n"
+                                    "known_after_s = 30\n[[call]]\nincident = 0\nunits = 4\n");
+    const std::string queue = clearway({"scenario", "check", "./grid"}).out;
+    EXPECT_THAT(queue,
+                AllOf(testing::ContainsRegex("called\\s+to\\s+a\\s+closed\\s+road\\s+did\\s+not\\s+arrive"),
+                      testing::ContainsRegex("try: leave a lane open"), Not(HasSubstr("--density")),
+                      testing::ContainsRegex("closed\\s+until\\s+900"), Not(HasSubstr("--incident none"))));
+    // On the station's own edge.
+    write("grid/scenario.toml", text + "[[call]]\nedge = \"A1A0\"\nat_s = 100\n");
+    EXPECT_THAT(clearway({"scenario", "check", "./grid"}).out,
+                AllOf(HasSubstr("try: another edge for the call"), Not(HasSubstr("minimum_length_m"))));
+}
+
 TEST_F(CityTest, check_of_a_run_that_fails_exits_with_1_and_keeps_the_inputs) {
     write_line_scenario();
     const Ended failed = clearway({"scenario", "check", "line", "--run-time-limit", "0.001"});

@@ -43,5 +43,31 @@ TEST(TomlErrors, TellThatRowsHaveTwoBrackets) {
                 AllOf(HasSubstr("is a table"), HasSubstr("Write [[emergency_site]], with two brackets")));
 }
 
+TEST(TomlErrors, TellTheValueOfAWrongTypeAndWhichNumbersAreAllowed) {
+    TomlReading reading;
+    reading.file = "city.toml";
+    const toml::table table =
+        parse_toml("from_s = \"\"\npasses = true\nroads = [\"a\", 3]\nname = [1]\n", "city.toml");
+    StrictTable root(table, "", reading);
+    std::optional<double> number;
+    int passes = 7;
+    std::vector<std::string> roads;
+    std::string name;
+    root.number("from_s", number);
+    root.integer("passes", 0, 1, passes);
+    root.texts("roads", roads);
+    root.text("name", name);
+    std::vector<std::string> told;
+    for (const Problem& problem : reading.problems)
+        told.push_back(format_problem(problem));
+    EXPECT_THAT(told,
+                testing::ElementsAre(
+                    "city.toml:1:1: from_s: is text, \"\" (allowed: a number)",
+                    "city.toml:2:1: passes: is a truth value, true (allowed: a whole number from 0 to 1)",
+                    "city.toml:3:1: roads: is a number, 3 (allowed: an array of texts)",
+                    "city.toml:4:1: name: is an array (allowed: text)"));
+    EXPECT_EQ(passes, 7);
+}
+
 }  // namespace
 }  // namespace clearway::core

@@ -37,6 +37,7 @@ class AccidentTest(FolderCase):
         type_in(sent[1], ("--seeds 10", "--seeds 1 --no-solo --out runs/sent"))
         answered = next(row for row in self.rows("sent") if row["condition"] != "baseline")
         self.assertEqual(answered["units_sent"], "2")
+        self.assertGreater(int(answered["unit_decisions"]), 0, "two stations: there is one that was not sent")
         tried = commands(GUIDE, "4. What a better way would have saved")[0]
         type_in(tried, ("--seeds 5", "--seeds 1 --no-solo --out runs/tried"), ("ways_tried=8", "ways_tried=2"))
         chosen = next(row for row in self.rows("tried") if row["condition"] != "baseline")

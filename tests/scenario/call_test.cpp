@@ -182,13 +182,32 @@ TEST_F(CallTest, what_follows_from_a_wrong_number_is_not_told_too) {
     EXPECT_THAT(wrong("[[incident]]\nedge = \"place\"\nfrom_s = -5.0\nknown_after_s = 5.0\n" + call),
                 ElementsAre("incident[0].from_s -5 is out of range"));
     EXPECT_THAT(wrong("[[incident]]\nedge = \"place\"\nfrom_s = \"x\"\nknown_after_s = 5.0\n" + call),
-                ElementsAre("incident[0].from_s is text"));
+                ElementsAre("incident[0].from_s is text, \"x\""));
     EXPECT_THAT(wrong("[[call]]\nincident = -1\n"), ElementsAre("call[0].incident -1 is negative"));
     EXPECT_THAT(wrong("[[call]]\nincident = 3\n"), ElementsAre("call[0].incident there is no incident 3"));
+    EXPECT_THAT(wrong("[[call]]\nedge = 3\nat_s = 100.0\n"), ElementsAre("call[0].edge is a number, 3"));
+    EXPECT_THAT(wrong("[[call]]\nedge = \"place\"\nat_s = 100.0\nunits = 9\nkind = 5\n"),
+                ElementsAre("call[0].kind is a number, 5"));
     std::string head = called_head;
     head.replace(head.find("horizon_s = 600.0"), 17, "horizon_s = -600.0");
     EXPECT_THAT(wrong("[[call]]\nedge = \"place\"\nat_s = 100000.0\n", head),
                 ElementsAre("time.horizon_s -600 is out of range"));
+}
+
+TEST_F(CallTest, to_an_incident_must_come_before_it_is_over) {
+    const std::string incident = "[[incident]]\nedge = \"place\"\nfrom_s = 50.0\nto_s = 200.0\n";
+    EXPECT_THAT(wrong(incident + "[[call]]\nincident = 0\nat_s = 200.0\n"),
+                ElementsAre("call[0].at_s 200 is not before incident[0] is over"));
+    EXPECT_THAT(prepared(incident + "[[call]]\nincident = 0\nat_s = 199.0\n").emergency, SizeIs(1));
+}
+
+TEST_F(CallTest, says_that_the_override_removed_its_incident) {
+    const std::string text =
+        std::string(called_head) + "[[incident]]\nedge = \"place\"\n[[call]]\nincident = 0\nat_s = 100.0\n";
+    const std::string file = write("scenario.toml", text).string();
+    const auto problems = problems_of([&] { load(file, Options().set("incident", "none")); });
+    ASSERT_THAT(problems, SizeIs(1));
+    EXPECT_THAT(problems[0].cure, HasSubstr("the override incident removes those of the file"));
 }
 
 TEST_F(CallTest, places_that_cannot_be_reached_are_refused) {

@@ -203,7 +203,7 @@ TEST_F(Config, negative_count_is_refused) {
 }
 
 TEST_F(Config, fractional_count_is_refused) {
-    EXPECT_EQ(only_problem("[demand]\nhuman = 1.5\n").allowed, "a whole number");
+    EXPECT_EQ(only_problem("[demand]\nhuman = 1.5\n").allowed, "a whole number from 0 to 100000");
 }
 
 TEST_F(Config, step_out_of_range_is_refused_in_file_and_option) {

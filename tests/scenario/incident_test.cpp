@@ -136,6 +136,36 @@ TEST_F(IncidentTest, what_follows_from_a_wrong_time_is_not_told_too) {
     EXPECT_THAT(wrong("", options), ElementsAre("--incident from_s -1 is out of range"));
 }
 
+TEST_F(IncidentTest, an_edge_that_is_no_text_is_told_once) {
+    EXPECT_THAT(wrong("[[incident]]\nedge = 5\n"), ElementsAre("11:1: incident[0].edge is a number, 5"));
+    EXPECT_THAT(wrong("[[incident]]\nedge = \"\"\n"), ElementsAre("11:1: incident[0].edge has no place"));
+    EXPECT_THAT(wrong("[[emergency_site]]\nedge = 3\n"),
+                ElementsAre("11:1: emergency_site[0].edge is a number, 3"));
+}
+
+TEST_F(IncidentTest, a_row_of_the_override_that_was_refused_is_told_once) {
+    Options options;
+    options.set("incident", "longitude=nan,latitude=52.43,from_s=10");
+    EXPECT_THAT(wrong("", options), ElementsAre("--incident longitude nan is out of range"));
+    options.set("incident", "longitude=200,latitude=95");
+    EXPECT_THAT(wrong("", options), ElementsAre("--incident latitude 95 is out of range",
+                                                "--incident longitude 200 is out of range"));
+    options.set("incident", "edge=main,from_s=10,lanes=1;2");
+    EXPECT_THAT(wrong("", options), SizeIs(1));
+    options.set("incident", "from_s=10");
+    EXPECT_THAT(wrong("", options), ElementsAre("--incident has no place"));
+    EXPECT_THAT(wrong("[[incident]]\nfrom_s = -1\n"), SizeIs(2)) << "of a file, the place is missing, too";
+}
+
+TEST_F(IncidentTest, what_has_no_effect_is_refused) {
+    EXPECT_THAT(wrong("[[incident]]\nedge = \"main\"\nlanes = \"2 1 2\"\n"),
+                ElementsAre("12:1: incident[0].lanes names lane 2 twice"));
+    const std::string known = "[[incident]]\nedge = \"on\"\nfrom_s = 20.0\nto_s = 90.0\nknown_after_s = ";
+    EXPECT_THAT(wrong(known + "70.0\n"),
+                ElementsAre("14:1: incident[0].known_after_s 70 is not before it is over"));
+    EXPECT_THAT(placed(known + "69.0\n"), SizeIs(1));
+}
+
 TEST_F(IncidentTest, keys_that_contradict_each_other_are_refused) {
     const auto found = wrong(
         "[[incident]]\nfrom_s = 20.0\n[[incident]]\nedge = \"on\"\nlongitude = 1.0\nlatitude = 1.0\n"
@@ -165,12 +195,23 @@ TEST_F(IncidentTest, places_that_the_network_does_not_have_are_refused) {
                                   HasSubstr("401 is beyond the end of edge \"on\""))));
     const auto problems = problems_of([&] { placed("[[incident]]\nedge = \"mian\"\n"); });
     EXPECT_THAT(problems[0].cure, HasSubstr("'main'"));
+    // Coordinates are no cure here.
+    EXPECT_EQ(problems_of([&] { placed("[[incident]]\nedge = \"nowhere\"\n"); })[0].cure, "");
+    EXPECT_THAT(problems_of([&] {
+                    const ScenarioConfig city = load("city", Options().set("incident", "edge=nowhere"));
+                    place_incidents(city, build_network(city, folder() / "city").network);
+                })[0]
+                    .cure,
+                HasSubstr("longitude and latitude"));
 }
 
 TEST_F(IncidentTest, a_limit_at_which_nobody_moves_is_refused) {
     EXPECT_THAT(wrong("[[incident]]\nedge = \"on\"\nspeed_past_kmh = 0.5\n"),
                 ElementsAre("12:1: incident[0].speed_past_kmh 0.5 km/h is a standstill"));
-    EXPECT_THAT(placed("[[incident]]\nedge = \"on\"\nspeed_past_kmh = 1\n"), SizeIs(1));
+    const std::string lane = "[[incident]]\nedge = \"main\"\nspeed_past_kmh = 1\n";
+    EXPECT_THAT(placed(lane + "lanes = \"1\"\n"), SizeIs(1));
+    EXPECT_THAT(wrong(lane), ElementsAre("12:1: incident[0].speed_past_kmh 1 km/h, but no lane stays open"));
+    EXPECT_THAT(placed(lane + "emergency_passes = 1\n"), SizeIs(1));
 }
 
 TEST_F(IncidentTest, two_on_one_lane_at_a_time_are_refused) {
@@ -190,11 +231,27 @@ TEST_F(IncidentTest, the_only_way_out_of_a_start_must_stay_open) {
         wrong("[demand]\nemergency = 1\n[[emergency_site]]\nkind = \"fire_station\"\nedge = \"gate\"\n" +
               gate),
         SizeIs(1));
-    EXPECT_THAT(wrong("[demand]\nemergency = 1\n[[flow]]\nfrom = \"stub\"\nto = \"on\"\n" + gate), SizeIs(1));
+    const std::string half = "share = 0.5\nfrom = \"stub\"\nto = \"on\"\n";
+    EXPECT_THAT(wrong("[demand]\nemergency = 1\n[[flow]]\n" + half + "[[flow]]\n" + half + gate), SizeIs(1));
     // Over before the EV comes, open to EVs, or with a way round it.
     EXPECT_THAT(placed(trip + gate + "to_s = 90.0\n"), SizeIs(1));
     EXPECT_THAT(placed(trip + gate + "emergency_passes = 1\n"), SizeIs(1));
     EXPECT_THAT(placed(trip + "[[incident]]\nedge = \"main\"\n"), SizeIs(1));
+}
+
+TEST_F(IncidentTest, incidents_that_close_the_only_way_out_together_are_refused) {
+    const std::string trip = "[[emergency_trip]]\nfrom = \"gate\"\nto = \"on\"\ndepart_s = 100.0\n";
+    const std::string up = "[[incident]]\nedge = \"up\"\nto_s = 300.0\n";
+    const std::string main = "[[incident]]\nedge = \"main\"\nlanes = ";
+    const std::string from = "from_s = 50.0\n";
+    EXPECT_THAT(
+        wrong(trip + up + main + "\"1\"\n" + from + main + "\"2\"\n" + from),
+        ElementsAre("14:1: incident[0] closes edges \"main\", \"up\", with incident[1], incident[2], the "
+                    "only way out of emergency_trip[0] at \"gate\""));
+    // A lane stays open, one is over before the other begins, or EVs pass.
+    EXPECT_THAT(placed(trip + up + main + "\"1\"\n" + from), SizeIs(2));
+    EXPECT_THAT(placed(trip + up + main + "\"1 2\"\nfrom_s = 300.0\n"), SizeIs(2));
+    EXPECT_THAT(placed(trip + up + main + "\"1 2\"\nemergency_passes = 1\n"), SizeIs(2));
 }
 
 TEST_F(IncidentTest, coordinates_find_the_nearest_road_for_cars) {

@@ -113,8 +113,9 @@ TEST_F(StudyFile, TakesEveryOverrideAsKeyAndAsFactorWithItsRange) {
                         testing::AllOf(HasSubstr(fmt::format("study.toml:4:1: overrides.{}", value.name)),
                                        HasSubstr("no such word")));
         }
-        EXPECT_THAT(problems(study_with(value.name + " = true", "")),
-                    HasSubstr(fmt::format("study.toml:4:1: overrides.{}: is true or false", value.name)));
+        EXPECT_THAT(
+            problems(study_with(value.name + " = true", "")),
+            HasSubstr(fmt::format("study.toml:4:1: overrides.{}: is a truth value, true", value.name)));
     }
 }
 
@@ -275,7 +276,7 @@ polcy = ["dissertation"]
     EXPECT_THAT(message, HasSubstr("merge"));
     EXPECT_THAT(message, HasSubstr("'baseline'"));
     EXPECT_THAT(message, HasSubstr("study.toml:6:1: overrides.variant: \"denser\" is not known"));
-    EXPECT_THAT(message, HasSubstr("overrides.density: is text (allowed: a number)"));
+    EXPECT_THAT(message, HasSubstr("overrides.density: is text, \"much\" (allowed: a number)"));
     EXPECT_THAT(message, HasSubstr("Did you mean 'policy'?"));
     EXPECT_THAT(message, HasSubstr("condition.name"));
 }

@@ -15,8 +15,9 @@ namespace clearway::campaign::detail {
 struct EmergencyTrip {
     std::string id;
     std::vector<std::string> edges;  ///< With both ends.
+    double depart_s = 0.0;           ///< Less the delay that events of its replication have.
 };
-/// Those of the emergency.csv that `prepare` wrote.
+/// Those of the emergency.csv that `prepare` wrote, without their times.
 std::vector<EmergencyTrip> emergency_trips_in(const std::string& csv);
 
 /// The signals between each edge and the next.

@@ -26,15 +26,37 @@ struct Trip {
     std::string id;
     core::EdgeIndex from, to;
     std::vector<core::EdgeIndex> way = {};  ///< As planned, with both ends.
+    double depart_s = 0.0;
+    double latest_s = 0.0;  ///< When it has arrived at the latest.
+
+    bool is_on_road(const traffic::Incident& incident) const {
+        return depart_s < incident.to.value && incident.from.value < latest_s;
+    }
+    /// Whether it is called to a road that is closed then.
+    bool queues_at(const roads::Network& network, const traffic::Incident& incident) const {
+        return id.starts_with(scenario::called_prefix) && incident.edge == to && is_on_road(incident) &&
+               roads::closes_to_emergency(network, incident);
+    }
 };
 
+/// Assumed, and generous: jams make a trip four times as long, and it waits for a cycle of signals besides.
+double latest_s(const roads::RouteSearch& search, const std::vector<core::EdgeIndex>& way) {
+    constexpr double longer = 4.0;
+    constexpr double cycle_s = 120.0;
+    const auto free_s = [&](core::EdgeIndex edge, double) { return search.free_s(edge); };
+    return longer * search.time_of(way, search.free_s(way.front()), free_s) + cycle_s;
+}
+
 std::vector<Trip> trips_of(const roads::Network& network, const std::vector<EmergencyTrip>& planned) {
+    const roads::RouteSearch search(network, roads::Driver::emergency);
     std::vector<Trip> trips;
     for (const EmergencyTrip& trip : planned) {
         std::vector<core::EdgeIndex> way;
         for (const std::string& id : trip.edges)
             if (const auto edge = network.find_edge(id)) way.push_back(*edge);
-        if (!way.empty()) trips.push_back({trip.id, way.front(), way.back(), way});
+        if (!way.empty())
+            trips.push_back({trip.id, way.front(), way.back(), way, trip.depart_s,
+                             trip.depart_s + latest_s(search, way)});
     }
     return trips;
 }
@@ -67,12 +89,13 @@ std::string place_words(const roads::Network& network, const traffic::Incident& 
 Finding incident_finding(roads::RouteSearch& search, const std::vector<Trip>& trips,
                          const std::vector<scenario::PlacedIncident>& incidents,
                          const roads::Network& network) {
-    std::vector<core::EdgeIndex> closed;
-    for (const scenario::PlacedIncident& incident : incidents)
-        if (roads::closes_to_emergency(network, incident.closed)) closed.push_back(incident.closed.edge);
     std::vector<std::string> cut_off;
     std::vector<core::EdgeIndex> way;
     for (const Trip& trip : trips) {
+        std::vector<core::EdgeIndex> closed;
+        for (const scenario::PlacedIncident& incident : incidents)
+            if (trip.is_on_road(incident.closed) && roads::closes_to_emergency(network, incident.closed))
+                closed.push_back(incident.closed.edge);
         const bool is_called = trip.id.starts_with(scenario::called_prefix);  // it stops before
         const auto open_s = [&](core::EdgeIndex edge, double) {
             const bool is_closed = std::ranges::find(closed, edge) != closed.end();
@@ -93,15 +116,15 @@ Finding incident_finding(roads::RouteSearch& search, const std::vector<Trip>& tr
         core::listed({cut_off.begin(),
                       cut_off.begin() + static_cast<std::ptrdiff_t>(std::min(most_named, cut_off.size()))});
     if (cut_off.size() > most_named) named += fmt::format(" and {} more", cut_off.size() - most_named);
-    return {"incidents", Grade::falls_short,
-            fmt::format("{}: no way round while all last for {}", count, named),
+    return {"incidents", Grade::falls_short, fmt::format("{}: no way round then for {}", count, named),
             "another edge, other lanes, or emergency_passes = 1; else these EVs wait until it is over"};
 }
 
 /// Of those who are called to an edge, none passes it.
-bool passes(const Trip& trip, core::EdgeIndex edge) {
+bool passes(const Trip& trip, const traffic::Incident& incident) {
     const bool is_called = trip.id.starts_with(scenario::called_prefix);
-    return std::ranges::find(trip.way, edge) != trip.way.end() && !(is_called && edge == trip.to);
+    return trip.is_on_road(incident) && std::ranges::find(trip.way, incident.edge) != trip.way.end() &&
+           !(is_called && incident.edge == trip.to);
 }
 
 /// The edges in the middle third of a trip's length where a queue has room before a block in their middle.
@@ -159,14 +182,16 @@ std::vector<std::string> often_passed(const std::vector<Trip>& trips, const road
     return words;
 }
 
-/// How often the station that is nearest in a straight line is not the one that is there first at free flow.
+/// How often the station that is nearest in a straight line is not the one that is there first at free flow;
+/// whether any call has a choice.
 Finding call_finding(roads::RouteSearch& search, const scenario::Calls& calls,
                      const roads::Network& network) {
     const auto free_s = [&](core::EdgeIndex edge, double) { return search.free_s(edge); };
     const scenario::Fleet fleet(calls.stations);
-    std::size_t differing = 0;
+    std::size_t differing = 0, choosing = 0;
     for (const scenario::PlacedCall& call : calls.calls) {
         std::vector<scenario::Sending> found = fleet.candidates(call, search, free_s);
+        choosing += found.size() > 1 ? 1 : 0;
         const scenario::Sending* const first = scenario::cheapest(found);
         const std::size_t by_time = first == nullptr ? fleet.stations().size() : first->station;
         for (scenario::Sending& each : found)
@@ -174,10 +199,15 @@ Finding call_finding(roads::RouteSearch& search, const scenario::Calls& calls,
         const scenario::Sending* const nearest = scenario::cheapest(found);
         differing += nearest != nullptr && nearest->station != by_time ? 1 : 0;
     }
+    const std::string count = fmt::format("{}, {}", core::counted(calls.calls.size(), "call"),
+                                          core::counted(calls.stations.size(), "station"));
+    if (choosing == 0)
+        return {
+            "calls", Grade::note, count + "; no call has two stations of its kind to choose from",
+            "a second [[emergency_site]] with units, for dispatch and loop.units_tried to have an effect"};
     return {"calls", Grade::ok,
-            fmt::format("{}, {}; for {} the nearest in a straight line is not the first at free flow",
-                        core::counted(calls.calls.size(), "call"),
-                        core::counted(calls.stations.size(), "station"), differing)};
+            fmt::format("{}; the nearest in a straight line is not the first at free flow for {} of them",
+                        count, differing == 0 ? "none" : std::to_string(differing))};
 }
 
 /// From the coordinates of a site to its edge.
@@ -263,20 +293,48 @@ Finding passing_finding(const scenario::ScenarioConfig& config, const roads::Net
     constexpr double few = 0.1;  // Assumed: of ten trips, one tells little of a block.
     const std::vector<Trip> trips = trips_of(network, planned);
     const std::vector<scenario::PlacedIncident> incidents = scenario::place_incidents(config, network);
-    const auto passing = static_cast<std::size_t>(std::ranges::count_if(trips, [&](const Trip& trip) {
-        return std::ranges::any_of(incidents,
-                                   [&](const auto& incident) { return passes(trip, incident.closed.edge); });
-    }));
+    const auto count = [&](const auto& is_met) {
+        return static_cast<std::size_t>(std::ranges::count_if(trips, [&](const Trip& trip) {
+            return std::ranges::any_of(
+                incidents, [&](const auto& placed) { return std::invoke(is_met, trip, placed.closed); });
+        }));
+    };
+    const std::size_t passing = count(passes);
     const std::string text =
         fmt::format("{} of {} of {} {} a blocked road", passing, core::counted(trips.size(), "EV trip"),
                     core::counted(replications, "seed"), trips.size() == 1 ? "passes" : "pass");
+    std::set<std::string> places;
+    const auto queueing = queueing_trips(config, network, planned);
+    for (const auto& [id, place] : queueing)
+        places.insert(place);
+    if (!queueing.empty())
+        return {
+            "met", Grade::note,
+            fmt::format("{}; {} of them {} called to {}: if a queue stands before it, they end there", text,
+                        queueing.size(), queueing.size() == 1 ? "is" : "are", fmt::join(places, " and ")),
+            queueing_cure};
     if (static_cast<double>(passing) >= few * static_cast<double>(trips.size()) && passing > 0)
         return {"met", Grade::ok, text};
+    if (count(&Trip::is_on_road) == 0)
+        return {"met", Grade::note, text, "other times: no EV is on the road while an incident lasts"};
     const std::vector<std::string> roads = often_passed(trips, network);
     return {"met", Grade::note, text,
             roads.empty()
                 ? "no road in the middle of an EV trip has a way round"
                 : fmt::format("most pass, near their middles, with a way round: {}", fmt::join(roads, "; "))};
+}
+
+std::map<std::string, std::string> queueing_trips(const scenario::ScenarioConfig& config,
+                                                  const roads::Network& network,
+                                                  const std::vector<EmergencyTrip>& planned) {
+    const std::vector<scenario::PlacedIncident> incidents = scenario::place_incidents(config, network);
+    std::map<std::string, std::string> found;
+    for (const Trip& trip : trips_of(network, planned))
+        for (const auto& [incident, share, row] : incidents)
+            if (trip.queues_at(network, incident))
+                found.emplace(trip.id, fmt::format("{}, closed until {:g} s",
+                                                   road_words(network.edge(trip.to)), incident.to.value));
+    return found;
 }
 
 }  // namespace clearway::campaign::detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,19 @@ std::vector<Finding> way_findings(const scenario::ScenarioConfig& config, const 
                                   const std::vector<EmergencyTrip>& planned,
                                   const std::vector<EmergencyTrip>& of_more_seeds = {});
 
-/// How many emergency vehicles' trips pass a road that an incident blocks, at whatever time; where few do,
-/// up to three roads that most of them pass near their middles, with a way round. `planned`: of all
-/// replications.
+/// The trips that are called to a road that an incident closes then, before which they end in the queue, each
+/// with the road and until when, `edge B1C1, closed until 900 s`.
+std::map<std::string, std::string> queueing_trips(const scenario::ScenarioConfig& config,
+                                                  const roads::Network& network,
+                                                  const std::vector<EmergencyTrip>& planned);
+
+/// What such trips need to reach their place meanwhile.
+inline constexpr const char* queueing_cure =
+    "leave a lane open (lanes), or emergency_passes = 1 with a reroute_share, for EVs to reach the place";
+
+/// How many emergency vehicles' trips pass a road while an incident blocks it, and how many are called to
+/// one; where few do, up to three roads that most of them pass near their middles, with a way round.
+/// `planned`: of all replications.
 Finding passing_finding(const scenario::ScenarioConfig& config, const roads::Network& network,
                         const std::vector<EmergencyTrip>& planned, std::size_t replications);
 

@@ -222,8 +222,8 @@ void check_sites(const ScenarioConfig& config, Problems& problems) {
                             "trips or measured, or a scenario with [[call]]",
                             "remove one; [[emergency_trip]] adds single emergency vehicles"});
     for (std::size_t row = 0; row < config.emergency_sites.size(); ++row)
-        check_edge_or_coordinates(config.emergency_sites[row],
-                                  config.where(fmt::format("emergency_site[{}]", row)), problems);
+        check_edge_or_coordinates(config.emergency_sites[row], config, fmt::format("emergency_site[{}]", row),
+                                  problems);
 }
 
 void check_road(const ScenarioConfig& config, Problems& problems) {

@@ -16,6 +16,11 @@ std::string place_of_key(const ScenarioConfig& config, const std::string& row, c
     return found == config.origins.end() ? config.where(row) + "." + key : found->second;
 }
 
+std::string place_of_row(const ScenarioConfig& config, const std::string& row, bool has_place) {
+    const std::string edge = row + ".edge";
+    return config.where(!has_place && config.origins.contains(edge) ? edge : row);
+}
+
 std::optional<RoadPlace> on_edge(const roads::Network& network, const std::string& id,
                                  const std::string& where, std::vector<core::Problem>& problems) {
     const auto found = network.find_edge(id);
@@ -24,9 +29,10 @@ std::optional<RoadPlace> on_edge(const roads::Network& network, const std::strin
     std::vector<std::string> known;
     for (const roads::Edge& edge : network.edges())
         if (!edge.internal) known.push_back(edge.id);
-    problems.push_back({where, fmt::format("the network has no edge \"{}\"", id),
-                        "id of an edge outside junctions",
-                        core::did_you_mean(id, known, "give longitude and latitude instead")});
+    const bool has_projection = roads::Geography::of(network.location()).has_value();
+    problems.push_back(
+        {where, fmt::format("the network has no edge \"{}\"", id), "id of an edge outside junctions",
+         core::did_you_mean(id, known, has_projection ? "give longitude and latitude instead" : "")});
     return std::nullopt;
 }
 

@@ -41,14 +41,18 @@ std::optional<roads::Geography> geography_of(const roads::Network& network, cons
 core::Problem no_road_near(const roads::Network& network, roads::Coordinates place, const std::string& where,
                            const std::string& missing);
 
-/// Adds a problem at `where` for a row with neither or both of edge and coordinates, or one coordinate alone.
+/// Where `incident[0]` stands; for one without a place, its key edge where that is given, so that one that
+/// could not be read is not told twice.
+std::string place_of_row(const ScenarioConfig& config, const std::string& row, bool has_place);
+
+/// Adds a problem for a row with neither or both of edge and coordinates, or one coordinate alone.
 template <class Row>
-void check_edge_or_coordinates(const Row& row, const std::string& where,
+void check_edge_or_coordinates(const Row& row, const ScenarioConfig& config, const std::string& key,
                                std::vector<core::Problem>& problems) {
     const bool both = row.longitude && row.latitude;
     const bool any = row.longitude || row.latitude;
     if (any == both && any == row.edge.empty()) return;
-    problems.push_back({where,
+    problems.push_back({place_of_row(config, key, any),
                         any && !row.edge.empty() ? "has an edge, and coordinates besides"
                         : any                    ? "has but one of longitude and latitude"
                                                  : "has no place",

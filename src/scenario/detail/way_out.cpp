@@ -1,6 +1,7 @@
 #include "scenario/detail/way_out.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -11,22 +12,47 @@
 namespace clearway::scenario::detail {
 namespace {
 
-std::optional<core::EdgeIndex> only_way_out(const roads::Network& network, core::EdgeIndex from) {
-    const auto exits = roads::exits(network, from, roads::Driver::emergency);
-    return exits.size() == 1 ? std::optional(exits.front()) : std::nullopt;
+/// Whether incidents close an edge to emergency vehicles at a moment, alone or together; `rows` gets theirs.
+bool is_closed(const roads::Network& network, const std::vector<PlacedIncident>& incidents,
+               core::EdgeIndex edge, double at_s, std::set<std::size_t>& rows) {
+    traffic::Incident together;
+    together.edge = edge;
+    for (const auto& [one, share, row] : incidents) {
+        if (one.edge != edge || one.emergency_passes || one.from.value > at_s || one.to.value <= at_s)
+            continue;
+        together.lanes.insert(together.lanes.end(), one.lanes.begin(), one.lanes.end());
+        rows.insert(row);
+    }
+    std::ranges::sort(together.lanes);
+    return roads::closes_to_emergency(network, together);
 }
 
-/// The incident that closes an edge to an emergency vehicle at some time of an interval.
-const PlacedIncident* closing(const roads::Network& network, const std::vector<PlacedIncident>& incidents,
-                              core::EdgeIndex edge, double first_s, double last_s) {
-    // An EV that comes at the very moment counts as well.
-    constexpr double instant_s = 0.01;
-    const auto found = std::ranges::find_if(incidents, [&](const PlacedIncident& placed) {
-        const traffic::Incident& incident = placed.closed;
-        return incident.edge == edge && roads::closes_to_emergency(network, incident) &&
-               incident.from.value < last_s + instant_s && first_s < incident.to.value;
-    });
-    return found == incidents.end() ? nullptr : &*found;
+/// The rows of those that close every one of the edges at some moment of an interval; none if one is open.
+std::set<std::size_t> closing(const roads::Network& network, const std::vector<PlacedIncident>& incidents,
+                              const std::vector<core::EdgeIndex>& edges, double first_s, double last_s) {
+    constexpr double instant_s = 0.01;     // an EV that comes at the very moment counts as well
+    std::vector<double> moments{first_s};  // more is closed only from when an incident begins
+    for (const PlacedIncident& placed : incidents)
+        if (placed.closed.from.value > first_s && placed.closed.from.value < last_s + instant_s)
+            moments.push_back(placed.closed.from.value);
+    for (const double at_s : moments) {
+        std::set<std::size_t> rows;
+        if (std::ranges::all_of(edges,
+                                [&](auto edge) { return is_closed(network, incidents, edge, at_s, rows); }))
+            return rows;
+    }
+    return {};
+}
+
+std::string closing_words(const roads::Network& network, const std::vector<core::EdgeIndex>& edges,
+                          const std::set<std::size_t>& rows) {
+    const auto quoted = [&](core::EdgeIndex edge) { return fmt::format("\"{}\"", network.edge(edge).id); };
+    std::vector<std::string> others;
+    for (const std::size_t row : rows)
+        if (row != *rows.begin()) others.push_back(fmt::format("incident[{}]", row));
+    return fmt::format("closes {}{}{}, the only way out of", edges.size() == 1 ? "edge " : "edges ",
+                       core::listed(core::texts_of(edges, quoted)),
+                       others.empty() ? "" : ", with " + core::listed(others));
 }
 
 }  // namespace
@@ -35,23 +61,26 @@ void check_way_out(const ScenarioConfig& config, const roads::Network& network,
                    const std::vector<PlacedIncident>& incidents, const Leaving& leaving,
                    std::vector<core::Problem>& problems) {
     std::vector<core::EdgeIndex> passed;
+    std::vector<core::EdgeIndex> edges{leaving.edge};
     double elapsed_s = 0.0;
-    for (std::optional<core::EdgeIndex> edge = leaving.edge; edge; edge = only_way_out(network, *edge)) {
-        if (edge == leaving.end || std::ranges::find(passed, *edge) != passed.end()) return;
-        passed.push_back(*edge);
-        const PlacedIncident* const found =
-            closing(network, incidents, *edge, leaving.first_s + elapsed_s, leaving.last_s + elapsed_s);
-        if (found != nullptr) {
-            problems.push_back(
-                {config.where(fmt::format("incident[{}]", found->row)),
-                 fmt::format("closes edge \"{}\", the only way out of {} at \"{}\"", network.edge(*edge).id,
-                             leaving.key, network.edge(leaving.edge).id),
-                 "an edge with a way round it, or times when no EV starts there",
-                 "close another edge, leave a lane open, or set emergency_passes = 1"});
+    while (!edges.empty()) {
+        if (leaving.end && std::ranges::find(edges, *leaving.end) != edges.end()) return;
+        if (std::ranges::find(passed, edges.front()) != passed.end()) return;
+        const std::set<std::size_t> rows =
+            closing(network, incidents, edges, leaving.first_s + elapsed_s, leaving.last_s + elapsed_s);
+        if (!rows.empty()) {
+            problems.push_back({config.where(fmt::format("incident[{}]", *rows.begin())),
+                                fmt::format("{} {} at \"{}\"", closing_words(network, edges, rows),
+                                            leaving.key, network.edge(leaving.edge).id),
+                                "an edge with a way round it, or times when no EV starts there",
+                                "close another edge, leave a lane open, or set emergency_passes = 1"});
             return;
         }
-        const roads::Lane& lane = network.lane(network.lane_of(*edge, 0));
+        if (edges.size() > 1) return;
+        passed.push_back(edges.front());
+        const roads::Lane& lane = network.lane(network.lane_of(edges.front(), 0));
         elapsed_s += lane.length_m / lane.speed_limit_mps;
+        edges = roads::exits(network, edges.front(), roads::Driver::emergency);
     }
 }
 

@@ -20,8 +20,8 @@ struct Leaving {
     std::optional<core::EdgeIndex> end = {};  ///< Where it is going, if that is known.
 };
 
-/// Adds a problem where an incident closes the only way out of a start then: the way is followed as long as
-/// there is but one, up to its end.
+/// Adds a problem where incidents close the only way out of a start then, alone or together: the way is
+/// followed as long as there is but one, up to its end or to edges of which one is open.
 void check_way_out(const ScenarioConfig& config, const roads::Network& network,
                    const std::vector<PlacedIncident>& incidents, const Leaving& leaving,
                    std::vector<core::Problem>& problems);
