@@ -109,15 +109,20 @@ Objections objections_to(const detail::Runs& condition, const detail::Runs& base
     return objections;
 }
 
+std::string lost_words(const Objections& objections) {
+    const OutcomeCounts& lost = objections.emergency;
+    const OutcomeCounts& baseline = objections.baseline_emergency;
+    if (lost.lost() + baseline.lost() == 0) return {};
+    const bool none = lost.lost() == 0;
+    return fmt::format("lost {} of {} emergency vehicle{} ({}baseline {})",
+                       none ? "none" : std::to_string(lost.lost()), lost.total(),
+                       lost.total() == 1 ? "" : "s", none ? "" : endings(lost) + "; ",
+                       baseline.lost() == 0 ? "0" : endings(baseline));
+}
+
 std::string emergency_objections(const Objections& objections) {
     std::vector<std::string> found;
-    const OutcomeCounts& lost = objections.emergency;
-    if (objections.loses_emergency()) {
-        const OutcomeCounts& baseline = objections.baseline_emergency;
-        found.push_back(fmt::format("lost {} of {} emergency vehicle{} ({}; baseline {})", lost.lost(),
-                                    lost.total(), lost.total() == 1 ? "" : "s", endings(lost),
-                                    baseline.lost() == 0 ? "0" : endings(baseline)));
-    }
+    if (objections.loses_emergency()) found.push_back(lost_words(objections));
     if (objections.collisions)
         found.push_back(fmt::format("collided more often with an emergency vehicle ({})",
                                     amount(*objections.collisions)));

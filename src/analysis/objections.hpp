@@ -64,6 +64,9 @@ struct Objections {
 Objections objections_to(const detail::Runs& condition, const detail::Runs& baseline,
                          traffic::SafetyChecks safety_checks, double level = usual_level);
 
+/// `lost 4 of 20 emergency vehicles (4 teleported; baseline 6 teleported)`, which need not be more than in
+/// the baseline; empty if all arrived in both.
+std::string lost_words(const Objections& objections);
 /// `lost 13 of 20 emergency vehicles (13 teleported; baseline 0) and ran without safety checks`; empty if
 /// there is no objection.
 std::string emergency_objections(const Objections& objections);

@@ -68,6 +68,11 @@ const ConditionFacts* ScenarioFacts::baseline_of(const ConditionFacts& condition
     return place == conditions.size() ? nullptr : &conditions[place];
 }
 
+const ConditionFacts* ScenarioFacts::of_map() const {
+    const std::size_t place = map ? place_of(map->condition) : conditions.size();
+    return place == conditions.size() ? nullptr : &conditions[place];
+}
+
 std::string ScenarioFacts::place_name(const std::string& edge) const {
     const auto street = streets.find(edge);
     return street == streets.end() || street->second.empty() ? edge : street->second + " (" + edge + ")";

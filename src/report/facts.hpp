@@ -249,6 +249,8 @@ struct ScenarioFacts {
     std::size_t place_of(const std::string& condition) const;
     /// What a condition is compared with (same traffic model); null where nothing is.
     const ConditionFacts* baseline_of(const ConditionFacts& condition) const;
+    /// The condition that its map is about; null without a map, and where that condition is left out.
+    const ConditionFacts* of_map() const;
     /// `Long Street (edge1)`, or the edge alone.
     std::string place_name(const std::string& edge) const;
 };

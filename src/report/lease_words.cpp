@@ -82,11 +82,16 @@ std::string lost_signal_messages(const ConditionFacts& condition) {
     return lost == 0 ? "" : fmt::format("{} of {} messages to signals lost", grouped(lost), grouped(sent));
 }
 
+std::vector<std::pair<traffic::Refusal, std::uint64_t>> most_frequent_first(const Refused& refused) {
+    std::vector<std::pair<traffic::Refusal, std::uint64_t>> reasons(refused.begin(), refused.end());
+    std::ranges::stable_sort(reasons, std::greater{}, &std::pair<traffic::Refusal, std::uint64_t>::second);
+    return reasons;
+}
+
 /// `no_room_beside 12, outranked 3`, the most frequent first, but for what was lost.
 std::string reasons_of(const metrics::LeaseRow& row) {
-    std::vector<std::pair<traffic::Refusal, std::uint64_t>> reasons(row.refused.begin(), row.refused.end());
+    auto reasons = most_frequent_first(row.refused);
     std::erase_if(reasons, [](const auto& entry) { return entry.first == traffic::Refusal::unheard; });
-    std::ranges::stable_sort(reasons, std::greater{}, &std::pair<traffic::Refusal, std::uint64_t>::second);
     return core::listed(core::texts_of(reasons, [](const auto& entry) {
         return fmt::format("{} {}", name(entry.first), grouped(entry.second));
     }));
@@ -96,15 +101,18 @@ Refused::const_iterator most_frequent(const Refused& refused) {
     return std::ranges::max_element(refused, {}, &Refused::value_type::second);
 }
 
-/// ` (7,407 leases, most refused as vehicle_gone)`: what a part wanted that never acted; nothing if that was
-/// nothing.
+/// ` (7,407 leases, all refused as vehicle_gone, 6 as outranked)`: what a part wanted that never acted;
+/// nothing if that was nothing. A lease is refused once for each reason, so one may have several.
 std::string vain_leases(const analysis::IdlePart& part) {
     if (part.vain == 0) return {};
     const std::string leases = counted(part.vain, "lease");
-    const auto most = most_frequent(part.refused);
-    if (most == part.refused.end()) return fmt::format(" ({}, none carried out)", leases);
-    return fmt::format(" ({}, {} refused as {})", leases, most->second >= part.vain ? "all" : "most",
-                       name(most->first));
+    if (part.refused.empty()) return fmt::format(" ({}, none carried out)", leases);
+    std::string reasons;
+    for (const auto& [reason, count] : most_frequent_first(part.refused)) {
+        const std::string many = count >= part.vain ? "all" : 2 * count > part.vain ? "most" : grouped(count);
+        reasons += fmt::format(", {}{} as {}", many, reasons.empty() ? " refused" : "", name(reason));
+    }
+    return fmt::format(" ({}{})", leases, reasons);
 }
 
 /// One sentence for all parts of which `runs_of` counts a run, those of equally many runs together.

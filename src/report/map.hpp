@@ -144,7 +144,7 @@ struct SignalTrips {
 
 /// What the maps of a scenario show of one condition.
 struct ScenarioMap {
-    std::size_t condition = 0;  ///< In the scenario; the one that its first screen is about.
+    std::string condition;  ///< Its name; the one that the first screen is about.
     std::vector<EdgeTimes> times;
     std::vector<SignalHolds> holds;
     std::vector<MapLocks> locks = {};

@@ -202,11 +202,12 @@ std::string scenario_headline(const ScenarioFacts& scenario, const ConditionFact
     const std::string cut_off = cut_off_words(condition);
     const std::string working = objection_without_failure(scenario, condition);
     std::string words = emergency_clause(scenario, condition, script);
+    words = joined(std::move(words), lost_beside_words(condition));
     words = joined(std::move(words), others_clause(condition, script));
     words = joined(std::move(words), collisions_clause(scenario, condition));
     words = joined(std::move(words), missing_clause(condition));
     if (condition.is_unchecked()) words = joined(std::move(words), "the simulator's safety checks were off");
-    return (unmet.empty() ? unmet : unmet + " ") + (cut_off.empty() ? cut_off : cut_off + ". ") +
+    return (cut_off.empty() ? cut_off : cut_off + ". ") + (unmet.empty() ? unmet : unmet + " ") +
            (working.empty() ? working : working + ". ") + words + ".";
 }
 

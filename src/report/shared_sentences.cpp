@@ -126,6 +126,10 @@ std::string survivors_words(const ConditionFacts& condition, Script script) {
     return words;
 }
 
+std::string lost_beside_words(const ConditionFacts& condition) {
+    return condition.objections.loses_emergency() ? "" : analysis::lost_words(condition.objections);
+}
+
 std::string collision_counts(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     std::string words = fmt::format("{} in {}", grouped(condition.count("collisions")),
                                     counted(condition.complete_runs, "run"));
@@ -176,9 +180,7 @@ std::string trip_changes_words(const ConditionFacts& condition, Script script) {
 
 std::string signal_trips_words(const ScenarioFacts& scenario, const ConditionFacts& condition,
                                Script script) {
-    if (!scenario.map || &scenario.conditions[scenario.map->condition] != &condition || !scenario.roads ||
-        scenario.roads->signals.empty())
-        return {};
+    if (scenario.of_map() != &condition || !scenario.roads || scenario.roads->signals.empty()) return {};
     const SignalTrips& trips = scenario.map->signal_trips;
     if (trips.others.trips == 0) return {};
     const NumberStyle style{1, script, Sign::always};
@@ -224,7 +226,9 @@ std::string unmet_incident_words(const ScenarioFacts& scenario, const ConditionF
         return {};
     const analysis::Values& met = baseline->metric("emergency_met_incident").values;
     const bool is_counted = std::ranges::any_of(met, [](const auto& value) { return value.has_value(); });
-    if (!is_counted || baseline->count("emergency_met_incident") > 0) return {};
+    if (!is_counted || baseline->count("emergency_met_incident") > 0 ||
+        condition.count("emergency_met_incident") > 0)
+        return {};
     return fmt::format("0 of {} in the baseline", grouped(baseline->emergency.total()));
 }
 

@@ -63,6 +63,9 @@ std::string cross_street_words(const ConditionFacts& condition, Script script);
 /// them, and of them.
 std::string privilege_sentence(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script);
 
+/// analysis::lost_words where they are no objection: the baseline lost as many. Plain text.
+std::string lost_beside_words(const ConditionFacts& condition);
+
 /// `5 in 8 runs; baseline 0 in 8`: collisions of a condition with a complete run.
 std::string collision_counts(const ScenarioFacts& scenario, const ConditionFacts& condition);
 

@@ -177,21 +177,21 @@ std::string locked_pairs_of(const ConditionFacts& condition, Script script) {
     return pairs.empty() ? pairs : fmt::format("EV travel time where runs locked, s: {}.", pairs);
 }
 
-/// `3 EVs came to a closed road (baseline: 12, whose trips take -9.0 [-12.0, -6.0] s).`, or empty where none
-/// did in either.
+/// `3 EVs came to a closed road (baseline: 12, whose trips change by -9.0 [-12.0, -6.0] s).`, or empty where
+/// none did in either.
 std::string incidents_of(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
     const ConditionFacts* const baseline = scenario.baseline_of(condition);
     const std::uint64_t met = condition.count("emergency_met_incident");
     const std::uint64_t met_before = baseline == nullptr ? 0 : baseline->count("emergency_met_incident");
     if (met + met_before == 0) return {};
     const MaybeEstimate& difference = condition.met_incident.difference_s;
-    const std::string theirs =
-        difference ? fmt::format(", whose trips take {} s", estimate(difference, {1, script, Sign::always}))
-                   : "";
+    const std::string theirs = difference ? fmt::format(", whose trips change by {} s",
+                                                        estimate(difference, {1, script, Sign::always}))
+                                          : "";
     return fmt::format("{} came to a closed road (baseline: {}{}).", counted(met, "EV"), met_before, theirs);
 }
 
-/// What trials of other units and other ways found, or empty without them.
+/// What trials of other units, ways and holds found, or empty without them.
 std::string regrets_of(const ConditionFacts& condition, Script script) {
     std::vector<std::string> facts;
     const MaybeEstimate& wrong = condition.metric("wrong_unit_share").estimate;
@@ -203,6 +203,10 @@ std::string regrets_of(const ConditionFacts& condition, Script script) {
     if (way_s)
         facts.push_back(
             fmt::format("Against the best way, {} s lost on each.", estimate(way_s, {1, script})));
+    const MaybeEstimate& hold_s = condition.metric("hold_regret_s").estimate;
+    if (hold_s)
+        facts.push_back(fmt::format("Against the best of other times of a hold, {} s lost at each signal.",
+                                    estimate(hold_s, {1, script})));
     if (const std::uint64_t missing = condition.count("units_missing"); missing > 0)
         facts.push_back(fmt::format("{} missing.", counted(missing, "called unit")));
     return fmt::format("{}", fmt::join(facts, " "));
@@ -227,10 +231,15 @@ Verdict verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, 
     Verdict words = lead(scenario, condition, script);
     const std::string cut_off = cut_off_words(condition);
     words.finding =
-        absent + unmet_of(scenario, condition) + (cut_off.empty() ? "" : cut_off + "; ") + words.finding;
-    if (const std::string survivors = survivors_words(condition, script); !survivors.empty())
-        words.facts.push_back(fmt::format("{}; one that did not arrive counts with {} s.", survivors,
-                                          number(scenario.horizon_s, {0, script})));
+        (cut_off.empty() ? "" : cut_off + "; ") + absent + unmet_of(scenario, condition) + words.finding;
+    const analysis::Objections& counts = condition.objections;
+    const std::string lost = lost_beside_words(condition);
+    if (const std::string ends = joined(lost, survivors_words(condition, script)); !ends.empty())
+        words.facts.push_back(sentence(fmt::format("{}; one that did not arrive counts with {} s", ends,
+                                                   number(scenario.horizon_s, {0, script}))));
+    if (counts.emergency.teleported + counts.baseline_emergency.teleported > 0)
+        words.facts.push_back(
+            "SUMO teleports an EV that has stood for time.time_to_teleport_s, as in a queue.");
     if (std::string trips = trip_changes_words(condition, script); !trips.empty())
         words.facts.push_back(trips + ".");
     if (std::string trips = signal_trips_words(scenario, condition, script); !trips.empty())

@@ -117,6 +117,22 @@ TEST(ConsoleTables, show_value_difference_intervals_and_effect_of_every_measure)
     }
 }
 
+TEST(ConsoleTables, tell_of_the_condition_of_the_map_although_others_before_it_are_left_out) {
+    StudyFacts study = tests::study({"merge"});
+    ScenarioFacts& scenario = study.scenarios[0];
+    scenario.roads->signals.emplace_back();
+    scenario.map->signal_trips = {{40, {-20.0, -22.0}}, {20, {0.5, 0.7}}};
+    const std::string told = "40 of 60 trips pass a signal";
+    EXPECT_THAT(console_tables(study), HasSubstr(told));
+    // Two settings of it, each turned alone: the table of sensitivities has them.
+    study.sensitivities = {{"merge", "graph_simulation", {{"a.one", "", {{"one", "5", {}, {}, ""}}}}}};
+    ConditionFacts level = scenario.conditions[1];
+    level.condition.name = "one";
+    scenario.conditions.insert(scenario.conditions.begin() + 1, level);
+    scenario.map->condition = "graph_simulation";
+    EXPECT_THAT(console_tables(study), HasSubstr(told));
+}
+
 TEST(ConsoleTables, fit_a_terminal_of_100_columns) {
     StudyFacts study = tests::study({"merge", "bologna"});
     study.scenarios[0].conditions[1].failed = {{3, std::string(400, 'x') + " " + std::string(50, 'y')}};

@@ -195,7 +195,7 @@ TEST(Page, escapes_every_text_that_comes_from_files) {
     study.provenance = {{evil, evil}};
     study.curves[0].title = study.curves[0].note = study.curves[0].held_out = evil;
     ScenarioFacts& scenario = study.scenarios[0];
-    scenario.name = scenario.title = scenario.attribution = evil;
+    scenario.name = scenario.title = scenario.attribution = scenario.map->condition = evil;
     scenario.network_svg = "<svg class=\"network\" viewBox=\"0 0 1 1\"></svg>";
     for (ConditionFacts& condition : scenario.conditions) {
         condition.condition.name = condition.title = condition.recipe = evil;
@@ -271,7 +271,8 @@ TEST(Page, draws_what_is_reached_only_where_a_difference_is_shown) {
     StudyFacts study = tests::study({"city"});
     EXPECT_THAT(tests::page_of(study), HasSubstr("id=\"reach-city\""));
     ScenarioFacts& scenario = study.scenarios[0];
-    tests::difference(scenario.conditions[scenario.map->condition], primary) = tests::around(-2.0, 3.0);
+    tests::difference(scenario.conditions[scenario.place_of(scenario.map->condition)], primary) =
+        tests::around(-2.0, 3.0);
     EXPECT_THAT(tests::page_of(study), Not(HasSubstr("id=\"reach-city\"")));
 }
 

@@ -31,7 +31,7 @@ class MapFacts : public testing::Test {
 TEST_F(MapFacts, AreMeansOverThePassagesThatBothRunsHave) {
     const ScenarioFacts scenario = crossing();
     ASSERT_TRUE(scenario.map);
-    EXPECT_EQ(scenario.conditions[scenario.map->condition].name(), "helps");
+    EXPECT_EQ(scenario.map->condition, "helps");
     ASSERT_EQ(scenario.map->times.size(), 2u);
     const EdgeTimes& first = scenario.map->times[0];
     EXPECT_EQ(scenario.roads->edges[first.edge].id, "north_in");
@@ -66,7 +66,7 @@ TEST_F(MapFacts, TellTripsThatPassSignalsFromOthers) {
     const ScenarioFacts before = crossing();
     EXPECT_EQ(before.map->signal_trips.others.trips, 0U);
     EXPECT_EQ(before.map->signal_trips.passing.trips, 6U);
-    const ConditionFacts& helps = before.conditions[before.map->condition];
+    const ConditionFacts& helps = before.conditions[before.place_of(before.map->condition)];
     EXPECT_EQ(signal_trips_words(before, helps, Script::plain), "") << "all pass one";
     const results::Store store = results::Store::open(folder_.path() / "study");
     for (const char* const condition : {"baseline", "helps"}) {
@@ -79,10 +79,11 @@ TEST_F(MapFacts, TellTripsThatPassSignalsFromOthers) {
     const ScenarioFacts after = crossing();
     EXPECT_EQ(after.map->signal_trips.others.trips, 1U);
     EXPECT_EQ(after.map->signal_trips.passing.trips, 5U);
-    EXPECT_THAT(signal_trips_words(after, after.conditions[after.map->condition], Script::plain),
-                testing::MatchesRegex(
-                    "5 of 6 trips pass a signal and change by -[0-9.]+ .-[0-9.]+, -[0-9.]+. s .mean of 5 "
-                    "pairs with such., the others by -[0-9.]+ s"));
+    EXPECT_THAT(
+        signal_trips_words(after, after.conditions[after.place_of(after.map->condition)], Script::plain),
+        testing::MatchesRegex(
+            "5 of 6 trips pass a signal and change by -[0-9.]+ .-[0-9.]+, -[0-9.]+. s .mean of 5 "
+            "pairs with such., the others by -[0-9.]+ s"));
     EXPECT_EQ(signal_trips_words(after, after.conditions[0], Script::plain), "") << "the map is not about it";
 }
 

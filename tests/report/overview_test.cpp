@@ -101,7 +101,7 @@ TEST_F(Overview, CallsOthersHardlyFasterWhereTheIntervalAllButReachesZero) {
 TEST_F(Overview, SaysThatFewTripsCarryAGain) {
     scenario_.roads.emplace().signals.emplace_back();
     SignalTrips& trips = scenario_.map.emplace().signal_trips;
-    scenario_.map->condition = 1;
+    scenario_.map->condition = "corridor";
     trips.passing = {9, {-60.0, -70.0}};
     trips.others = {51, {0.1, 0.2}};
     const auto told = HasSubstr(", most of it in the 9 of 60 trips that pass a signal;");
@@ -111,7 +111,7 @@ TEST_F(Overview, SaysThatFewTripsCarryAGain) {
     trips.others = {27, {0.1, 0.2}};
     EXPECT_THAT(headline(), Not(HasSubstr("most of it"))) << "9 of 36 are not few";
     trips.others = {51, {0.1, 0.2}};
-    scenario_.map->condition = 0;
+    scenario_.map->condition = "baseline";
     EXPECT_THAT(headline(), Not(HasSubstr("most of it"))) << "the map is not about it";
 }
 
@@ -275,6 +275,18 @@ TEST_F(Overview, says_of_what_fails_where_a_title_does_not) {
 TEST_F(Overview, says_before_all_else_whom_an_incident_cut_off) {
     tests::set_total(corridor(), "emergency_cut_off", 3);
     EXPECT_THAT(headline(), StartsWith("3 EVs cut off by an incident. "));
+    scenario_.roads.emplace().incidents = {{"e1", 80.0, 980.0, 60.0, 0.0, true}};
+    tests::set_total(scenario_.conditions[0], "emergency_met_incident", 0);
+    tests::set_total(corridor(), "emergency_met_incident", 3);
+    EXPECT_THAT(headline(),
+                AllOf(StartsWith("3 EVs cut off by an incident. "), Not(HasSubstr("met the block"))));
+}
+
+TEST_F(Overview, says_how_many_did_not_arrive_where_the_baseline_lost_as_many) {
+    corridor().objections.emergency =
+        corridor().objections.baseline_emergency = {.arrived = 17, .teleported = 4};
+    EXPECT_THAT(headline(),
+                HasSubstr("; lost 4 of 21 emergency vehicles (4 teleported; baseline 4 teleported); other"));
 }
 
 TEST_F(Overview, says_before_all_else_that_no_one_met_the_incident) {

@@ -160,7 +160,7 @@ inline RoadMap roads() {
 /// The first street of the grid was driven.
 inline ScenarioMap map(const RoadMap& roads) {
     ScenarioMap map;
-    map.condition = 1;
+    map.condition = "graph_simulation";
     map.times = {{0, 20, 31.0, 18.5},
                  {2, 20, 40.0, 38.0},
                  {4, 19, 18.0, 18.1},

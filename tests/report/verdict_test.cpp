@@ -10,7 +10,9 @@
 namespace clearway::report {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::AnyOf;
+using ::testing::Contains;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -65,6 +67,37 @@ TEST(Verdict, says_first_whom_an_incident_cut_off) {
         if (metric.metric.name == "emergency_cut_off") metric.values = {1.0, 0.0, 2.0};
     EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(),
                 StartsWith("3 EVs cut off by an incident; helped: "));
+    // The baseline's EVs drive another way, as with another dispatch.
+    scenario.roads.emplace().incidents = {{"e1", 80.0, 980.0, 60.0, 0.0, true}};
+    tests::set_total(scenario.conditions[0], "emergency_met_incident", 0);
+    tests::set_total(scenario.conditions[1], "emergency_met_incident", 3);
+    scenario.conditions[1].missing_runs = 2;
+    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(),
+                StartsWith("3 EVs cut off by an incident; 2 of 22 runs are missing; helped: "));
+}
+
+TEST(Verdict, says_how_many_did_not_arrive_and_why_where_the_baseline_lost_as_many) {
+    ScenarioFacts scenario = tests::scenario("merge");
+    scenario.horizon_s = 3600.0;
+    analysis::Objections& counts = scenario.conditions[1].objections;
+    const auto facts = [&] { return verdict(scenario, scenario.conditions[1], Script::plain).facts; };
+    EXPECT_THAT(facts(), Not(Contains(HasSubstr("emergency vehicles"))));
+    counts.emergency = {.arrived = 17, .teleported = 4};
+    counts.baseline_emergency = {.arrived = 16, .running_at_end = 1, .teleported = 4};
+    const std::string arrived = "; EVs that arrived in both: -12.4 s [-15.5, -9.3]; median";
+    const std::string horizon = "; one that did not arrive counts with 3600 s.";
+    EXPECT_THAT(facts()[0], AllOf(StartsWith("Lost 4 of 21 emergency vehicles (4 teleported; baseline 4 "
+                                             "teleported, 1 still on the road at the end)" +
+                                             arrived),
+                                  EndsWith(horizon)));
+    EXPECT_EQ(facts()[1], "SUMO teleports an EV that has stood for time.time_to_teleport_s, as in a queue.");
+    counts.emergency = {.arrived = 21};
+    tests::comparison(scenario.conditions[1], Measure::emergency_travel_time).difference.reset();
+    EXPECT_EQ(facts()[0],
+              "Lost none of 21 emergency vehicles (baseline 4 teleported, 1 still on the road at the end)" +
+                  horizon);
+    counts.emergency = counts.baseline_emergency = {.arrived = 20, .running_at_end = 1};
+    EXPECT_THAT(facts(), Not(Contains(HasSubstr("SUMO teleports"))));
 }
 
 TEST(Verdict, says_first_that_no_one_met_an_incident) {
@@ -95,10 +128,11 @@ TEST(Verdict, tells_who_met_an_incident_and_what_wrong_units_and_ways_cost) {
     set(scenario.conditions[1], "unit_regret_s", {}, analysis::Estimate{5, 8.125, 0.0, {}});
     set(scenario.conditions[1], "way_regret_s", {}, analysis::Estimate{5, 1.5, 0.0, {}});
     set(scenario.conditions[1], "units_missing", {1.0, 0.0}, {});
-    EXPECT_THAT(text(),
-                HasSubstr(" 1 EV came to a closed road (baseline: 5, whose trips take -9.0 [-12.0, -6.0] s). "
-                          "The wrong unit in 25 % of decisions, 8.1 s "
-                          "lost each. Against the best way, 1.5 s lost on each. 1 called unit missing."));
+    EXPECT_THAT(
+        text(),
+        HasSubstr(" 1 EV came to a closed road (baseline: 5, whose trips change by -9.0 [-12.0, -6.0] s). "
+                  "The wrong unit in 25 % of decisions, 8.1 s "
+                  "lost each. Against the best way, 1.5 s lost on each. 1 called unit missing."));
 }
 
 TEST(Verdict, does_not_call_a_fifth_of_a_second_help) {
@@ -316,10 +350,13 @@ TEST(Verdict, says_in_how_many_runs_a_part_never_acted) {
     scenario.conditions[1].idle_parts = {
         {"Rows", 20, 20, 0, 7407, {{Refusal::vehicle_gone, 7407}, {Refusal::lockout, 1}}},
         {"Humans", 20, 20, 0, 90, {{Refusal::not_controllable, 60}}},
+        {"Elsewhere", 20, 20, 0, 4, {{Refusal::on_a_junction, 4}, {Refusal::route_elsewhere, 4}}},
         {"Late", 20, 20, 0, 1, {}}};
-    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(),
-                HasSubstr("Never acted: Rows (7,407 leases, all refused as vehicle_gone), Humans (90 leases, "
-                          "most refused as not_controllable), Late (1 lease, none carried out) in 20 of 20"));
+    EXPECT_THAT(
+        verdict(scenario, scenario.conditions[1], Script::plain).text(),
+        HasSubstr("Never acted: Rows (7,407 leases, all refused as vehicle_gone, 1 as lockout), Humans (90 "
+                  "leases, most refused as not_controllable), Elsewhere (4 leases, all refused as "
+                  "on_a_junction, all as route_elsewhere), Late (1 lease, none carried out) in 20 of 20"));
 }
 
 TEST(Verdict, says_that_most_of_a_policys_requests_were_refused_and_what_helps) {

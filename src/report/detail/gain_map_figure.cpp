@@ -206,10 +206,11 @@ std::vector<LegendEntry> entries_of(const RoadMap& roads, const ScenarioMap& map
 }  // namespace
 
 Figure gain_map_figure(const ScenarioFacts& scenario) {
-    if (!scenario.map || !is_drawable(*scenario.roads)) return {};
+    const ConditionFacts* const drawn = scenario.of_map();
+    if (drawn == nullptr || !is_drawable(*scenario.roads)) return {};
+    const ConditionFacts& condition = *drawn;
     const RoadMap& roads = *scenario.roads;
     const ScenarioMap& map = *scenario.map;
-    const ConditionFacts& condition = scenario.conditions[map.condition];
     MapCanvas canvas(fmt::format("{}: where {} gains and costs time", scenario.name, condition.label()),
                      roads);
     canvas.edges(all_edges(roads), "road");

@@ -167,7 +167,7 @@ std::optional<ScenarioMap> map_in(RunTraffic& traffic, const StudyFacts& study,
         add_considered(with, edges, replication, map);
     }
     if (sums.times.empty()) return std::nullopt;
-    map.condition = static_cast<std::size_t>(condition - scenario.conditions.data());
+    map.condition = condition->name();
     fill(sums, roads, map);
     map.reach = reach_of(roads, map.times, station_edges(roads),
                          analysis::mean_of(baseline.value(Measure::emergency_restricted_time)).value_or(0.0));

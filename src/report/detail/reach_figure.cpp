@@ -63,9 +63,10 @@ DataTable data_of(const RoadMap& roads, const Reach& reach) {
 }  // namespace
 
 Figure reach_figure(const ScenarioFacts& scenario) {
-    if (!scenario.map || !scenario.map->reach || !is_drawable(*scenario.roads)) return {};
+    const ConditionFacts* const drawn = scenario.of_map();
+    if (drawn == nullptr || !scenario.map->reach || !is_drawable(*scenario.roads)) return {};
     // Where chance could be all of a difference, a map would show chance, street by street.
-    const ConditionFacts& condition = scenario.conditions[scenario.map->condition];
+    const ConditionFacts& condition = *drawn;
     const Effect effect = effect_of(condition, primary);
     if (effect != Effect::better && effect != Effect::worse) return {};
     const RoadMap& roads = *scenario.roads;

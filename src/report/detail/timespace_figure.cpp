@@ -138,7 +138,7 @@ Figure timespace_figure(const ScenarioFacts& scenario, const Looks& looks, const
     DataTable data{{"Condition", "what", "state", "from, s", "to, s", "distance, m"}, {}};
     add_data(*without, data);
     add_data(*with, data);
-    const bool has_two_ways = scenario.map && &scenario.conditions[scenario.map->condition] == &condition &&
+    const bool has_two_ways = scenario.of_map() == &condition &&
                               std::ranges::any_of(scenario.map->changed_ways, [&](const ChangedWay& change) {
                                   return is_shown_trip(scenario, change);
                               });

@@ -149,10 +149,11 @@ bool is_shown_trip(const ScenarioFacts& scenario, const ChangedWay& change) {
 }
 
 Figure ways_figure(const ScenarioFacts& scenario) {
-    if (!scenario.map || !scenario.roads) return {};
+    const ConditionFacts* const drawn = scenario.of_map();
+    if (drawn == nullptr || !scenario.roads) return {};
     const ChangedWay* const change = shown_change(scenario);
     if (change == nullptr) return {};
-    const ConditionFacts& condition = scenario.conditions[scenario.map->condition];
+    const ConditionFacts& condition = *drawn;
     const ConditionFacts& baseline = *scenario.baseline_of(condition);
     const Surroundings around(*scenario.roads, *change);
     if (around.before.size() < 2 || around.after.size() < 2) return {};
