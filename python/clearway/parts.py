@@ -255,8 +255,26 @@ def _whole(what: str, value: Any, most: int) -> int:
     return int(value)
 
 
+def _row(what: str, value: Any, names: str) -> int:
+    """The number of an edge or signal: a row of ``belief.network.NAMES``, whose length a lease does not know."""
+    try:
+        return _whole(what, value, NO_LANE - 1)
+    except (TypeError, ValueError) as error:
+        cure = f". belief.network.{names}.index({value!r}) is its row" if isinstance(value, str) else ""
+        raise type(error)(f"{what} is {value!r} (allowed: a row of belief.network.{names}, from 0 on){cure}") from None
+
+
+def _several(what: str, values: Any, of: str) -> Iterable[Any]:
+    try:
+        if isinstance(values, (str, bytes)):
+            raise TypeError
+        return iter(values)
+    except TypeError:
+        raise TypeError(f"{what} is {values!r} (allowed: a list of {of})") from None
+
+
 def _links(what: str, links: Iterable[int]) -> list[int]:
-    return sorted(_whole(f"a link of {what}", link, 65535) for link in links)
+    return sorted(_whole(f"a link of {what}", link, 65535) for link in _several(what, links, "numbers of links of the signal"))
 
 
 def _key(what: str, vehicle: Any) -> int:
@@ -372,7 +390,7 @@ class Lease(Told, metaclass=_Actions):
         run. Refused are another destination (``route_elsewhere``), a turn for which it is too late (``past_decision``) and a road that
         is known to be closed (``closed``).
         """
-        way = [_whole("an edge of edges", edge, NO_LANE - 1) for edge in edges]
+        way = [_row("an edge of edges", edge, "edge_ids") for edge in _several("edges", edges, "rows of belief.network.edge_ids")]
         if not way:
             raise ValueError("edges is empty (allowed: at least the edge where the vehicle is)")
         return Lease._make("take_route", {"vehicle": _key("vehicle", vehicle)}, serves, lasting_s, priority, reason, edges=way)
@@ -382,7 +400,7 @@ class Lease(Told, metaclass=_Actions):
     def hold_green(signal: int, links: Sequence[int], own_links: Sequence[int] = (), *, serves: Any = None, lasting_s: float = 2.0,
                    priority: int = 0, reason: str = "") -> "Lease":
         """Show green for these links and red for those that conflict; ``own_links`` are those of the one it serves."""
-        return Lease._make("hold_green", {"signal": _whole("signal", signal, NO_LANE - 1)}, serves, lasting_s, priority, reason,
+        return Lease._make("hold_green", {"signal": _row("signal", signal, "signal_ids")}, serves, lasting_s, priority, reason,
                            links=_links("links", links), own_links=_links("own_links", own_links))
 
     @staticmethod
@@ -390,7 +408,7 @@ class Lease(Told, metaclass=_Actions):
     def adjust_green(signal: int, links: Sequence[int], *, serves: Any = None, lasting_s: float = 2.0, priority: int = 0,
                      reason: str = "") -> "Lease":
         """Lead the signal's own plan to these links sooner."""
-        return Lease._make("adjust_green", {"signal": _whole("signal", signal, NO_LANE - 1)}, serves, lasting_s, priority, reason,
+        return Lease._make("adjust_green", {"signal": _row("signal", signal, "signal_ids")}, serves, lasting_s, priority, reason,
                            links=_links("links", links))
 
 

@@ -106,6 +106,10 @@ def run(scenario: str | Path, conditions: Sequence[str | Condition] = ("corridor
         raise _program.InputError(f"conditions: {wrong[0]!r} is neither a name nor a clearway.Condition")
     if not isinstance(scenario, (str, Path)) or not str(scenario):
         raise _program.InputError(f"scenario is {scenario!r} (allowed: a name of `clearway list`, a folder or a file)")
+    incident = overrides.get("incident", "none")
+    if not isinstance(incident, str):
+        raise _program.InputError(f"incident is {incident!r} (allowed: a text such as 'edge=B1C1,from_s=100', several separated by "
+                                  "semicolons, or 'none')")
     seeds = _seed_count(seeds)
     _program.require_whole("seed", seed, 0, 2**63 - 1)
     place = _files.path_of("scenario", scenario)

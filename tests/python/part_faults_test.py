@@ -381,6 +381,29 @@ class FaultTest(FolderCase):
         with self.assertRaisesRegex(ValueError, "edges is empty"):
             clearway.Lease.take_route(1, [])
 
+    def test_what_is_no_way_or_signal_is_told_with_the_row_that_is_meant(self) -> None:
+        edge = r" \(allowed: a row of belief.network.edge_ids, from 0 on\)"
+        for edges, kind, says in ((None, TypeError, r"^edges is None \(allowed: a list of rows of belief.network.edge_ids\)$"),
+                                  (5, TypeError, r"^edges is 5 \(allowed: a list of rows "),
+                                  (["A1B1"], TypeError, rf"^an edge of edges is 'A1B1'{edge}. belief.network.edge_ids.index\('A1B1'\) is its row$"),
+                                  ([0, -1], ValueError, rf"^an edge of edges is -1{edge}$"), ([2**40], ValueError, f"is {2**40}{edge}$"),
+                                  ([0.5], ValueError, rf"is 0.5{edge}$"), ([float("nan")], ValueError, rf"is nan{edge}$")):
+            with self.assertRaisesRegex(kind, says):
+                clearway.Lease.take_route(1, edges)
+        with self.assertRaisesRegex(TypeError, r"^signal is 'C1' \(allowed: a row of belief.network.signal_ids, from 0 on\). belief"):
+            clearway.Lease.adjust_green("C1", [0])
+        with self.assertRaisesRegex(TypeError, r"^links is 3 \(allowed: a list of numbers of links of the signal\)$"):
+            clearway.Lease.hold_green(0, 3)
+        self.assertEqual(clearway.Lease.take_route(1, iter([3, 4])).fields["edges"], [3, 4])
+
+    def test_an_incident_that_is_no_text_is_told_with_the_form_of_the_text(self) -> None:
+        for wrong in ({"edge": "B1C1", "from_s": 100}, None, [1]):
+            with self.assertRaises(clearway.InputError) as told:
+                clearway.run("intersection", seeds=1, out="none", incident=wrong)
+            self.assertEqual(str(told.exception), f"incident is {wrong!r} (allowed: a text such as 'edge=B1C1,from_s=100', several separated by "
+                             "semicolons, or 'none')")
+        self.assertFalse(Path("none").exists())
+
     def test_a_keyword_that_no_lease_has_is_told_with_the_one_that_is_meant(self) -> None:
         with self.assertRaisesRegex(TypeError, r"^Lease.hold_green\(\) has no keyword 'duration'. Did you mean 'lasting_s'\?$"):
             clearway.Lease.hold_green(0, [0], duration=5)
