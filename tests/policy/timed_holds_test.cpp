@@ -35,9 +35,9 @@ class TimedHoldsTest : public ::testing::Test {
 
 TEST_F(TimedHoldsTest, LeaveOtherPoliciesAloneWhereNoTimeIsSet) {
     ASSERT_EQ(leases_at(100.0).size(), 1U);
-    EXPECT_EQ(leases_at(100.0).front().policy, "check_in_out");
+    EXPECT_STREQ(leases_at(100.0).front().policy, "check_in_out");
     timed.hold_from({core::VehicleKey{7}, signal}, core::Seconds(0.0));
-    EXPECT_EQ(leases_at(100.0).front().policy, "check_in_out") << "of another vehicle";
+    EXPECT_STREQ(leases_at(100.0).front().policy, "check_in_out") << "of another vehicle";
 }
 
 TEST_F(TimedHoldsTest, TakeTheirPlaceFromThatTimeOn) {
@@ -45,7 +45,7 @@ TEST_F(TimedHoldsTest, TakeTheirPlaceFromThatTimeOn) {
     EXPECT_TRUE(leases_at(101.5).empty());
     const auto leases = leases_at(102.0);
     ASSERT_EQ(leases.size(), 1U);
-    EXPECT_EQ(leases[0].policy, "timed_holds");
+    EXPECT_STREQ(leases[0].policy, "timed_holds");
     EXPECT_EQ(std::get<core::SignalIndex>(leases[0].target), signal);
     EXPECT_EQ(leases[0].beneficiary, vehicle);
     EXPECT_FALSE(std::get<traffic::HoldGreen>(leases[0].action).own_links.empty());
