@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "loop/closed_loop.hpp"
 #include "loop/copy_of_run.hpp"
@@ -27,11 +26,8 @@ HoldTrials::HoldTrials(const roads::Network& network, const experiment::LoopConf
 
 void HoldTrials::look(ClosedLoop& loop, core::Seconds horizon) {
     trials_.note(loop.events());
-    std::vector<policy::RequestKey> requests;
     for (std::uint32_t row = 0; row < loop.snapshot().size(); ++row)
-        if (const auto request = due(loop, row)) requests.push_back(*request);
-    for (const policy::RequestKey& request : requests)
-        try_holds(loop, request, horizon);
+        if (const auto request = due(loop, row)) try_holds(loop, *request, horizon);
 }
 
 std::optional<policy::RequestKey> HoldTrials::due(const ClosedLoop& loop, std::uint32_t row) {
@@ -57,19 +53,17 @@ std::optional<policy::RequestKey> HoldTrials::due(const ClosedLoop& loop, std::u
 
 void HoldTrials::try_holds(ClosedLoop& loop, policy::RequestKey request, core::Seconds horizon) {
     const core::Seconds now = loop.snapshot().time;
-    const bool is_priced = config_.best_hold_taken != 0 && config_.others_price > 0.0;
+    const core::Seconds watched_for = config_.others_price > 0.0 ? watched : core::Seconds{};
     const auto end_with = [&](std::optional<core::Seconds> from) {
         const auto change = [&] {
             if (from) loop.hold_from(request, *from);
             return true;
         };
-        return in_copy(folder_, [&] {
-            return loop.end_after(change, request.first, horizon, folder_,
-                                  is_priced ? watched : core::Seconds{});
-        });
+        return in_copy(folder_,
+                       [&] { return loop.end_after(change, request.first, horizon, folder_, watched_for); });
     };
     const auto cost_s = [&](const CopyEnd& end) {
-        return end.arrival.value + (is_priced ? config_.others_price * end.others_s : 0.0);
+        return end.arrival.value + config_.others_price * end.others_s;
     };
     double earliest_s = horizon.value;
     double least_s = std::numeric_limits<double>::infinity();

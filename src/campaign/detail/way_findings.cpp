@@ -127,6 +127,19 @@ bool passes(const Trip& trip, const traffic::Incident& incident) {
            !(is_called && incident.edge == trip.to);
 }
 
+/// As queueing_trips.
+std::map<std::string, std::string> queueing(const std::vector<Trip>& trips,
+                                            const std::vector<scenario::PlacedIncident>& incidents,
+                                            const roads::Network& network) {
+    std::map<std::string, std::string> found;
+    for (const Trip& trip : trips)
+        for (const auto& [incident, share, row] : incidents)
+            if (trip.queues_at(network, incident))
+                found.emplace(trip.id, fmt::format("{}, closed until {:g} s",
+                                                   road_words(network.edge(trip.to)), incident.to.value));
+    return found;
+}
+
 /// The edges in the middle third of a trip's length where a queue has room before a block in their middle.
 std::vector<core::EdgeIndex> middle_of(const Trip& trip, const roads::Network& network) {
     constexpr float least_length_m = 30.0F;  // docs/guides/accident.md: 15 m before the block
@@ -304,14 +317,14 @@ Finding passing_finding(const scenario::ScenarioConfig& config, const roads::Net
         fmt::format("{} of {} of {} {} a blocked road", passing, core::counted(trips.size(), "EV trip"),
                     core::counted(replications, "seed"), trips.size() == 1 ? "passes" : "pass");
     std::set<std::string> places;
-    const auto queueing = queueing_trips(config, network, planned);
-    for (const auto& [id, place] : queueing)
+    const auto queued = queueing(trips, incidents, network);
+    for (const auto& [id, place] : queued)
         places.insert(place);
-    if (!queueing.empty())
+    if (!queued.empty())
         return {
             "met", Grade::note,
             fmt::format("{}; {} of them {} called to {}: if a queue stands before it, they end there", text,
-                        queueing.size(), queueing.size() == 1 ? "is" : "are", fmt::join(places, " and ")),
+                        queued.size(), queued.size() == 1 ? "is" : "are", fmt::join(places, " and ")),
             queueing_cure};
     if (static_cast<double>(passing) >= few * static_cast<double>(trips.size()) && passing > 0)
         return {"met", Grade::ok, text};
@@ -327,14 +340,7 @@ Finding passing_finding(const scenario::ScenarioConfig& config, const roads::Net
 std::map<std::string, std::string> queueing_trips(const scenario::ScenarioConfig& config,
                                                   const roads::Network& network,
                                                   const std::vector<EmergencyTrip>& planned) {
-    const std::vector<scenario::PlacedIncident> incidents = scenario::place_incidents(config, network);
-    std::map<std::string, std::string> found;
-    for (const Trip& trip : trips_of(network, planned))
-        for (const auto& [incident, share, row] : incidents)
-            if (trip.queues_at(network, incident))
-                found.emplace(trip.id, fmt::format("{}, closed until {:g} s",
-                                                   road_words(network.edge(trip.to)), incident.to.value));
-    return found;
+    return queueing(trips_of(network, planned), scenario::place_incidents(config, network), network);
 }
 
 }  // namespace clearway::campaign::detail
