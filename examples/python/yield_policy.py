@@ -15,7 +15,7 @@ class Yield(Policy):
                                                    reason="arrives"))
             for row, (outward, inward) in zip(ev.ahead(within_m=150.0), ev.ahead_lanes):
                 if belief.vehicles.lane[row] == ev.lane and (outward or inward):
-                    number = int(belief.network.lane_number[ev.lane])
+                    number = int(belief.vehicles.lane_number[row])
                     target = number - 1 if outward else number + 1
                     leases.append(Lease.change_lane(belief.vehicles.key[row], target, serves=ev, reason="leaves the lane"))
         return leases

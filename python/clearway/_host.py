@@ -29,6 +29,8 @@ from .parts import Belief, Network, Observation, Policy, Predictor, checked_leas
 from .torchscript import TorchScript, Unusable
 
 METHODS = {"policy": "act", "predictor": "predict"}
+#: What each method is given.
+GIVEN = {"act": "belief", "predict": "observation"}
 #: In which a part answers, s of wall time. A loop without end is told, with its place, and not waited for until the run's own limit.
 ANSWER_LIMIT_S = 60.0
 PR_SET_CHILD_SUBREAPER = 36
@@ -39,7 +41,8 @@ SETTING_TYPES = (bool, int, float, str)
 
 
 class NoClass(AttributeError):
-    """The file has no class of this name, or the class no such method. The message says all, so no traceback is shown."""
+    """The file has no class of this name, or the class no such method, or one that cannot be called as a run does. The message says all,
+    so no traceback is shown."""
 
 
 class SettingError(ValueError):
@@ -107,7 +110,23 @@ def load(file: Path, name: str, settings: dict[str, str]) -> Any:
     if not isinstance(kind, type):
         classes = [word for word, value in vars(module).items() if isinstance(value, type) and value.__module__ == file.stem]
         raise NoClass(f"{file} has no class {name!r}; it has {', '.join(classes) or 'none'}{_program.did_you_mean(name, classes)}")
-    return kind(**keyword_arguments(kind, settings))
+    arguments = keyword_arguments(kind, settings)
+    if not arguments:
+        require_signature(kind, "__init__", ())
+    return kind(**arguments)
+
+
+def require_signature(kind: type, method: str, given: tuple[str, ...]) -> None:
+    """Raises NoClass where a function of a class that is written in Python does not take what it is called with."""
+    function = inspect.getattr_static(kind, method, None)
+    if not inspect.isfunction(function) or hasattr(function, "__wrapped__"):
+        return
+    own = inspect.signature(function)
+    try:
+        own.bind("self", *given)
+    except TypeError:
+        wanted = ", ".join(["self", *given])
+        raise NoClass(f"{place_of(kind, method)}: def {method}{own} (allowed: def {method}({wanted}))") from None
 
 
 def make_part(greeting: dict[str, Any]) -> Any:
@@ -117,6 +136,7 @@ def make_part(greeting: dict[str, Any]) -> Any:
     if not callable(getattr(part, method, None)) or getattr(type(part), method, None) in bases:
         own = [name for name in dir(part) if callable(getattr(type(part), name, None)) and not name.startswith("_") and name != method]
         raise NoClass(f"{type(part).__name__} has no method {method}(), which a {greeting['kind']} needs{_program.did_you_mean(method, own)}")
+    require_signature(type(part), method, (GIVEN[method],))
     return part
 
 

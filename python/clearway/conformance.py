@@ -36,7 +36,7 @@ class Road:
 
     def __init__(self, network: Network, shown: list[dict[str, np.ndarray]]) -> None:
         self.network, self.now = network, shown[-1]
-        #: Class and lane of every vehicle that was believed so far, the last ones.
+        #: Class and lane, a row of the network's, of every vehicle that was believed so far, the last ones.
         self.known: dict[int, tuple[int, int]] = {}
         for arrays in shown:
             self.known.update(_vehicles(arrays, "key", "lane", arrays["vehicle_class"].tolist()))
@@ -178,6 +178,19 @@ def asks_humans(judgement: Judgement) -> Iterator[str]:
             yield f"{place}: {_said(lease)}, a human driver"
 
 
+def asks_for_own_lanes(judgement: Judgement) -> Iterator[str]:
+    own = ""
+    for place, road, lease in judgement.leases():
+        lane = road.known.get(lease.get("vehicle", -1), (None, NO_LANE))[1]
+        if lease["action"] != "change_lane" or lane == NO_LANE:
+            continue
+        if lease["lane_number"] != road.network.lane_number[lane]:
+            return
+        own = own or f"{place}: {_said(lease)}: lane_number {lease['lane_number']}, and so each that it asks for"
+    if own:
+        yield own
+
+
 def asks_without_emergency(judgement: Judgement) -> Iterator[str]:
     for place, road, lease in judgement.leases():
         if len(road.now["emergency_key"]) == 0:
@@ -249,6 +262,8 @@ RULES = {
     "policy": [
         ANSWERS_RULE,
         Rule("possible", "asks only for what vehicles and signals can do", asks_what_is_not, "help(clearway.Lease) says what is allowed"),
+        Rule("lanes", "asks some vehicle for a lane that it is not on", asks_for_own_lanes,
+             "belief.vehicles.lane_number is the number of a lane; belief.vehicles.lane is a row of all lanes of the network"),
         Rule("humans", "asks no human driver", asks_humans, "belief.vehicles.is_automated tells who takes leases"),
         Rule("no_ev", "asks for nothing while no EV is there", asks_without_emergency, "act for each of belief.emergency_vehicles"),
         Rule("no_need", "asks for nothing where nothing is in an EV's way", asks_without_need, "look at ev.ahead() and ev.approaches"),

@@ -79,16 +79,30 @@ class _Rows(Told):
 class Vehicles(_Rows):
     """Believed vehicles, an element each, ordered by ``key``; the arrays cannot be written.
 
-    ``key`` (identity during the run), ``vehicle_class`` (0 human, 1 automated, 2 emergency), ``x_m``, ``y_m``, ``heading_rad``,
-    ``speed_mps``, ``lane`` (not known: ``clearway.parts.NO_LANE``), ``lane_position_m``, ``route_edge``, ``sigma_m`` (of the
-    position), ``age_s`` (of the report).
+    * ``key``: identity during the run, which leases take; ``vehicle_class``: 0 human, 1 automated, 2 emergency;
+    * ``x_m``, ``y_m``: front bumper in the network's plane; ``heading_rad``: counter-clockwise from the x axis; ``speed_mps``;
+    * ``lane``: its row in ``network.lane_ids``, over all edges; its number on the edge, 0 the outermost, as ``Lease.change_lane`` takes
+      it, is ``lane_number``, its edge ``network.lane_edge[lane]``. Not known: ``clearway.parts.NO_LANE``;
+    * ``lane_position_m``: of the front bumper, from the start of the lane;
+    * ``route_edge``: how many edges of its route lie before the one that it entered last;
+    * ``sigma_m``: standard deviation of the position; ``age_s``: of the report.
     """
 
     _names = ("key", "vehicle_class", "x_m", "y_m", "heading_rad", "speed_mps", "lane", "lane_position_m", "route_edge", "sigma_m",
               "age_s")
 
+    def __init__(self, sheet: Moment, network: Network) -> None:
+        super().__init__(sheet)
+        self._network = network
+
     def __len__(self) -> int:
         return len(self.key)
+
+    @property
+    def lane_number(self) -> np.ndarray:
+        """The number of each vehicle's lane on its edge, 0 the outermost; ``NO_LANE`` where it is not known."""
+        numbers = np.append(self._network.lane_number, np.uint32(NO_LANE))
+        return numbers[np.minimum(self.lane, len(numbers) - 1)]
 
     @property
     def is_automated(self) -> np.ndarray:
@@ -149,7 +163,7 @@ class EmergencyVehicle(Told):
     heading_rad = property(lambda self: self._one("heading_rad"), doc="Counter-clockwise from the x axis.")
     speed_mps = property(lambda self: self._one("speed_mps"), doc="Present speed.")
     allowed_speed_mps = property(lambda self: self._one("allowed_speed_mps"), doc="Highest that road and vehicle allow.")
-    lane = property(lambda self: self._one("lane"), doc="Lane of the network; ``NO_LANE``: not known.")
+    lane = property(lambda self: self._one("lane"), doc="Row in ``network.lane_ids``, as ``Vehicles.lane``.")
     lane_position_m = property(lambda self: self._one("lane_position_m"), doc="From the start of the lane.")
 
     def _bounds(self, name: str) -> slice:
@@ -157,7 +171,8 @@ class EmergencyVehicle(Told):
         return slice(int(first[self._number]), int(first[self._number + 1]))
 
     def ahead(self, within_m: float = 300.0) -> np.ndarray:
-        """Rows of the vehicles on its way, nearest first, up to 300 m ahead."""
+        """Rows of ``belief.vehicles`` ahead on its way, on any lane of it, nearest first, up to 300 m; ``ahead_lanes`` tells where each
+        may move."""
         part = self._bounds("ahead_first")
         return self._sheet["ahead_row"][part][self._sheet["ahead_distance_m"][part] <= within_m]
 
@@ -168,7 +183,8 @@ class EmergencyVehicle(Told):
 
     @property
     def ahead_lanes(self) -> np.ndarray:
-        """``uint8[n, 2]`` for ``ahead()``: whether the next lane outward and inward is open to the automated vehicle and goes on."""
+        """``uint8[n, 2]`` for ``ahead()``: whether the lane next to the vehicle's own outward (``lane_number - 1``) and inward
+        (``lane_number + 1``) is open to the automated vehicle and goes on."""
         part = self._bounds("ahead_first")
         return np.stack([self._sheet["ahead_usable_lower"][part], self._sheet["ahead_usable_higher"][part]], axis=1)
 
@@ -203,7 +219,7 @@ class Belief(Told):
         self._sheet = Moment(sheet)
         self.network = network
         self.time_s = float(sheet["time_s"][0])
-        self.vehicles = Vehicles(self._sheet)
+        self.vehicles = Vehicles(self._sheet, network)
         self.links = Links(self._sheet)
 
     def _end(self) -> None:

@@ -71,6 +71,18 @@ class Refuses(clearway.Policy):
     def act(self, belief):
         raise TimeoutError("its own server")
 
+class Stays(clearway.Policy):
+    "Asks for the lane that a vehicle is on, by its number or, wrongly, by its row in the network."
+    def __init__(self, one_moves=False):
+        self.one_moves = one_moves
+    def act(self, belief):
+        vehicles = belief.vehicles
+        assert all(vehicles.lane_number[row] == belief.network.lane_number[vehicles.lane[row]] for row in range(len(vehicles))
+                   if vehicles.lane[row] != clearway.parts.NO_LANE)
+        numbers = 1 - vehicles.lane_number if self.one_moves else vehicles.lane_number
+        return [Lease.change_lane(vehicles.key[row], int(numbers[row]), serves=ev) for ev in belief.emergency_vehicles
+                for row in ev.ahead() if vehicles.is_automated[row] and vehicles.lane_number[row] in (0, 1)]
+
 class Never:
     def predict(self, observation):
         return np.zeros(observation.pairs.shape[1])
@@ -108,11 +120,18 @@ class ConformanceTest(FolderCase):
 
     def test_each_rule_for_policies_is_broken_by_one_made_for_it(self) -> None:
         found = [self.broken("parts.py:Careless"), self.broken("parts.py:Eager"), self.broken("parts.py:OneAtATime"),
-                 self.broken("parts.py:Idle")]
-        self.assertEqual(found, [{"possible", "humans", "lost", "same"}, {"answers", "no_ev", "no_need"}, {"two"}, {"acts"}])
+                 self.broken("parts.py:Stays"), self.broken("parts.py:Idle")]
+        self.assertEqual(found, [{"possible", "humans", "lost", "same"}, {"answers", "no_ev", "no_need"}, {"two"}, {"lanes"},
+                                 {"acts"}])
         self.assertEqual(set.union(*found), {rule.name for rule in RULES["policy"]})
         self.assertIn("it asked for nothing in any scene", self.said)
         self.assertRegex(self.said, r"- +lost +serves an EV whose reports are lost \(not judged\)")
+
+    def test_own_lanes_may_be_asked_for_beside_others(self) -> None:
+        self.assertEqual(self.broken("parts.py:Stays"), {"lanes"})
+        self.assertRegex(self.said, r"change_lane for vehicle \d+: lane_number [01], and so each that it asks for")
+        self.assertIn("belief.vehicles.lane is a row of all lanes of the network", self.said)
+        self.assertEqual(self.broken("parts.py:Stays", "--set", "Stays.one_moves=true"), set())
 
     def test_what_follows_from_a_failure_is_not_held_against_a_part(self) -> None:
         self.assertEqual(self.broken("parts.py:NeedsReports"), {"answers"})

@@ -166,6 +166,22 @@ class Needs(Policy):
         return []
 class Inherits(Policy):
     pass
+class NoBelief(Policy):
+    def act(self):
+        return []
+class NoSelf(Policy):
+    def act():
+        return []
+class BareInit(Policy):
+    def __init__():
+        pass
+    def act(self, belief):
+        return []
+class Takes(Policy):
+    def __init__(self, *words, most=1, **more):
+        pass
+    def act(self, belief, again=2, *others, **words):
+        return []
 class OwnFields(Policy):
     def act(self, belief):
         return [Lease({"action": "fly"})]
@@ -545,11 +561,19 @@ class FaultTest(FolderCase):
     def test_what_cannot_be_loaded_is_told_before_anything_runs(self) -> None:
         self.write("syntax.py", "class Mine(:\n")
         self.write("raises.py", "raise OSError('no net here')\n")
+
+        def line_of(text: str) -> int:
+            return FAULTS.split(text)[0].count("\n") + 1
+        program("run", "intersection", "--policy", "bad.py:Takes", "--seeds", "1", "--dry-run")
         for word, says in (("nowhere.py:Mine", "nowhere.py is not a file"), ("bad.py:Mine", "has no class 'Mine'; it has Raises"),
                            ("bad.py:Raise", "Did you mean 'Raises'?"), ("bad.py:NoAct", "NoAct has no method act()"),
                            ("bad.py:Acts", "Acts has no method act(), which a policy needs. Did you mean 'acts'?"),
                            ("bad.py:Needs", ", Needs.__init__: within_m of __init__ has no default"),
                            ("bad.py:Inherits", "Inherits has no method act()"), ("bad.py", "FILE.py:CLASS"),
+                           ("bad.py:NoBelief", f"bad.py, line {line_of('def act(self):')}, NoBelief.act: def act(self) (allowed: "
+                                               "def act(self, belief))"),
+                           ("bad.py:NoSelf", "NoSelf.act: def act() (allowed: def act(self, belief))"),
+                           ("bad.py:BareInit", "BareInit.__init__: def __init__() (allowed: def __init__(self))"),
                            ("syntax.py:Mine", "SyntaxError: invalid syntax (syntax.py, line 1)\n"), ("raises.py:Mine", "OSError: no net here")):
             ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", word, "--out", "runs"],
                                    capture_output=True, text=True, check=False)
