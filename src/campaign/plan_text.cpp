@@ -24,6 +24,7 @@
 #include "report/read_facts.hpp"
 #include "results/store.hpp"
 #include "scenario/network.hpp"
+#include "scenario/road_limits.hpp"
 #include "scenario/site.hpp"
 #include "study/reuse.hpp"
 #include "study/side_files.hpp"
@@ -129,6 +130,18 @@ std::string size_text(double bytes) {
     return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
+/// `intersection: roads of 140 km/h`, a line for all scenarios that are alike.
+std::string roads_text(const std::vector<scenario::ScenarioConfig>& scenarios) {
+    std::map<std::string, std::vector<std::string>> alike;
+    for (const scenario::ScenarioConfig& config : scenarios)
+        alike[scenario::road_limits(config).words()].push_back(config.name);
+    std::string text;
+    for (const auto& [roads, names] : alike)
+        if (!roads.empty())
+            text += core::wrapped(fmt::format("{}: {}", core::listed(names), roads), 4) + "\n";
+    return text;
+}
+
 std::string precision_text(const results::PrecisionTarget& target) {
     return fmt::format(
         "replications: those of this round; further rounds follow until {} is known to +- {:g}, with {} "
@@ -232,6 +245,7 @@ Printout plan_printout(const study::Plan& plan, const RunOptions& options) {
                             ? "; without the copies that it drives of runs"
                             : "");
     text = "\n" + core::wrapped(head, 4) + "\n" + core::wrapped(text, 4) + "\n";
+    text += roads_text(plan.scenarios);
     if (plan.manifest.precision) text += core::wrapped(precision_text(*plan.manifest.precision), 4) + "\n";
     const core::Settings titles = experiment::ConditionTitles(plan.titles).of(plan.manifest.conditions);
     if (plan.manifest.plan) text += analysis_plan_text(*plan.manifest.plan, titles);

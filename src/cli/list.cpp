@@ -18,6 +18,7 @@
 #include "policy/policy.hpp"
 #include "prediction/predictor.hpp"
 #include "scenario/config.hpp"
+#include "scenario/road_limits.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -42,15 +43,18 @@ Section scenarios() {
     for (const std::string& name : scenario::list()) {
         const scenario::ScenarioConfig config = scenario::load(name);
         const std::string newest = scenario::newest(name);
-        section.entries.push_back({name,
-                                   fmt::format("{} ({}{})", config.title, config.version,
-                                               newest == name ? "" : "; for new studies " + newest),
-                                   {{"title", config.title},
-                                    {"version", config.version},
-                                    {"newest", newest},
-                                    {"dense_variant", config.dense.has_value()},
-                                    {"step_length_s", config.time.step_length_s},
-                                    {"attribution", config.network.attribution}}});
+        const std::string roads = scenario::road_limits(config).words();
+        section.entries.push_back(
+            {name,
+             fmt::format("{}{} ({}{})", config.title, roads.empty() ? "" : "; " + roads, config.version,
+                         newest == name ? "" : "; for new studies " + newest),
+             {{"title", config.title},
+              {"version", config.version},
+              {"newest", newest},
+              {"roads", roads},
+              {"dense_variant", config.dense.has_value()},
+              {"step_length_s", config.time.step_length_s},
+              {"attribution", config.network.attribution}}});
     }
     return section;
 }

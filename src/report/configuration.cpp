@@ -1,6 +1,7 @@
 #include "report/configuration.hpp"
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 
 #include "core/strict_table.hpp"
 #include "report/text.hpp"
+#include "roads/limits.hpp"
 
 namespace clearway::report {
 namespace {
@@ -57,10 +59,11 @@ std::string stand_in_words(const toml::table& scenario) {
                        has_fire_station ? "fire stations" : "hospitals");
 }
 
-std::string sentence_of(const toml::table& table, bool has_signals,
+std::string sentence_of(const toml::table& table, bool has_signals, const std::string& roads,
                         const experiment::ConditionSpec* baseline) {
     if (!table["demand"].is_table()) return "";
     std::vector<std::string> words = {demand_words(table)};
+    if (!roads.empty()) words.push_back(roads);
     if (const double density = table["demand"]["density"].value_or(1.0); density != 1.0)
         words.push_back(fmt::format("density {:g}", density));
     if (const double share = automated_share(table); share >= 0.0)
@@ -75,6 +78,14 @@ std::string sentence_of(const toml::table& table, bool has_signals,
     return fmt::format("Simulated: {}.", fmt::join(words, ", "));
 }
 
+std::string road_words(const std::optional<RoadMap>& map) {
+    roads::Limits limits;
+    if (map)
+        for (const MapEdge& edge : map->edges)
+            limits.add(edge.limit_mps, edge.length_m);
+    return limits.words();
+}
+
 }  // namespace
 
 void add_configuration(const std::string& configuration, ScenarioFacts& scenario) {
@@ -84,13 +95,14 @@ void add_configuration(const std::string& configuration, ScenarioFacts& scenario
     scenario.horizon_s = time["horizon_s"].value_or(0.0);
     if (time["ignore_junction_blocker_s"].value_or(-1.0) >= 0.0) scenario.blockers = Blockers::ignored;
     scenario.assumptions =
-        sentence_of(table, scenario.roads && !scenario.roads->signals.empty(),
+        sentence_of(table, scenario.roads && !scenario.roads->signals.empty(), road_words(scenario.roads),
                     scenario.conditions.empty() ? nullptr : &scenario.conditions.front().condition);
 }
 
-std::string simulated_sentence(const std::string& configuration, bool has_signals,
+std::string simulated_sentence(const std::string& configuration, const roads::Network& network,
                                const experiment::ConditionSpec& baseline) {
-    return sentence_of(core::parse_toml(configuration, "scenario.toml"), has_signals, &baseline);
+    return sentence_of(core::parse_toml(configuration, "scenario.toml"), !network.signals().empty(),
+                       roads::limits_of(network).words(), &baseline);
 }
 
 }  // namespace clearway::report

@@ -4,6 +4,7 @@
 
 #include "experiment/condition.hpp"
 #include "report/facts.hpp"
+#include "roads/network.hpp"
 
 namespace clearway::report {
 
@@ -12,9 +13,9 @@ namespace clearway::report {
 void add_configuration(const std::string& configuration, ScenarioFacts& scenario);
 
 /// `Simulated: random trips of 1,159 vehicles in 15 min, ...`: how demand came about and how much of it there
-/// is, what stands in for stations, and whether EVs of the baseline stop at red. Empty for an old
-/// configuration, which says nothing of demand. Plain text.
-std::string simulated_sentence(const std::string& configuration, bool has_signals,
+/// is, the speed limits of the roads, what stands in for stations, and whether EVs of the baseline stop at
+/// red. Empty for an old configuration, which says nothing of demand. Plain text.
+std::string simulated_sentence(const std::string& configuration, const roads::Network& network,
                                const experiment::ConditionSpec& baseline);
 
 }  // namespace clearway::report

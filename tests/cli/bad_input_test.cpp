@@ -238,6 +238,9 @@ TEST_F(BadInputTest, names_of_one_kind_can_be_listed_alone) {
     EXPECT_EQ(clearway({"list", "policy"}).out, policies.out);
     EXPECT_THAT(clearway({"list", "predictor"}).out, HasSubstr("Predictors"));
     EXPECT_THAT(clearway({"list", "scenarios", "--json"}).out, HasSubstr("\"scenarios\""));
+    EXPECT_THAT(clearway({"list", "scenarios"}).out, HasSubstr("roads of 140 km/h"));
+    EXPECT_THAT(clearway({"run", "intersection", "--road-limit", "70", "--seeds", "1", "--dry-run"}).out,
+                HasSubstr("\nintersection: roads of 70 km/h\n"));
     EXPECT_EQ(clearway({"list", "policies", "corridor"}).code, 3);
     EXPECT_EQ(clearway({"list", "policies", "--markdown"}).code, 3);
     EXPECT_THAT(clearway({"list", "polices"}).err, HasSubstr("Did you mean 'policies'?"));

@@ -199,6 +199,16 @@ TEST(Assumptions, say_where_traffic_comes_from_and_what_red_means) {
     EXPECT_THAT(assumptions_of(drawn, scenario), HasSubstr("may pass red"));
     EXPECT_THAT(assumptions_of("[network]\nattribution = 'Map data (c) OpenStreetMap'\n" + drawn, scenario),
                 HasSubstr("signal programs made up for the map, which has none, unless yours were entered"));
+    scenario.roads->edges.resize(2);
+    for (const auto& [edge, length_m, limit_kmh] : {std::tuple{0, 900.0, 50.0}, {1, 100.0, 30.0}}) {
+        scenario.roads->edges[edge].length_m = length_m;
+        scenario.roads->edges[edge].limit_mps = limit_kmh / 3.6;
+    }
+    EXPECT_THAT(assumptions_of(drawn, scenario),
+                HasSubstr("in 15 min, roads of 30 to 50 km/h, mostly 50, density 0.7"));
+    scenario.roads->edges.resize(1);
+    EXPECT_THAT(assumptions_of(drawn, scenario), HasSubstr(", roads of 50 km/h, density"));
+    scenario.roads->edges.clear();
     scenario.roads->signals.clear();
     EXPECT_EQ(assumptions_of("[demand]\nemergency = 2\n[measured]\nautomated_share = 0.35\n", scenario),
               "Simulated: the trips of the scenario's files, automated share 0.35.");

@@ -11,6 +11,7 @@
 #include "scenario/detail/library.hpp"
 #include "scenario/detail/netconvert.hpp"
 #include "scenario/network_document.hpp"
+#include "scenario/road_limits.hpp"
 #include "scenario/written_files.hpp"
 #include "scratch.hpp"
 
@@ -121,6 +122,23 @@ TEST_F(BuiltNetworks, road_limit_slows_faster_roads_only_and_keeps_the_signal) {
     EXPECT_NEAR(
         merge.network.lane(merge.network.lane_of(*merge.network.find_edge("ramp"), 0)).speed_limit_mps,
         100 / 3.6, 0.01);
+}
+
+TEST_F(BuiltNetworks, limits_read_from_the_sources_are_those_of_the_built_network) {
+    Options slow;
+    slow.set("road_limit_kmh", "70");
+    slow.set("road_speed_factor", "0.9");
+    for (const char* const name : {"intersection", "merge", "arterial", "grid_signals"}) {
+        const std::string words = road_limits(load(name)).words();
+        EXPECT_EQ(words, roads::limits_of(built(name).network).words()) << name;
+        EXPECT_EQ(road_limits(load(name, slow)).words(), roads::limits_of(built(name, slow).network).words());
+    }
+    EXPECT_EQ(road_limits(load("intersection")).words(), "roads of 140 km/h");
+    EXPECT_EQ(road_limits(load("merge")).words(), "roads of 100 to 140 km/h, mostly 140");
+    EXPECT_EQ(road_limits(load("bologna")).words(), "roads of 50 km/h") << "read from a network file";
+    ScenarioConfig absent = load("merge");
+    absent.network.nodes = "absent.nod.xml";
+    EXPECT_EQ(road_limits(absent).words(), "");
 }
 
 TEST_F(BuiltNetworks, rain_slows_all_roads_and_a_stretch_has_a_factor_of_its_own) {
