@@ -106,12 +106,11 @@ core::ExitCode write(const FiguresArguments& arguments) {
         arguments.folder, arguments.least_relevant_s,
         campaign::reference_from(arguments.against, manifest.conditions, arguments.folder));
     const report::FigureFiles files = report::write_figures(facts, arguments.output, arguments.choice);
-    report::write_index(files, arguments.output, {});
+    report::write_index(files, arguments.output);
     if (all) {
-        const std::vector<std::string> converted = {"pdf", "png"};
-        for (const std::string& format : converted)
+        for (const char* const format : {"pdf", "png"})
             convert(files.drawings, format);
-        report::write_index(files, arguments.output, converted);
+        report::write_index(files, arguments.output);
     }
     fmt::print(stderr,
                "clearway: written to {}: {} figures as SVG{}, {} tables as CSV, {} of them as LaTeX; all "
@@ -148,7 +147,7 @@ Action configure_figures(App& app) {
     app.add_option("--only", arguments->choice.only,
                    "Figure or table by name, or by what its name begins with: tradeoff, factors, "
                    "differences, travel-time, map, ...; another word lists those of the folder; may be "
-                   "repeated")
+                   "repeated. Others that DIR holds stay")
         .allow_extra_args(false)
         .option_text("NAME [all]");
     app.add_flag_callback(

@@ -283,6 +283,8 @@ struct StudyFacts {
     std::string study_file;  ///< Its text; empty where it has none.
     /// With what conditions are compared instead of their baselines; empty otherwise.
     std::string reference = {};
+    /// Whether figures let the condition of the headline stand out; a text of its own has no headline.
+    bool headline_leads = true;
 };
 
 }  // namespace clearway::report

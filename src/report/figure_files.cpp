@@ -1,7 +1,9 @@
 #include "report/figure_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
@@ -29,20 +31,26 @@ using detail::Table;
 /// Names of the figures and tables that an export has written, a line each, without endings.
 constexpr const char* list_name = ".clearway-figures";
 
-/// Removes what an earlier export has written. Throws core::InputError for a folder that holds something
+constexpr std::array drawing_endings = {".svg", ".pdf", ".png"};
+
+/// The names that an earlier export has written. Throws core::InputError for a folder that holds something
 /// else.
-void remove_former(const fs::path& folder) {
+std::vector<std::string> former_names(const fs::path& folder) {
     core::require_own(folder, figure_folder());
     core::remove_abandoned_parts(folder);
-    if (!fs::exists(folder / list_name)) return;
+    std::vector<std::string> found;
+    if (!fs::exists(folder / list_name)) return found;
     std::istringstream names(core::read_file(folder / list_name));
-    for (std::string name; std::getline(names, name);) {
-        if (name.find_first_of("/.") != std::string::npos) continue;
-        for (const char* const ending : {".svg", ".pdf", ".png", ".csv", ".tex"})
-            fs::remove(folder / (name + ending));
-    }
-    fs::remove(folder / "index.html");
-    fs::remove(folder / list_name);
+    for (std::string name; std::getline(names, name);)
+        if (name.find_first_of("/.") == std::string::npos) found.push_back(name);
+    return found;
+}
+
+void remove_files(const fs::path& folder, const std::string& name) {
+    for (const char* const ending : {".csv", ".tex"})
+        fs::remove(folder / (name + ending));
+    for (const char* const ending : drawing_endings)
+        fs::remove(folder / (name + ending));
 }
 
 /// Whether `only` names a figure or table, by its whole name or what it begins with.
@@ -104,23 +112,51 @@ void check_only(const StudyFacts& study, const std::vector<std::string>& only) {
 class FileWriter : public detail::Writer {
   public:
     FileWriter(const std::filesystem::path& folder, const StudyFacts& study, const FigureChoice& choice)
-        : folder_(folder), study_(study), choice_(choice) {}
+        : folder_(folder), study_(study), choice_(choice), former_(former_names(folder)) {
+        core::make_folder(folder_);
+        if (choice_.only.empty()) fs::remove(folder_ / "index.html");
+    }
 
     void begin(const char* section) { section_ = topic_ = section; }
 
     void markup(std::string_view /*html*/) override {}
     void heading(const std::string& text) override { topic_ = text; }
-    const FigureFiles& files() const { return files_; }
+    /// Removes what the earlier export has written and this one would have replaced.
+    FigureFiles finish() {
+        std::erase_if(former_, [&](const std::string& name) {
+            const bool is_gone = is_chosen(name) && std::ranges::find(names_, name) == names_.end();
+            if (is_gone) remove_files(folder_, name);
+            return is_gone;
+        });
+        write_list();
+        files_.title = study_.title;
+        files_.keeps_others = !choice_.only.empty();
+        return std::move(files_);
+    }
 
   private:
+    /// Of this and of the earlier export: until it ends, each has files there.
+    void write_list() const {
+        std::vector<std::string> all = former_;
+        std::ranges::copy_if(names_, std::back_inserter(all), [&](const std::string& name) {
+            return std::ranges::find(former_, name) == former_.end();
+        });
+        core::write_output(folder_ / list_name, fmt::format("{}\n", fmt::join(all, "\n")));
+    }
     fs::path write(const std::string& name, const char* ending, const std::string& text) {
         fs::path file = folder_ / (name + ending);
         if (names_.empty() || names_.back() != name) {
             names_.push_back(name);
-            core::write_output(folder_ / list_name, fmt::format("{}\n", fmt::join(names_, "\n")));
+            write_list();
         }
         core::write_output(file, text);
         return file;
+    }
+    /// Pictures of an earlier export stay where they are of the same drawing.
+    fs::path write_drawing(const std::string& name, const std::string& drawing) {
+        const fs::path file = folder_ / (name + ".svg");
+        if (!fs::exists(file) || core::read_file(file) != drawing) remove_files(folder_, name);
+        return write(name, ".svg", drawing);
     }
     /// With the name of what conditions are compared with in place of `the baseline`.
     std::string named(std::string text, const std::string& reference) const {
@@ -186,7 +222,7 @@ class FileWriter : public detail::Writer {
     }
     void put(const Figure& figure) override {
         if (!is_chosen(figure.name)) return;
-        files_.drawings.push_back(write(figure.name, ".svg", drawing_of(figure)));
+        files_.drawings.push_back(write_drawing(figure.name, drawing_of(figure)));
         if (!figure.data.rows.empty())
             files_.tables.push_back(write(figure.name, ".csv", detail::to_csv(figure.data)));
         files_.entries.push_back({section_, figure.name, label(figure.name), title_of(figure),
@@ -214,6 +250,7 @@ class FileWriter : public detail::Writer {
     std::filesystem::path folder_;
     const StudyFacts& study_;
     const FigureChoice& choice_;
+    std::vector<std::string> former_;
     std::string section_;
     std::string topic_;  ///< The latest heading, or the section.
     std::vector<std::string> names_;
@@ -225,20 +262,16 @@ std::string link(const std::string& name, const std::string& ending) {
 }
 
 /// `folder` is the name by which LaTeX finds the files from beside it.
-std::string entry_markup(const FigureEntry& entry, const std::vector<std::string>& more,
-                         const std::string& folder) {
+std::string entry_markup(const FigureEntry& entry, const fs::path& files, const std::string& folder) {
     std::string html = fmt::format("<figure id=\"{}\"><figcaption>{}<span class=\"save\">", entry.name,
                                    escaped(entry.caption));
-    if (entry.is_drawing) {
-        html += link(entry.name, "svg");
-        for (const std::string& ending : more)
-            html += link(entry.name, ending);
-    }
+    const auto has = [&](const char* ending) { return fs::exists(files / (entry.name + ending)); };
+    for (const char* const ending : drawing_endings)
+        if (entry.is_drawing && has(ending)) html += link(entry.name, ending + 1);
     if (entry.has_data) html += link(entry.name, "csv");
     if (!entry.is_drawing) html += link(entry.name, "tex");
     html += "</span></figcaption>\n";
     if (entry.is_drawing) {
-        const bool has_pdf = std::ranges::find(more, "pdf") != more.end();
         html += fmt::format(
             "<a href=\"{0}.svg\"><img src=\"{0}.svg\" alt=\"{1}\"></a>\n<p class=\"note\">{2}</p>\n"
             "<details><summary>LaTeX</summary><pre>{3}</pre></details>\n",
@@ -247,7 +280,7 @@ std::string entry_markup(const FigureEntry& entry, const std::vector<std::string
                 "\\begin{{figure}}\n\\centering\n\\includegraphics[width=\\linewidth,"
                 "height=.8\\textheight,keepaspectratio]{{{4}/{0}{1}}}\n"
                 "\\caption{{{2}}}\n\\label{{fig:{3}}}\n\\end{{figure}}",
-                entry.name, has_pdf ? ".pdf" : "",
+                entry.name, has(".pdf") ? ".pdf" : "",
                 detail::latex_escaped(entry.caption + "." + (entry.note.empty() ? "" : " " + entry.note)),
                 entry.label, folder)));
     }
@@ -255,10 +288,49 @@ std::string entry_markup(const FigureEntry& entry, const std::vector<std::string
     return html + "</figure>\n";
 }
 
+/// An entry of `index.html`.
+struct Block {
+    std::string section, name, markup;
+};
+
+/// Those of a page that `write_index` wrote.
+std::vector<Block> blocks_in(const std::string& page) {
+    constexpr std::string_view section_begin = "<h2>";
+    constexpr std::string_view begin = "<figure id=\"";
+    constexpr std::string_view end = "</figure>\n";
+    std::vector<Block> blocks;
+    std::string section;
+    for (std::size_t at = page.find(section_begin); at < page.size();) {
+        if (page.compare(at, section_begin.size(), section_begin) == 0) {
+            at += section_begin.size();
+            section = page.substr(at, page.find("</h2>", at) - at);
+        } else {
+            const std::size_t name = at + begin.size();
+            const std::size_t after = page.find(end, at);
+            blocks.push_back({section, page.substr(name, page.find('"', name) - name),
+                              page.substr(at, after - at + end.size())});
+            at = name;
+        }
+        at = std::min(page.find(section_begin, at), page.find(begin, at));
+    }
+    return blocks;
+}
+
+/// In place of the one of this name, else behind the last one of its section.
+void put(const Block& block, std::vector<Block>& blocks) {
+    const auto former = std::ranges::find(blocks, block.name, &Block::name);
+    if (former != blocks.end()) {
+        *former = block;
+        return;
+    }
+    const auto last = std::find_if(blocks.rbegin(), blocks.rend(),
+                                   [&](const Block& one) { return one.section == block.section; });
+    blocks.insert(last == blocks.rend() ? blocks.end() : last.base(), block);
+}
+
 }  // namespace
 
-void write_index(const FigureFiles& files, const std::filesystem::path& folder,
-                 const std::vector<std::string>& more) {
+void write_index(const FigureFiles& files, const std::filesystem::path& folder) {
     std::string html = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
@@ -267,13 +339,21 @@ void write_index(const FigureFiles& files, const std::filesystem::path& folder,
         "<header>\n<h1>{0}: figures and tables</h1>\n</header>\n<main>\n",
         escaped(files.title), detail::page_style());
     const std::string name = std::filesystem::canonical(folder).filename().string();
+    std::vector<Block> blocks;
+    if (files.keeps_others && fs::exists(folder / "index.html"))
+        blocks = blocks_in(core::read_file(folder / "index.html"));
+    for (const FigureEntry& entry : files.entries)
+        put({entry.section, entry.name, entry_markup(entry, folder, name)}, blocks);
+    std::erase_if(blocks, [&](const Block& block) {
+        return !fs::exists(folder / (block.name + ".svg")) && !fs::exists(folder / (block.name + ".csv"));
+    });
     std::string section;
-    for (const FigureEntry& entry : files.entries) {
-        if (entry.section != section)
+    for (const Block& block : blocks) {
+        if (block.section != section)
             html += fmt::format("{}<h2>{}</h2>\n<div class=\"figures\">\n", section.empty() ? "" : "</div>\n",
-                                entry.section);
-        section = entry.section;
-        html += entry_markup(entry, more, name);
+                                block.section);
+        section = block.section;
+        html += block.markup;
     }
     html += section.empty() ? "<p>Nothing to draw.</p>\n" : "</div>\n";
     core::write_output(folder / "index.html", html + "</main>\n</body>\n</html>\n");
@@ -286,13 +366,11 @@ core::OwnFolder figure_folder() {
 FigureFiles write_figures(const StudyFacts& study, const std::filesystem::path& folder,
                           const FigureChoice& choice) {
     check_only(study, choice.only);
-    remove_former(folder);
-    core::make_folder(folder);
-    FileWriter writer(folder, study, choice);
-    write_sections(study, writer, [&](const char* section) { writer.begin(section); });
-    FigureFiles files = writer.files();
-    files.title = study.title;
-    return files;
+    StudyFacts shown = study;
+    shown.headline_leads = choice.words != FigureChoice::Words::bare;
+    FileWriter writer(folder, shown, choice);
+    write_sections(shown, writer, [&](const char* section) { writer.begin(section); });
+    return writer.finish();
 }
 
 }  // namespace clearway::report

@@ -27,6 +27,7 @@ struct FigureFiles {
     std::vector<std::filesystem::path> tables;    ///< CSV, of figures and of tables.
     std::vector<std::filesystem::path> typeset;   ///< LaTeX, of tables.
     std::vector<FigureEntry> entries;             ///< In the order of the report.
+    bool keeps_others = false;                    ///< Whether the folder has others of an earlier call, too.
 };
 
 /// By what `clearway export figures` knows the folders that it has written.
@@ -36,21 +37,21 @@ core::OwnFolder figure_folder();
 struct FigureChoice {
     /// Names, or their beginnings up to a hyphen: `tradeoff` for `tradeoff-city`; none: all.
     std::vector<std::string> only = {};
-    /// Whether a drawing has its title, seeds and note in it; a paper has them in its caption.
+    /// Whether a drawing has its title, seeds and note in it, and lets the condition of the headline stand
+    /// out.
     enum class Words { framed, bare } words = Words::framed;
 };
 
 /// Writes every figure of the report as NAME.svg, on white paper, and its data as NAME.csv; every table as
 /// NAME.csv and NAME.tex. Names are those of the page's downloads. Makes the folder, and removes what an
-/// earlier call has written there. Throws core::InputError for a folder with other content, and for a name of
-/// `choice` that nothing has; core::EnvironmentError when it cannot be written.
+/// earlier call has written there and this one replaces: of other names than the chosen ones nothing, and
+/// pictures made of a drawing only if it changed. Throws core::InputError for a folder with other content,
+/// and for a name of `choice` that nothing has; core::EnvironmentError when it cannot be written.
 FigureFiles write_figures(const StudyFacts& study, const std::filesystem::path& folder,
                           const FigureChoice& choice = {});
 
 /// Writes `index.html` into the folder of the files: every figure and table with its caption and its files,
-/// and the LaTeX that includes a figure. `more` are endings of files that were made of each drawing, such as
-/// `pdf`.
-void write_index(const FigureFiles& files, const std::filesystem::path& folder,
-                 const std::vector<std::string>& more);
+/// those of earlier calls that it keeps as their `index.html` had them, and the LaTeX that includes a figure.
+void write_index(const FigureFiles& files, const std::filesystem::path& folder);
 
 }  // namespace clearway::report

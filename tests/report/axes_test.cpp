@@ -1,5 +1,8 @@
 #include "report/detail/axes.hpp"
 
+#include <map>
+#include <regex>
+
 #include <gmock/gmock.h>
 
 namespace clearway::report::detail {
@@ -63,6 +66,32 @@ TEST(Plot, escapes_its_texts) {
     EXPECT_THAT(svg,
                 ::testing::Not(::testing::AnyOf(::testing::HasSubstr("<script"), ::testing::HasSubstr("<i>"),
                                                 ::testing::HasSubstr("<b>"))));
+}
+
+/// The words of a legend, by line, each with its place from the left.
+std::map<double, std::vector<std::pair<double, std::string>>> lines_of_legend(
+    const std::vector<LegendEntry>& entries) {
+    Canvas canvas("", 100.0);
+    canvas.legend(entries);
+    const std::string svg = canvas.finish();
+    const std::regex words("<text class=\"legend\" x=\"([0-9.]+)\" y=\"([0-9.]+)\"[^>]*>([^<]*)<");
+    std::map<double, std::vector<std::pair<double, std::string>>> lines;
+    for (std::sregex_iterator at(svg.begin(), svg.end(), words), end; at != end; ++at)
+        lines[std::stod((*at)[2])].emplace_back(std::stod((*at)[1]), (*at)[3]);
+    return lines;
+}
+
+TEST(Legend, leaves_no_entry_alone_on_a_line_that_could_share_it) {
+    const auto entry = [](const char* words) { return line_entry({.number = 1}, words); };
+    const auto lines = lines_of_legend(
+        {{"", "failure:"}, entry("perfect"), entry("outages"), entry("noise"), entry("lost messages")});
+    ASSERT_EQ(lines.size(), 2u);
+    const auto& [first, second] = std::pair(lines.begin()->second, lines.rbegin()->second);
+    EXPECT_EQ(first.front().second, "failure:");
+    EXPECT_EQ(second.size(), 2u) << "with the one before, as the first line has the heading";
+    EXPECT_EQ(second.back().second, "lost messages");
+    EXPECT_DOUBLE_EQ(second.front().first, first[1].first) << "behind the heading";
+    EXPECT_EQ(lines_of_legend({{"", "failure:"}, entry("perfect"), entry("lost")}).size(), 1u);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "report/detail/table_files.hpp"
 
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -165,6 +166,57 @@ TEST(FigureFiles, HaveTitleSeedsAndNoteInThemUnlessTheyAreBare) {
     EXPECT_THAT(text_of(folder.path() / "figures" / "tradeoff-merge.svg"), Not(HasSubstr("seeds</text>")));
 }
 
+TEST(FigureFiles, BareOnesDoNotLetTheConditionOfTheHeadlineStandOut) {
+    const core::TemporaryFolder folder;
+    FigureChoice choice{{"tradeoff", "pairs"}};
+    const auto drawn = [&](const char* name) {
+        write_figures(tests::study({"merge"}), folder.path() / "figures", choice);
+        return text_of(folder.path() / "figures" / name);
+    };
+    EXPECT_THAT(drawn("tradeoff-merge.svg"),
+                AllOf(HasSubstr("class=\"ring"), HasSubstr(">ring, of the headline: ")));
+    EXPECT_THAT(drawn("pairs-merge.svg"), HasSubstr(" lead\""));
+    choice.words = FigureChoice::Words::bare;
+    EXPECT_THAT(drawn("tradeoff-merge.svg"), AllOf(Not(HasSubstr("class=\"ring")), Not(HasSubstr("headline")),
+                                                   HasSubstr(">95 % intervals<")));
+    EXPECT_THAT(drawn("pairs-merge.svg"), Not(HasSubstr(" lead\"")));
+}
+
+TEST(FigureFiles, OfPairsHaveMarksAtTheEndsOfMeansAlone) {
+    const core::TemporaryFolder folder;
+    const StudyFacts study = tests::study({"merge"});
+    write_figures(study, folder.path(), {{"pairs"}});
+    const std::string svg = text_of(folder.path() / "pairs-merge.svg");
+    EXPECT_THAT(svg, HasSubstr(">each from the baseline (left) to a condition (right)</text>"));
+    const auto count = [&](const std::string& text) {
+        std::size_t found = 0;
+        for (std::size_t at = svg.find(text); at != std::string::npos; at = svg.find(text, at + 1))
+            ++found;
+        return found;
+    };
+    EXPECT_GT(count("class=\"line s"), 2u);
+    // A mean and its entry in the legend have a line each; three marks for both.
+    EXPECT_EQ(2 * count("<path class=\"dot s"), 3 * (count("class=\"line s")));
+}
+
+TEST(FigureFiles, LeaveOutTheTimeOfThoseThatArrivedWhereAllDid) {
+    const core::TemporaryFolder folder;
+    StudyFacts study = tests::study({"merge"});
+    const auto table = [&] {
+        write_figures(study, folder.path());
+        return text_of(folder.path() / "times-merge.csv");
+    };
+    const std::string repeated = info(Measure::emergency_travel_time).title;
+    EXPECT_THAT(table(),
+                AllOf(HasSubstr(info(Measure::emergency_restricted_time).title), Not(HasSubstr(repeated)),
+                      HasSubstr(info(Measure::emergency_time_loss).title)));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "statistics-merge-emergency-travel-time-s.tex"));
+    for (analysis::MetricSummary& metric : study.scenarios[0].conditions.back().metrics)
+        if (metric.metric.name == info(Measure::emergency_travel_time).field) metric.estimate->mean -= 0.01;
+    EXPECT_THAT(table(), HasSubstr(repeated)) << "one did not arrive under one condition";
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "statistics-merge-emergency-travel-time-s.tex"));
+}
+
 TEST(FigureFiles, AreThoseThatWereChosen) {
     const core::TemporaryFolder folder;
     const std::filesystem::path out = folder.path() / "figures";
@@ -179,6 +231,41 @@ TEST(FigureFiles, AreThoseThatWereChosen) {
                                         HasSubstr("Did you mean 'tradeoff'?")));
     }
     EXPECT_TRUE(std::filesystem::exists(out / "tradeoff-merge.svg")) << "nothing was removed";
+}
+
+TEST(FigureFiles, ThatWereNotChosenStayWithTheirEntriesAndPictures) {
+    const core::TemporaryFolder folder;
+    const std::filesystem::path& out = folder.path();
+    StudyFacts study = tests::study({"merge"});
+    write_index(write_figures(study, out), out);
+    const auto holds = [&] {
+        std::map<std::string, std::string> texts;
+        for (const auto& entry : std::filesystem::directory_iterator(out))
+            texts[entry.path().filename()] = text_of(entry.path());
+        return texts;
+    };
+    for (const char* const picture : {"tradeoff-merge.pdf", "pairs-merge.pdf"})
+        std::ofstream(out / picture) << "%PDF";
+    write_index(write_figures(study, out), out);  // the same once more: the pictures fit
+    const auto before = holds();
+    EXPECT_THAT(before.at("index.html"),
+                AllOf(HasSubstr("tradeoff-merge.pdf"), HasSubstr("pairs-merge.pdf")));
+    write_index(write_figures(study, out, {{"tradeoff"}}), out);
+    EXPECT_EQ(holds(), before);
+    study.reference = "corridor";
+    write_index(write_figures(study, out, {{"tradeoff"}}), out);
+    auto after = holds();
+    EXPECT_THAT(after.at("tradeoff-merge.svg"), HasSubstr("corridor"));
+    EXPECT_FALSE(after.contains("tradeoff-merge.pdf")) << "it was of another drawing";
+    EXPECT_THAT(after.at("index.html"),
+                AllOf(Not(HasSubstr("tradeoff-merge.pdf")), HasSubstr("fig:tradeoff-merge-against-corridor"),
+                      HasSubstr("pairs-merge.pdf"), Not(HasSubstr("fig:pairs-merge-against"))));
+    for (const char* const name :
+         {"tradeoff-merge.svg", "tradeoff-merge.csv", "tradeoff-merge.pdf", "index.html"})
+        after[name] = before.at(name);
+    EXPECT_EQ(after, before);
+    write_figures(study, out);
+    EXPECT_FALSE(std::filesystem::exists(out / "pairs-merge.pdf")) << "all were refreshed";
 }
 
 /// Texts of the SVG files of a study with a CSS class.
@@ -333,7 +420,11 @@ TEST(FigureFiles, AreAllOnOnePage) {
     const core::TemporaryFolder beside;
     const std::filesystem::path folder = beside.path() / "figures";
     const FigureFiles files = write_figures(tests::study({"merge", "<b>City</b>/../x"}), folder);
-    write_index(files, folder, {"pdf"});
+    write_index(files, folder);
+    EXPECT_THAT(text_of(folder / "index.html"), Not(HasSubstr(".pdf\"")));
+    for (const std::filesystem::path& drawing : files.drawings)
+        std::ofstream(std::filesystem::path(drawing).replace_extension(".pdf")) << "%PDF";
+    write_index(files, folder);
     const std::string index = text_of(folder / "index.html");
     for (const auto* const list : {&files.drawings, &files.tables, &files.typeset}) {
         for (const std::filesystem::path& file : *list)

@@ -107,6 +107,12 @@ void Plot::line(const Points& points, const Series& series) {
     marks(points, series);
 }
 
+void Plot::joined(const Points& points, const Series& series) {
+    polyline(line_style(series), points);
+    for (const auto& [x, y] : points)
+        add(mark_of(series, x_.place(x), y_.place(y), 3.6));
+}
+
 void Plot::hair(const Points& points, const Series& series) {
     polyline("hair " + colour_of(series), points);
 }

@@ -87,6 +87,8 @@ class Plot : public Canvas {
     void grid_y();
     /// A polyline in the style of `series`, with its marks.
     void line(const Points& points, const Series& series);
+    /// The same with marks at its points alone.
+    void joined(const Points& points, const Series& series);
     /// A horizontal interval with its mean, at height `y` in figure units.
     void interval(std::pair<double, double> bounds, double mean, double y, const Series& series);
     void point(double value, double y, const Series& series);

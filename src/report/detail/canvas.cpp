@@ -14,6 +14,7 @@ namespace {
 constexpr double letter_width = 6.3;  // of text of 12 units, mean; from Liberation Sans
 constexpr double bold = 1.15;         // wider than that
 constexpr double legend_row = 18.0;
+constexpr double legend_left = 8.0;
 constexpr double legend_gap = 6.0;  // behind the mark
 constexpr std::size_t longest_entry = 56;
 
@@ -38,6 +39,48 @@ Look look_of(const Series& series) {
         return {colour, colour, cycled(series.levels->mark, Series::most_levels)};
     }
     return {cycled(series.number, colours), cycled(series.number, dashes), cycled(series.number, marks)};
+}
+
+double behind_mark(const LegendEntry& entry) {
+    return entry.mark.empty() ? 0.0 : entry.width + legend_gap;
+}
+
+std::vector<double> widths_of(const std::vector<LegendEntry>& entries) {
+    std::vector<double> widths;
+    for (const LegendEntry& entry : entries) {
+        const auto letters = static_cast<double>(core::characters_in(shortened(entry.words, longest_entry)));
+        const double factor = entry.weight == Series::Weight::lead ? bold : 1.0;
+        widths.push_back(behind_mark(entry) + factor * letter_width * letters + 12.0);
+    }
+    return widths;
+}
+
+/// Whether the entry `at` of a legend begins a line, where `used` of the present one is taken.
+bool breaks_before(std::size_t at, double used, double indent, double entry_width, double room) {
+    return at > 0 && used > indent && used + entry_width > room;
+}
+
+std::size_t rows_of(const std::vector<double>& widths, double indent, double room) {
+    std::size_t rows = 1;
+    double used = 0.0;
+    for (std::size_t at = 0; at < widths.size(); ++at) {
+        if (breaks_before(at, used, indent, widths[at], room)) {
+            used = indent;
+            ++rows;
+        }
+        used += widths[at];
+    }
+    return rows;
+}
+
+/// The width at which a legend needs no more lines than in all of the room: its lines are about equally
+/// long, and none holds one last entry alone without need.
+double narrowest_room(const std::vector<double>& widths, double indent, double room) {
+    constexpr double step = 4.0;
+    const std::size_t rows = rows_of(widths, indent, room);
+    while (room > step && rows_of(widths, indent, room - step) == rows)
+        room -= step;
+    return room;
 }
 
 }  // namespace
@@ -145,23 +188,24 @@ void Canvas::circle(double x, double y, double radius, const std::string& style)
 
 void Canvas::legend(const std::vector<LegendEntry>& entries) {
     if (entries.empty()) return;
-    double x = 8.0;
+    const std::vector<double> widths = widths_of(entries);
+    // Lines after a heading begin behind it.
+    const double indent = entries.front().mark.empty() && entries.size() > 1 ? widths.front() : 0.0;
+    const double room = narrowest_room(widths, indent, width - legend_left);
+    double x = legend_left;
     height_ += legend_row;
-    for (const LegendEntry& entry : entries) {
-        const std::string words = shortened(entry.words, longest_entry);
-        const double indent = entry.mark.empty() ? 0.0 : entry.width + legend_gap;
-        const bool leads = entry.weight == Series::Weight::lead;
-        const double entry_width =
-            indent + (leads ? bold : 1.0) * letter_width * static_cast<double>(core::characters_in(words)) +
-            12.0;
-        if (x > 8.0 && x + entry_width > width) {
-            x = 8.0;
+    for (std::size_t at = 0; at < entries.size(); ++at) {
+        const LegendEntry& entry = entries[at];
+        if (breaks_before(at, x - legend_left, indent, widths[at], room)) {
+            x = legend_left + indent;
             height_ += legend_row;
         }
         fmt::format_to(std::back_inserter(svg_), "<g transform=\"translate({:.1f} {:.1f})\">{}</g>", x,
                        height_ - 14.0, entry.mark);
-        text(x + indent, height_ - 5.0, words, Anchor::start, leads ? "legend lead" : "legend");
-        x += entry_width;
+        const bool leads = entry.weight == Series::Weight::lead;
+        text(x + behind_mark(entry), height_ - 5.0, shortened(entry.words, longest_entry), Anchor::start,
+             leads ? "legend lead" : "legend");
+        x += widths[at];
     }
 }
 

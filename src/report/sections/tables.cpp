@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <span>
 #include <vector>
@@ -118,13 +119,31 @@ DataTable plain_table(const ScenarioFacts& scenario, std::span<const Measure> co
     return table;
 }
 
-/// Those with a value under some condition, or without one because it lost EVs.
+/// But for rounding, as times are summed in another order.
+bool is_equal(const MaybeEstimate& one, const MaybeEstimate& other) {
+    constexpr double rounding_s = 1e-6;
+    return one.has_value() == other.has_value() &&
+           (!one || (one->n == other->n && std::abs(one->mean - other->mean) < rounding_s &&
+                     std::abs(one->deviation - other->deviation) < rounding_s));
+}
+
+/// Whether a measure only repeats the primary one: travel times of EVs that arrived, where all did.
+bool is_repeated(const ScenarioFacts& scenario, Measure measure) {
+    return measure == Measure::emergency_travel_time &&
+           std::ranges::all_of(scenario.conditions, [&](const ConditionFacts& condition) {
+               return is_equal(condition.value(measure), condition.value(primary)) &&
+                      is_equal(condition.difference(measure), condition.difference(primary));
+           });
+}
+
+/// Those with a value under some condition, or without one because it lost EVs, that repeat no other.
 std::vector<Measure> used(const ScenarioFacts& scenario, std::span<const Measure> columns) {
     std::vector<Measure> measures;
     std::ranges::copy_if(columns, std::back_inserter(measures), [&](Measure measure) {
-        return std::ranges::any_of(scenario.conditions, [&](const auto& one) {
-            return one.value(measure) || is_void_for_lost(one, measure);
-        });
+        return !is_repeated(scenario, measure) &&
+               std::ranges::any_of(scenario.conditions, [&](const auto& one) {
+                   return one.value(measure) || is_void_for_lost(one, measure);
+               });
     });
     return measures;
 }
@@ -156,6 +175,7 @@ void write_statistics(const ScenarioFacts& scenario, Writer& writer) {
     std::vector<Table> tables;
     for (const Measure measure : {Measure::emergency_restricted_time, Measure::emergency_travel_time,
                                   Measure::other_time_loss, Measure::collisions}) {
+        if (is_repeated(scenario, measure)) continue;
         DataTable table = statistics_table(scenario, measure);
         if (!table.rows.empty())
             tables.push_back(

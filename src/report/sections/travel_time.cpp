@@ -152,19 +152,21 @@ Figure slopes_figure(const ScenarioFacts& scenario, const Looks& looks) {
         drawn.emplace_back(row, std::move(pairs));
     }
     if (drawn.empty()) return {};
-    constexpr double height = 300.0;
+    constexpr double height = 316.0;
     constexpr double panel = 0.62;  // of a condition's share of the width; the rest keeps panels apart
     Plot plot(fmt::format("{}: EV travel time of each replication, baseline and condition", scenario.name),
               height, {Range(0.0, static_cast<double>(drawn.size())), "", left_edge, right_edge},
-              {padded(seconds, 0.04), labelled(primary), height - 16.0, top_edge});
+              {padded(seconds, 0.04), labelled(primary), height - 32.0, top_edge});
     plot.grid_y();
+    plot.text(0.5 * (left_edge + right_edge), height - 10.0,
+              "each from the baseline (left) to a condition (right)", Plot::Anchor::middle, "tick");
     std::vector<LegendEntry> entries;
     double from = 0.5 * (1.0 - panel);
     for (const auto& [row, pairs] : drawn) {
         for (const Pair& pair : thinned(pairs))
             plot.hair({{from, pair.baseline_s}, {from + panel, pair.condition_s}}, looks[row]);
         const Pair mean = mean_pair(pairs);
-        plot.line({{from, mean.baseline_s}, {from + panel, mean.condition_s}}, looks[row]);
+        plot.joined({{from, mean.baseline_s}, {from + panel, mean.condition_s}}, looks[row]);
         entries.push_back(line_entry(looks[row], scenario.conditions[row].label()));
         from += 1.0;
     }
