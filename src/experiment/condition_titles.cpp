@@ -32,12 +32,11 @@ std::string built_in_title(const std::string& name, const ConditionSpec& conditi
     return name;
 }
 
-/// The name that the study file gave: what follows `+` was added by factors.
+}  // namespace
+
 std::string name_before_factors(const ConditionSpec& condition) {
     return condition.factors.empty() ? condition.name : condition.name.substr(0, condition.name.find('+'));
 }
-
-}  // namespace
 
 std::string setting_text(const std::string& setting, const std::string& value) {
     static const std::map<std::string, const char*> units = {

@@ -37,6 +37,9 @@ class ConditionTitles {
     core::Settings given_;
 };
 
+/// The name that the study file gave: what follows `+` was added by factors.
+std::string name_before_factors(const ConditionSpec& condition);
+
 /// `preempt_signals.lead_s`, `4` -> `lead 4 s`.
 std::string setting_text(const std::string& setting, const std::string& value);
 

@@ -13,6 +13,7 @@
 #include "core/shipped_files.hpp"
 #include "core/strict_table.hpp"
 #include "experiment/code_parts.hpp"
+#include "experiment/condition_titles.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/settings.hpp"
 #include "metrics/run_metrics.hpp"
@@ -328,8 +329,10 @@ void resolve_parts(TomlReading& reading, StudyConfig& config) {
     const std::filesystem::path file(reading.file);
     for (experiment::ConditionSpec& condition : config.conditions) {
         try {
-            experiment::resolve_parts(condition, file.parent_path(),
-                                      fmt::format("{}: condition {}: ", reading.file, condition.name));
+            // Those that factors made of one share its files, and what is wrong with these is told once.
+            experiment::resolve_parts(
+                condition, file.parent_path(),
+                fmt::format("{}: condition {}: ", reading.file, experiment::name_before_factors(condition)));
         } catch (const core::InputError& error) {
             append(reading.problems, error);
         }
@@ -486,10 +489,15 @@ StudyConfig read_study(const std::filesystem::path& name, Extent extent, std::ui
     detail::read_controls(root, untouched, config);
     resolve_parts(reading, config);
     detail::read_plan(root, extent, config);
-    // A key that is misspelt is the cause of others, and comes first.
+    // A key that is misspelt is the cause of others and comes first, and what names nothing may name what it
+    // should have given.
     const auto others = static_cast<std::ptrdiff_t>(reading.problems.size());
     root.finish();
     std::rotate(reading.problems.begin(), reading.problems.begin() + others, reading.problems.end());
+    if (reading.problems.size() > static_cast<std::size_t>(others))
+        std::erase_if(reading.problems, [](const core::Problem& problem) {
+            return problem.what.starts_with(detail::names_nothing);
+        });
     if (!reading.problems.empty()) throw core::InputError(reading.problems);
     return config;
 }

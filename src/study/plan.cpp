@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
 #include "core/folder_name.hpp"
@@ -12,6 +14,7 @@
 #include "core/part_folder.hpp"
 #include "core/plain_files.hpp"
 #include "core/read_failure.hpp"
+#include "experiment/condition_titles.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/related_conditions.hpp"
 #include "scenario/network.hpp"
@@ -45,19 +48,26 @@ void check_condition_name(const experiment::ConditionSpec& condition, std::set<s
 }
 
 void check_baselines(const StudyConfig& config, std::vector<core::Problem>& problems) {
+    constexpr std::size_t most_named = 2;
+    const core::Settings titles = experiment::ConditionTitles(config.titles).of(config.conditions);
+    std::map<TrafficModel, std::vector<std::string>> alone;
     for (const experiment::ConditionSpec& condition : config.conditions) {
         if (condition.traffic_model == TrafficModel::free_flow || !condition.acts()) continue;
         const auto is_baseline = [&](const experiment::ConditionSpec& other) {
             return !other.acts() && experiment::same_environment(other, condition);
         };
-        if (std::ranges::any_of(config.conditions, is_baseline)) continue;
-        problems.push_back({"condition " + condition.name,
-                            fmt::format("has no baseline with traffic model \"{}\"",
-                                        experiment::name(condition.traffic_model)),
+        if (!std::ranges::any_of(config.conditions, is_baseline))
+            alone[condition.traffic_model].push_back(titles.at(condition.name));
+    }
+    for (auto& [model, names] : alone) {
+        const std::size_t more = names.size() - std::min(names.size(), most_named);
+        names.resize(names.size() - more);
+        problems.push_back({fmt::format("condition {}{}", fmt::join(names, "; "),
+                                        more > 0 ? fmt::format("; and {} more", more) : ""),
+                            fmt::format("has no baseline with traffic model \"{}\"", experiment::name(model)),
                             "a condition with the same traffic model and without policies",
-                            condition.traffic_model == TrafficModel::standard
-                                ? "Add \"baseline\" to the conditions"
-                                : "Add one with [[condition]]"});
+                            model == TrafficModel::standard ? "Add \"baseline\" to the conditions"
+                                                            : "Add one with [[condition]]"});
     }
 }
 

@@ -33,10 +33,23 @@ class StudyFile : public testing::Test {
     support::TemporaryFolder folder_;
 };
 
-TEST_F(StudyFile, TellsAMisspeltKeyBeforeWhatFollowsFromIt) {
-    EXPECT_THAT(problems("scenarios = [\"merge\"]\nconditions = [\"baseline\"]\n[factor]\n"
-                         "condition.failure = [\"B10\"]\n[titles]\nB10 = \"outages\"\n"),
-                testing::MatchesRegex("[^\n]*unknown key[^\n]*\n.*is no condition.*"));
+TEST_F(StudyFile, TellsAMisspeltKeyAndNotWhatFollowsFromIt) {
+    const std::string begin = "scenarios = [\"merge\"]\nconditions = [\"baseline\"]\n";
+    const std::string titles =
+        "condition.failure = [\"B10\"]\n[titles]\nB10 = \"outages\"\nQ50 = \"losses\"\n";
+    EXPECT_THAT(problems(begin + "[factor]\n" + titles),
+                testing::AllOf(HasSubstr("unknown key"), HasSubstr("Did you mean 'factors'?"),
+                               testing::Not(HasSubstr("\n"))));
+    EXPECT_THAT(problems(begin + "[factors]\n" + titles),
+                HasSubstr("titles.Q50: is no condition, and no text"));
+}
+
+TEST_F(StudyFile, TellsAMissingFileOnceForAllThatFactorsMakeOfACondition) {
+    const std::string told = problems(
+        "scenarios = [\"merge\"]\nconditions = [\"baseline\"]\n[[condition]]\nname = \"mine\"\n"
+        "policy = [\"absent.py:Mine\"]\n[factors]\ncondition.failure = [\"perfect\", \"B10\"]\n");
+    EXPECT_THAT(told, testing::AllOf(HasSubstr("study.toml: condition mine: policy: "),
+                                     HasSubstr("absent.py is not a file"), testing::Not(HasSubstr("\n"))));
 }
 
 TEST_F(StudyFile, GivesScenariosConditionsAndOverrides) {

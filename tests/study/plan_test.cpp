@@ -1,5 +1,6 @@
 #include "study/plan.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 
@@ -103,6 +104,21 @@ TEST(Plan, RefusesAPolicyWithoutABaselineOfItsTrafficModel) {
     baseline.traffic_model = TrafficModel::sublane;
     config.conditions.push_back(baseline);
     EXPECT_EQ(problems_of(config), "none");
+}
+
+TEST(Plan, TellsOnceThatConditionsHaveNoBaseline) {
+    StudyConfig config = example();
+    const experiment::ConditionSpec one =
+        *std::ranges::find_if(config.conditions, &experiment::ConditionSpec::acts);
+    config.conditions.clear();
+    for (const char* const name : {"first", "second", "third", "fourth"}) {
+        config.conditions.push_back(one);
+        config.conditions.back().name = name;
+    }
+    config.titles = {{"second", "Ours"}};
+    const std::string told = problems_of(config);
+    EXPECT_THAT(told, testing::HasSubstr("condition first; Ours; and 2 more: has no baseline"));
+    EXPECT_EQ(told.find("baseline with"), told.rfind("baseline with"));
 }
 
 TEST(Plan, TakesNoConditionWithABluelightForABaseline) {

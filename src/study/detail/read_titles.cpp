@@ -39,7 +39,7 @@ void read_titles(core::StrictTable& root, const std::vector<experiment::Conditio
         const bool left_out = extent == Extent::quick && name.find('+') != std::string::npos;
         if (left_out || has(known, name)) continue;
         const core::Problem problem = {reader->where(name),
-                                       "is no condition, and no text that a factor gives one",
+                                       fmt::format("{}, and no text that a factor gives one", names_nothing),
                                        core::listed(known), core::did_you_mean(name, known)};
         if (has(given, core::nearest(name, known)))
             config.doubtful_titles.push_back(problem);

@@ -9,6 +9,9 @@
 
 namespace clearway::study::detail {
 
+/// How a problem of a title begins that belongs to nothing: what it is for may stand under a misspelt key.
+inline constexpr const char* names_nothing = "is no condition";
+
 /// Reads `[titles]`, whose keys are conditions, with and without their factors, and texts that factors give
 /// them. `untouched` are the conditions as the file lists them.
 void read_titles(core::StrictTable& root, const std::vector<experiment::ConditionSpec>& untouched,
