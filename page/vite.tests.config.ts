@@ -5,6 +5,6 @@ export default defineConfig({
   build: {
     target: "es2022",
     outDir: ".build",
-    lib: { entry: { stream: "src/stream.ts", track: "src/track.ts", drawing: "src/drawing.ts", ways: "src/ways.ts" }, formats: ["es"] },
+    lib: { entry: { stream: "src/stream.ts", track: "src/track.ts", drawing: "src/drawing.ts", curves: "src/curves.ts", ways: "src/ways.ts" }, formats: ["es"] },
   },
 });

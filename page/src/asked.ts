@@ -123,7 +123,7 @@ export class AskedPanel {
 
   private words(thing: Thing, { now }: Moment): [string, string[]] {
     const track = this.tracks[thing.pane] as Track;
-    const title = `${track.about.condition}, ${nameOf(thing, track, this.drawing)}${this.state(thing, now)}`;
+    const title = `${track.title}, ${nameOf(thing, track, this.drawing)}${this.state(thing, now)}`;
     const asked = track.asked.of(thing, now.time_s).map(({ lease, from_s, to_s }) => {
       const until = to_s >= now.time_s - 1e-6 ? "now" : `${to_s.toFixed(2)} s`;
       const what = consideredText(lease, from_s, track, this.drawing) ?? `${actionText(lease)}${reasonText(lease, track)}`;

@@ -6,10 +6,19 @@ import type { Journey, Track } from "./track";
 /** As in the report: the baseline is grey. Of two runs without one, or of two of it, the first is. */
 const grey = "#8a8f98";
 const green = "#0a7d4f";
-function colourOf(tracks: Track[], i: number): string {
+function isBelow(tracks: Track[], i: number): boolean {
   const isUsual = tracks.map((track) => track.about.condition.startsWith("baseline"));
-  const first = isUsual.filter((usual) => usual).length === 1 ? isUsual.indexOf(true) : 0;
-  return i === first ? grey : green;
+  return i === (isUsual.filter((usual) => usual).length === 1 ? isUsual.indexOf(true) : 0);
+}
+
+/** From 0, and wide enough for a line at the top to be seen. */
+export function rangeOf(highest: number | null): [number, number] {
+  return [0, highest === null || highest <= 0 ? 1 : 1.05 * highest];
+}
+
+/** The grey line is drawn first and wide: it shows on both sides of one that runs on it. */
+export function drawingOrder(tracks: Track[]): number[] {
+  return tracks.map((_, i) => i).sort((a, b) => Number(isBelow(tracks, b)) - Number(isBelow(tracks, a)));
 }
 
 interface Curve {
@@ -64,14 +73,18 @@ export class Curves {
   }
 
   private plot(curve: Curve, tracks: Track[], journeys: Journey[]): uPlot {
-    const tables = journeys.map((journey) => [journey.time_s, curve.of(journey)] as [number[], number[]]);
+    const order = drawingOrder(tracks);
+    const tables = order.map((i) => {
+      const journey = journeys[i] as Journey;
+      return [journey.time_s, curve.of(journey)] as [number[], number[]];
+    });
     const figure = document.createElement("figure");
     const caption = document.createElement("figcaption");
     caption.textContent = `${curve.title} of the emergency vehicle, ${curve.unit}`;
     for (const [i, track] of tracks.entries()) {
       const name = document.createElement("span");
-      name.textContent = ` — ${track.about.condition}`;
-      name.style.color = colourOf(tracks, i);
+      name.textContent = ` — ${track.title}`;
+      name.style.color = isBelow(tracks, i) ? grey : green;
       caption.append(name);
     }
     figure.append(caption);
@@ -82,16 +95,16 @@ export class Curves {
       {
         width: this.width(),
         height: 150,
-        scales: { x: { time: false } },
+        scales: { x: { time: false }, y: { range: (_, __, highest) => rangeOf(highest) } },
         cursor: { drag: { x: false, y: false }, points: { show: false } },
         legend: { show: false },
-        axes: [{ ...axis, values: (_, values) => values.map((value) => `${value} s`) }, { ...axis, size: 58 }],
+        axes: [{ ...axis, values: (_, values) => values.map((value) => `${value} s`) }, { ...axis, size: 58, space: 24 }],
         series: [
           {},
-          ...tracks.map((track, i) => ({
-            label: track.about.condition,
-            stroke: colourOf(tracks, i),
-            width: 2,
+          ...order.map((i) => ({
+            label: (tracks[i] as Track).title,
+            stroke: isBelow(tracks, i) ? grey : green,
+            width: isBelow(tracks, i) ? 6 : 2,
             spanGaps: true,
           })),
         ],

@@ -118,7 +118,7 @@ export class Caption {
     const id = slot === undefined ? "no emergency vehicle yet" : (track.names.vehicles[slot]?.id ?? "?");
     const change = row < 0 ? undefined : track.ways.shown(slot as number, now.time_s);
     const turned = change === undefined ? "" : `, another way since ${change.time_s.toFixed(0)} s: ${reasonOf(change, track)}`;
-    const text = `${track.about.condition}: ${id}${speed}${state}${turned}; ${now.count} vehicles`;
+    const text = `${track.title}: ${id}${speed}${state}${turned}; ${now.count} vehicles`;
     if (this.element.textContent !== text) this.element.textContent = text;
     this.element.title = describe(track);
     this.leases.show(now);

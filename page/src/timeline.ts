@@ -63,5 +63,5 @@ export function describe(track: Track): string {
     .map((kind) => `${count(kind)} ${kind}${count(kind) === 1 ? "" : "s"}`);
   const changed = track.ways.all.length;
   if (changed > 0) words.push(`another way taken ${changed === 1 ? "once" : `${changed} times`}`);
-  return `${track.about.condition}: ${words.join(", ")}`;
+  return `${track.title}: ${words.join(", ")}`;
 }

@@ -8,6 +8,8 @@ export interface About {
   run: string;
   scenario: string;
   condition: string;
+  /** Of the condition; pages of older versions have none. */
+  title?: string;
   replication: number;
   policies: string[];
   failure: string;
@@ -107,6 +109,11 @@ export class Track {
     this.pass = new FrameState(quantum_m);
     this.one = new Cursor(this.frames, quantum_m);
     this.other = new Cursor(this.frames, quantum_m);
+  }
+
+  /** What readers call its condition. */
+  get title(): string {
+    return this.about.title ?? this.about.condition;
   }
 
   /** Takes the next blocks of the stream. Throws StreamError. */

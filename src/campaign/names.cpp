@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/error.hpp"
 #include "experiment/code_parts.hpp"
@@ -111,6 +112,17 @@ const std::string* level_of(const std::string& given, const std::vector<std::str
 }
 
 }  // namespace
+
+std::string condition_called(const std::string& option, const std::string& word, const core::Settings& titles,
+                             const std::filesystem::path& folder) {
+    if (titles.contains(word)) return word;
+    const auto titled = std::ranges::find(titles, word, [](const auto& title) { return title.second; });
+    if (titled != titles.end()) return titled->first;
+    const auto shown = core::texts_of(titles, [](const auto& title) { return title.second; });
+    core::Problem problem = unknown_name(option, word, shown, "clearway study status " + folder.string());
+    if (!problem.allowed.empty()) problem.allowed = fmt::format("{}", fmt::join(shown, "; "));
+    throw core::InputError(std::move(problem));
+}
 
 analysis::Reference reference_from(const std::string& against,
                                    const std::vector<experiment::ConditionSpec>& conditions,

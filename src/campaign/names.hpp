@@ -16,6 +16,11 @@ core::Problem unknown_name(const std::string& where, const std::string& name,
                            const std::vector<std::string>& known,
                            const std::string& listed_by = "clearway list");
 
+/// The name of the condition that a user calls by its name or its title; `titles` are by name. Throws
+/// core::InputError for others.
+std::string condition_called(const std::string& option, const std::string& word, const core::Settings& titles,
+                             const std::filesystem::path& folder);
+
 /// What `--against` names: nothing, a condition or its title, or levels of factors, `policy=corridor` or
 /// `condition.policy=corridor,condition.failure=B10`. Throws core::InputError for what the study does not
 /// have; `folder` is its run folder.

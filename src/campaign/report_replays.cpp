@@ -5,16 +5,19 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "campaign/detail/replay_trips.hpp"
+#include "campaign/names.hpp"
 #include "campaign/stored_folder.hpp"
 #include "campaign/worker_jobs.hpp"
 #include "core/counted.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "report/read_facts.hpp"
 #include "scenario/config.hpp"
 #include "trace/recording.hpp"
 #include "view/drawing.hpp"
@@ -44,8 +47,9 @@ std::filesystem::path replays_file(const results::Store& store) {
 std::string mark_of(const std::vector<Trip>& trips) {
     std::string words = view::script_source();
     for (const Trip& trip : trips)
-        words += fmt::format("\n{} {} {} {} {}", experiment::to_text(trip.baseline), trip.baseline_hash,
-                             experiment::to_text(trip.condition), trip.condition_hash, trip.vehicle);
+        words += fmt::format("\n{} {} {} {} {} {} {}", experiment::to_text(trip.baseline), trip.baseline_hash,
+                             experiment::to_text(trip.condition), trip.condition_hash, trip.vehicle,
+                             trip.baseline_title, trip.condition_title);
     return fmt::format("<!-- clearway replays {} -->\n", core::content_hash(words));
 }
 
@@ -145,11 +149,12 @@ class Plays {
             .runs = {},
             .followed = trip.vehicle};
         const view::Window window{trip.begin_s - margin_s, trip.end_s + margin_s};
-        for (const experiment::RunKey& key : {trip.baseline, trip.condition}) {
+        for (const auto& [key, title] : {std::pair{trip.baseline, trip.baseline_title},
+                                         std::pair{trip.condition, trip.condition_title}}) {
             trace::RecordingReader recording(trace::recording_file(store_.folder(), key));
             play.runs.push_back(
                 view::view_of(recording, network, window,
-                              {.period_s = detail.period_s, .key_period_s = 10.0, .area = area}));
+                              {.period_s = detail.period_s, .key_period_s = 10.0, .area = area}, title));
         }
         return play;
     }
@@ -182,27 +187,62 @@ std::string markup_of(const results::Store& store, const std::vector<Trip>& trip
                                   markup.size(), most_bytes));
 }
 
+/// The trips of the condition that the user named, or of those of the headlines.
+std::vector<Trip> trips_of(const results::Store& store, const results::Results& results,
+                           const report::StudyFacts& study, const std::string& condition) {
+    if (condition.empty()) return trips_to_show(results, study, "");
+    const std::string name =
+        condition_called("--replay-condition", condition, report::titles_of(store), store.folder());
+    std::vector<Trip> trips = trips_to_show(results, study, name);
+    if (trips.empty())
+        throw core::InputError({"--replay-condition",
+                                fmt::format("`{}` has no trip that arrived in its baseline, too", condition),
+                                "a condition that is compared with one", "Choose another"});
+    return trips;
+}
+
 }  // namespace
 
-ReportReplays replays_of(const results::Store& store, const results::Results& results, MakeReplays make) {
-    const std::vector<Trip> trips = trips_to_show(results);
-    if (trips.empty()) return {};
+void require_replayable(const results::Store& store, const results::Results& results,
+                        const report::StudyFacts& study, const ReplayRequest& request) {
+    if (request.make == MakeReplays::no) return;
+    const std::vector<Trip> trips = trips_of(store, results, study, request.condition);
+    std::vector<experiment::ConditionSpec> conditions = store.manifest().conditions;
+    std::erase_if(conditions, [&](const experiment::ConditionSpec& condition) {
+        return std::ranges::none_of(trips, [&](const Trip& trip) {
+            return trip.condition.condition == condition.name || trip.baseline.condition == condition.name;
+        });
+    });
+    require_trust(conditions, report::titles_of(store), store.folder().string(), request.trust);
+}
+
+ReportReplays replays_of(const results::Store& store, const results::Results& results,
+                         const report::StudyFacts& study, const ReplayRequest& request) {
     const std::filesystem::path file = replays_file(store);
-    const std::string mark = mark_of(trips);
-    if (std::filesystem::exists(file)) {
-        std::string stored = core::read_file(file);
-        if (stored.starts_with(mark)) return {stored.substr(mark.size()), view::script_source()};
-        if (make == MakeReplays::no)
+    const std::string stored = std::filesystem::exists(file) ? core::read_file(file) : "";
+    const auto fits = [&](const std::vector<Trip>& trips) {
+        return !trips.empty() && stored.starts_with(mark_of(trips));
+    };
+    const std::vector<Trip> trips = trips_of(store, results, study, request.condition);
+    if (fits(trips)) return {stored.substr(mark_of(trips).size()), view::script_source()};
+    if (request.make == MakeReplays::no) {
+        // They may be of a condition that the user chose.
+        for (const experiment::ConditionSpec& condition : store.manifest().conditions) {
+            const std::vector<Trip> others = trips_to_show(results, study, condition.name);
+            if (fits(others)) return {stored.substr(mark_of(others).size()), view::script_source()};
+        }
+        if (!stored.empty())
             fmt::print(stderr,
                        "clearway: {}: no longer matches the results and is left out; clearway report {} "
                        "--replays makes it again\n",
                        file.string(), store.folder().string());
+        return {};
     }
-    if (make == MakeReplays::no) return {};
+    if (trips.empty()) return {};
     MissingRecordings missing(store, trips);
     missing.make();
     std::string markup = markup_of(store, trips);
-    core::write_atomically(file, mark + markup);
+    core::write_atomically(file, mark_of(trips) + markup);
     return {std::move(markup), view::script_source()};
 }
 

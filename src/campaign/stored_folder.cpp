@@ -1,6 +1,12 @@
 #include "campaign/stored_folder.hpp"
 
+#include <fstream>
+#include <map>
+#include <set>
+#include <string>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/counted.hpp"
 #include "core/error.hpp"
@@ -10,30 +16,46 @@
 #include "results/table_writer.hpp"
 
 namespace clearway::campaign {
+namespace {
+
+std::set<std::string> names_of_parts(const experiment::ConditionSpec& condition) {
+    const std::vector<std::string> names = experiment::part_names(condition);
+    return {names.begin(), names.end()};
+}
+
+/// Whether Clearway's worker or SUMO in it wrote a line of a log.
+bool is_of_worker(const std::string& line) {
+    return line.starts_with("clearway-run: ") || line.starts_with("Warning: ") || line.starts_with("Error: ");
+}
+
+}  // namespace
 
 std::optional<results::Manifest> study_in(const std::filesystem::path& folder) {
     if (!std::filesystem::exists(folder / "manifest.json")) return std::nullopt;
     return results::Store::open(folder).manifest();
 }
 
-void require_trust(const std::vector<experiment::ConditionSpec>& conditions, const std::string& where,
-                   CodeTrust trust) {
+void require_trust(const std::vector<experiment::ConditionSpec>& conditions, const core::Settings& titles,
+                   const std::string& where, CodeTrust trust) {
     if (trust == CodeTrust::trusted) return;
+    std::map<std::string, std::vector<std::string>> users;  // by part, the titles of its conditions
+    for (const experiment::ConditionSpec& condition : conditions) {
+        std::vector<std::string> words = condition.policies;
+        words.push_back(condition.predictor);
+        const auto title = titles.find(condition.name);
+        for (const std::string& word : words)
+            if (python::part_name_from(word))
+                users[word].push_back(title == titles.end() ? condition.name : title->second);
+    }
     std::vector<core::Problem> problems;
-    const auto check = [&](const experiment::ConditionSpec& condition, const std::string& word) {
-        const auto part = python::part_name_from(word);
-        if (!part) return;
+    for (const auto& [word, names] : users) {
+        const python::PartName part = *python::part_name_from(word);
         problems.push_back(
-            {fmt::format("{}: condition {}", where, condition.name),
-             fmt::format("names code in Python, {}, which would run with your rights", part->file.string()),
+            {fmt::format("{}: condition {}", where, fmt::join(names, "; ")),
+             fmt::format("names code in Python, {}, which would run with your rights", part.file.string()),
              "code that you trust",
              fmt::format("Read it, or its copy in code/{} of the run folder, then add --trust-code",
-                         part->hash)});
-    };
-    for (const experiment::ConditionSpec& condition : conditions) {
-        check(condition, condition.predictor);
-        for (const std::string& policy : condition.policies)
-            check(condition, policy);
+                         part.hash)});
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
 }
@@ -58,6 +80,28 @@ void renew_edited_tables(const results::Store& store) {
     } catch (const core::EnvironmentError& error) {
         fmt::print(stderr, "clearway: warning: they stay as they are: {}\n", error.what());
     }
+}
+
+void tell_printed(const results::Store& store) {
+    std::set<std::string> parts;
+    for (const experiment::ConditionSpec& condition : store.manifest().conditions)
+        parts.merge(names_of_parts(condition));
+    const std::filesystem::path folder = store.log_file("").parent_path();
+    if (parts.empty() || !std::filesystem::is_directory(folder)) return;
+    std::size_t lines = 0;
+    std::set<std::filesystem::path> logs;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        std::ifstream log(entry.path());
+        for (std::string line; std::getline(log, line);) {
+            if (is_of_worker(line)) continue;
+            ++lines;
+            logs.insert(entry.path());
+        }
+    }
+    if (logs.empty()) return;
+    fmt::print(stderr, "clearway: {} printed {}: {}{}\n", fmt::join(parts, " and "),
+               core::counted(lines, "line"), logs.begin()->string(),
+               logs.size() == 1 ? "" : fmt::format(" and {} more", logs.size() - 1));
 }
 
 core::ExitCode tell_missing(std::size_t missing, std::size_t all) {

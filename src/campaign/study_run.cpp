@@ -400,13 +400,15 @@ core::ExitCode publish(const results::Store& store, const PublishOptions& option
     const analysis::Summary summary =
         analysis::summarise(results, analysis::usual_level, options.response_threshold_s);
     const report::StudyFacts facts = report::facts_of(store, results, summary, options.least_relevant_s);
+    require_replayable(store, results, facts, options.replays);
     fmt::print("{}", options.printing == Printing::json ? report::json_tables(facts)
                                                         : report::console_tables(facts, options.tables));
     name_errors(store, results);
+    tell_printed(store);
     warn_of_changed_scenarios(store);
     renew_edited_tables(store);
     if (!results::tables_are_current(store)) results::write_tables(store);
-    write_report(facts, replays_of(store, results, options.replays), store.folder() / "report.html");
+    write_report(facts, replays_of(store, results, facts, options.replays), store.folder() / "report.html");
     fmt::print(stderr, "clearway: written: {}\n", (store.folder() / "report.html").string());
     const core::ExitCode code = tell_missing(results.missing.size(), results.manifest.run_count());
     if (code != core::ExitCode::ok) return code;

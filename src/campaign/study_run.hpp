@@ -24,7 +24,7 @@ struct PublishOptions {
     Printing printing = Printing::text;
     report::Tables tables = report::Tables::essential;
     double least_relevant_s = report::usual_least_relevant_s;  ///< Smaller EV time differences do not count.
-    MakeReplays replays = MakeReplays::no;
+    ReplayRequest replays = {};
     std::optional<double> response_threshold_s = {};  ///< Nothing: that of each scenario.
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "campaign/printout.hpp"
 #include "campaign/programs.hpp"
@@ -20,6 +21,7 @@
 #include "core/progress.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
+#include "report/read_facts.hpp"
 #include "results/record_difference.hpp"
 #include "results/run_name.hpp"
 #include "study/plan.hpp"
@@ -133,20 +135,21 @@ std::vector<experiment::RunKey> sample_of(const std::vector<experiment::RunKey>&
     return sample;
 }
 
-/// `Not sampled: Ours, corridor. --sample 17 takes a run of each condition.`, or empty.
+/// `Not sampled: Ours; corridor. --sample 17 takes a run of each condition.`, or empty.
 std::string left_out_text(const results::Store& store, const std::vector<experiment::RunKey>& keys) {
+    const core::Settings titles = report::titles_of(store);
     std::vector<std::string> left_out;
     std::set<std::pair<std::string, std::string>> cells;
     for (const experiment::RunKey& key : store.manifest().runs()) {
         cells.emplace(key.scenario, key.condition);
         const bool is_in =
             std::ranges::find(keys, key.condition, &experiment::RunKey::condition) != keys.end();
-        if (!is_in && std::ranges::find(left_out, key.condition) == left_out.end())
-            left_out.push_back(key.condition);
+        const std::string& title = titles.at(key.condition);
+        if (!is_in && std::ranges::find(left_out, title) == left_out.end()) left_out.push_back(title);
     }
     if (left_out.empty()) return "";
     return core::wrapped(fmt::format("Not sampled: {}. --sample {} takes a run of each condition.",
-                                     core::listed(left_out), cells.size()),
+                                     fmt::join(left_out, "; "), cells.size()),
                          4) +
            "\n";
 }
@@ -396,7 +399,7 @@ core::ExitCode verify_runs(const VerifyRequest& request) {
     const auto [stored, keys] = chosen_runs(request);
     require_elsewhere(stored, request.out);
     const std::vector<experiment::ConditionSpec> conditions = conditions_of(stored, keys);
-    require_trust(conditions, stored.folder().string(), request.trust);
+    require_trust(conditions, report::titles_of(stored), stored.folder().string(), request.trust);
     // Another version may read the same scenario in another way.
     require_same_versions(stored.manifest());
     require_unchanged(stored, keys);

@@ -311,7 +311,7 @@ core::ExitCode replay_file(ReplayArguments arguments) {
         throw core::InputError({"--from, --to", "work only with --csv and --view", "",
                                 "A replay needs the recording from its beginning"});
     const trace::RecordingInfo& info = recording.info();
-    campaign::require_trust({kept_of(info, arguments)}, arguments.file, arguments.trust);
+    campaign::require_trust({kept_of(info, arguments)}, {}, arguments.file, arguments.trust);
     const experiment::ConditionSpec condition = condition_of(info, arguments);
     const roads::Network network = campaign::recorded_network(info, arguments.file, arguments.network);
     const trace::ReplayResult result =

@@ -15,7 +15,6 @@ Action configure_report(App& app) {
     struct ReportArguments {
         std::string folder;
         campaign::PublishOptions how;
-        campaign::CodeTrust trust = campaign::CodeTrust::none;
     };
     const auto arguments = std::make_shared<ReportArguments>();
     app.add_option("folder", arguments->folder, "Run folder of run or study, complete or not")
@@ -27,16 +26,23 @@ Action configure_report(App& app) {
         .option_text(fmt::format("SECONDS, 0 to 1e6 [{}]", arguments->how.least_relevant_s));
     add_response_option(app, arguments->how.response_threshold_s);
     app.add_flag_callback(
-        "--replays", [arguments] { arguments->how.replays = campaign::MakeReplays::yes; },
+        "--replays", [arguments] { arguments->how.replays.make = campaign::MakeReplays::yes; },
         "Show the median, best and worst trip of each scenario in the report: makes up to six runs of each "
-        "again to record them. Later reports keep them [off]");
-    add_trust_option(app, arguments->trust);
+        "again to record them, those with code in Python only with --trust-code. Later reports keep them "
+        "[off]");
+    app.add_option_function<std::string>(
+           "--replay-condition",
+           [arguments](const std::string& condition) {
+               arguments->how.replays.make = campaign::MakeReplays::yes;
+               arguments->how.replays.condition = condition;
+           },
+           "Show trips of this condition, by its name or title; implies --replays")
+        .option_text("NAME [of each scenario that of the headline]");
+    add_trust_option(app, arguments->how.replays.trust);
     add_json_option(app, arguments->how.printing, "the tables");
     add_tables_option(app, arguments->how.tables);
     return [arguments](const Invocation&) {
         const results::Store store = results::Store::open(arguments->folder);
-        if (arguments->how.replays == campaign::MakeReplays::yes)
-            campaign::require_trust(store.manifest().conditions, arguments->folder, arguments->trust);
         return campaign::publish(store, arguments->how);
     };
 }

@@ -10,6 +10,7 @@
 #include "core/folder_name.hpp"
 #include "core/json.hpp"
 #include "experiment/condition_json.hpp"
+#include "experiment/condition_titles.hpp"
 #include "results/run_limit.hpp"
 
 namespace clearway::results {
@@ -99,13 +100,17 @@ void check_format(const core::Json& object, const std::string& where) {
 /// folder may take, are told only where nothing else differs.
 std::string differing_conditions(const Manifest& left, const Manifest& right) {
     constexpr std::size_t most = 3;
+    const experiment::ConditionTitles titles{
+        core::Settings()};  // a folder keeps those of its study file apart
+    core::Settings named = titles.of(left.conditions);
+    named.merge(titles.of(right.conditions));
     std::vector<std::string> found;
     std::vector<std::string> added;
     std::vector<std::string> order;
     for (const experiment::ConditionSpec& one : left.conditions) {
         if (std::ranges::find(right.conditions, one.name, &experiment::ConditionSpec::name) ==
             right.conditions.end())
-            found.push_back(one.name + " is not asked for");
+            found.push_back(named.at(one.name) + " is not asked for");
         else
             order.push_back(one.name);
     }
@@ -113,9 +118,9 @@ std::string differing_conditions(const Manifest& left, const Manifest& right) {
     for (const experiment::ConditionSpec& one : right.conditions) {
         const auto same = std::ranges::find(left.conditions, one.name, &experiment::ConditionSpec::name);
         if (same == left.conditions.end())
-            added.push_back(one.name + " is new");
+            added.push_back(named.at(one.name) + " is new");
         else if (*same != one)
-            found.push_back(one.name + ": " + experiment::what_differs(*same, one));
+            found.push_back(named.at(one.name) + ": " + experiment::what_differs(*same, one));
         if (next != order.end() && *next == one.name) ++next;
     }
     if (found.empty() && next != order.end()) return "order of conditions";

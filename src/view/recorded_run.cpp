@@ -29,23 +29,26 @@ core::Json json_of(const traffic::Incident& incident, const roads::Network& netw
 }  // namespace
 
 std::string about(const experiment::RunKey& key, const experiment::ConditionSpec& condition,
-                  const roads::Network& network, std::span<const traffic::Incident> incidents) {
+                  const roads::Network& network, std::span<const traffic::Incident> incidents,
+                  const std::string& title) {
     core::Json blocks = core::Json::array();
     for (const traffic::Incident& incident : incidents)
         blocks.push_back(json_of(incident, network));
-    const core::Json words = {{"run", experiment::to_text(key)},  {"scenario", key.scenario},
-                              {"condition", key.condition},       {"replication", key.replication},
-                              {"policies", condition.policies},   {"failure", condition.failure},
-                              {"predictor", condition.predictor}, {"incidents", std::move(blocks)}};
+    const core::Json words = {
+        {"run", experiment::to_text(key)}, {"scenario", key.scenario},
+        {"condition", key.condition},      {"title", title.empty() ? key.condition : title},
+        {"replication", key.replication},  {"policies", condition.policies},
+        {"failure", condition.failure},    {"predictor", condition.predictor},
+        {"incidents", std::move(blocks)}};
     return words.dump(-1, ' ', false, core::Json::error_handler_t::replace);
 }
 
 RunView view_of(trace::RecordingReader& recording, const roads::Network& network, const Window& window,
-                StreamConfig config) {
+                StreamConfig config, const std::string& title) {
     const trace::RecordingInfo& info = recording.info();
     RunView view;
     view.about = about(info.key, info.condition, network,
-                       trace::incidents_from(info.incidents, experiment::to_text(info.key)));
+                       trace::incidents_from(info.incidents, experiment::to_text(info.key)), title);
     RunStream stream(origin_of(network), trace::loop_of(info).rules(), std::move(config));
     std::optional<double> first_s;
     double last_s = 0.0;

@@ -160,18 +160,41 @@ TEST_F(ReplayTest, a_report_shows_the_median_best_and_worst_trip_when_asked) {
     EXPECT_LT(report.size(), 5'000'000U);
     for (const char* const part :
          {"id=\"replays\"", "script-src 'sha256-", "line: the median trip", "line: the best trip",
-          "line: the worst trip", "\"condition\":\"baseline\""})
+          "line: the worst trip", "\"condition\":\"baseline\"", "\"title\":\"Baseline\""})
         EXPECT_THAT(report, testing::HasSubstr(part));
     EXPECT_EQ(read("out/runs.csv"), before) << "the runs that were made again gave the same records";
     EXPECT_FALSE(std::filesystem::exists(folder() / "out/recordings")) << "they are not recorded for good";
 
     ASSERT_EQ(clearway({"report", "out"}).code, 0);
     EXPECT_EQ(read("out/report.html"), report) << "later reports keep them";
+    const Ended unknown = clearway({"report", "out", "--replay-condition", "Ours"});
+    EXPECT_EQ(unknown.code, 3);
+    EXPECT_THAT(unknown.err, AllOf(HasSubstr("`Ours` is unknown"), HasSubstr("Baseline; mine")));
+    EXPECT_THAT(unknown.out, IsEmpty());
+    EXPECT_EQ(clearway({"report", "out", "--replay-condition", "baseline"}).code, 3);
     const std::string stored = read("out/replays.html");
     core::write_atomically(folder() / "out/replays.html", "<!-- clearway replays 0 -->\n" + stored);
     const Ended stale = clearway({"report", "out"});
     EXPECT_THAT(stale.err, testing::HasSubstr("no longer matches the results"));
     EXPECT_THAT(read("out/report.html"), testing::Not(testing::HasSubstr("id=\"replays\"")));
+}
+
+TEST_F(ReplayTest, a_report_shows_trips_of_the_condition_that_was_chosen_by_its_title) {
+    write("study.toml",
+          "name = \"two\"\nreplications = 2\nscenarios = [\"./line\"]\nconditions = [\"baseline\"]\n"
+          "[[condition]]\nname = \"own\"\npolicy = [\"corridor\"]\n"
+          "[factors]\ncondition.failure = [\"perfect\", \"B10\"]\n[titles]\nown = \"Ours\"\n"
+          "B10 = \"outages\"\n");
+    ASSERT_EQ(clearway({"study", "study.toml", "--out", "out"}).code, 0);
+    for (const char* const title : {"Ours, outages", "Ours, perfect sensors"}) {
+        const Ended made = clearway({"report", "out", "--replay-condition", title});
+        ASSERT_EQ(made.code, 0) << made.err;
+        const std::string report = read("out/report.html");
+        EXPECT_THAT(report, AllOf(HasSubstr(std::string("\"title\":\"") + title + "\""),
+                                  HasSubstr(std::string(" with ") + title + "\"")));
+        ASSERT_EQ(clearway({"report", "out"}).code, 0);
+        EXPECT_EQ(read("out/report.html"), report) << "later reports keep them";
+    }
 }
 
 TEST_F(ReplayTest, tables_of_a_window_are_csv) {

@@ -378,6 +378,14 @@ class FaultTest(FolderCase):
         (log,) = [file.read_text() for file in Path("runs/logs").glob("*.log")]
         self.assertIn("seen at 0", log)
         self.assertIn("warned", log)
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "report", "runs"], capture_output=True, text=True, check=False)
+        self.assertIn(f"clearway: Prints printed {log.count(chr(10)):,} lines: runs/logs/intersection-00000-standard.log\n", ended.stderr)
+
+    def test_nothing_is_said_of_a_part_that_prints_nothing(self) -> None:
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "bad.py:Gone", "--seeds", "1", "--no-solo"],
+                               capture_output=True, text=True, check=False)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertNotIn("printed", ended.stderr)
 
     def test_a_number_that_names_nothing_and_a_way_with_a_gap_fail_with_what_is_allowed(self) -> None:
         says = {"Row": r"Row: a lease is for vehicle 12345, which was never in a belief \(allowed: belief.vehicles.key\[row\], ",

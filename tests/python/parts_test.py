@@ -205,6 +205,15 @@ class EqualPartsTest(FolderCase):
         program("replay", "out/intersection/Preempt/0", "--policy", "mine.py:Preempt")
         program("report", "out")
 
+    def test_code_of_several_conditions_is_named_once_with_their_titles(self) -> None:
+        self.write("mine.py", PREEMPT)
+        clearway.run("intersection", [clearway.Condition(name, title=title, policy="mine.py:Preempt", failure=failure) for name, title, failure
+                                      in (("one", "Ours", "perfect"), ("two", "Ours, outages", "B10"))], seeds=1, out="out")
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "verify", "out", "--all"], capture_output=True, text=True, check=False)
+        self.assertEqual(ended.returncode, 3, ended.stderr)
+        self.assertIn("out: condition Ours; Ours, outages: names code in Python", ended.stderr)
+        self.assertEqual(ended.stderr.count("your rights"), 1)
+
 
 class ObservationTest(unittest.TestCase):
     def test_each_name_is_listed_once_also_when_it_was_read(self) -> None:

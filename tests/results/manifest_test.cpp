@@ -44,7 +44,7 @@ TEST(Manifest, NamesTheConditionsThatDifferAndWhatDiffersInThem) {
     other.conditions[1].failure = "B10";
     Manifest changed = other;
     changed.conditions[0].policies = {"/there/soft.py:Soft@" + std::string(32, '2')};
-    EXPECT_EQ(differences(other, changed), "conditions (baseline: soft.py has changed)");
+    EXPECT_EQ(differences(other, changed), "conditions (Baseline: soft.py has changed)") << "by its title";
     EXPECT_THAT(differences(manifest, other), testing::HasSubstr(manifest.conditions[1].name + ": failure"));
     changed = manifest;
     changed.conditions[1].name = "another";

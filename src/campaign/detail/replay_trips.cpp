@@ -7,22 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "experiment/conditions.hpp"
-#include "experiment/related_conditions.hpp"
+#include "report/overview.hpp"
 
 namespace clearway::campaign {
 namespace {
-
-const experiment::ConditionSpec* shown_of(const results::Manifest& manifest) {
-    const auto has_policy = [](const experiment::ConditionSpec& condition) {
-        return !condition.policies.empty();
-    };
-    const auto usual = std::ranges::find(manifest.conditions, std::string(experiment::usual_condition),
-                                         &experiment::ConditionSpec::name);
-    if (usual != manifest.conditions.end() && has_policy(*usual)) return &*usual;
-    const auto first = std::ranges::find_if(manifest.conditions, has_policy);
-    return first == manifest.conditions.end() ? nullptr : &*first;
-}
 
 bool arrived(const metrics::VehicleRow& row) {
     return row.vehicle_class == traffic::VehicleClass::emergency &&
@@ -78,24 +66,34 @@ std::string Trip::title() const {
     const std::string difference =
         gain_s >= 0.0 ? fmt::format("{:.1f} s faster", gain_s) : fmt::format("{:.1f} s slower", -gain_s);
     return fmt::format("{}: the {} trip, {} in replication {}: {} with {}", condition.scenario, rank, vehicle,
-                       condition.replication, difference, condition.condition);
+                       condition.replication, difference, condition_title);
 }
 
-std::vector<Trip> trips_to_show(const results::Results& results) {
-    const experiment::ConditionSpec* const shown = shown_of(results.manifest);
-    if (shown == nullptr) return {};
-    const std::string baseline = experiment::baseline_for(*shown).name;
+std::vector<Trip> trips_to_show(const results::Results& results, const report::StudyFacts& study,
+                                const std::string& condition) {
     std::map<experiment::RunKey, const results::RunRecord*> runs;
     for (const results::RunRecord& run : results.runs)
         runs[run.key] = &run;
     std::vector<Trip> all;
-    for (const auto& scenario : results.manifest.scenarios) {
+    for (const report::ScenarioFacts& scenario : study.scenarios) {
+        const std::size_t place = scenario.place_of(condition);
+        const report::ConditionFacts* const shown =
+            condition.empty()                    ? report::featured_condition(study, scenario)
+            : place < scenario.conditions.size() ? &scenario.conditions[place]
+                                                 : nullptr;
+        const report::ConditionFacts* const baseline =
+            shown == nullptr ? nullptr : scenario.baseline_of(*shown);
+        if (baseline == nullptr || baseline == shown) continue;
         std::vector<Trip> trips;
         for (std::uint32_t replication = 0; replication < results.manifest.replications; ++replication) {
-            const auto before = runs.find({scenario.name, baseline, replication});
-            const auto there = runs.find({scenario.name, shown->name, replication});
+            const auto before = runs.find({scenario.name, baseline->name(), replication});
+            const auto there = runs.find({scenario.name, shown->name(), replication});
             if (before != runs.end() && there != runs.end())
                 add_trips(*before->second, *there->second, trips);
+        }
+        for (Trip& trip : trips) {
+            trip.baseline_title = baseline->title;
+            trip.condition_title = shown->title;
         }
         std::ranges::move(ranked(std::move(trips)), std::back_inserter(all));
     }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "experiment/run_key.hpp"
+#include "report/facts.hpp"
 #include "results/store.hpp"
 
 namespace clearway::campaign {
@@ -12,17 +13,19 @@ namespace clearway::campaign {
 struct Trip {
     experiment::RunKey baseline, condition;
     std::string baseline_hash, condition_hash;  ///< Of the traces.
-    std::string vehicle;                        ///< SUMO's id.
-    const char* rank = "";                      ///< `median`, `best`, `worst`, or `only`.
-    double gain_s = 0.0;                        ///< Travel time that the condition saves; negative: costs.
-    double begin_s = 0.0, end_s = 0.0;          ///< Of both together.
+    std::string baseline_title = {}, condition_title = {};
+    std::string vehicle;                ///< SUMO's id.
+    const char* rank = "";              ///< `median`, `best`, `worst`, or `only`.
+    double gain_s = 0.0;                ///< Travel time that the condition saves; negative: costs.
+    double begin_s = 0.0, end_s = 0.0;  ///< Of both together.
 
     std::string title() const;
 };
 
 /// Of each scenario the trips with the median, the largest and the smallest gain, of those that arrived in
-/// both runs; fewer where there are fewer trips. The condition is `corridor` where the study has it, else the
-/// first with a policy. Of several trips with one gain the first by replication and id.
-std::vector<Trip> trips_to_show(const results::Results& results);
+/// both runs; fewer where there are fewer trips. `condition` is a name; empty: the one of the scenario's
+/// headline. Of several trips with one gain the first by replication and id.
+std::vector<Trip> trips_to_show(const results::Results& results, const report::StudyFacts& study,
+                                const std::string& condition);
 
 }  // namespace clearway::campaign
