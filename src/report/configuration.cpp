@@ -74,7 +74,7 @@ std::string sentence_of(const toml::table& table, bool has_signals, const std::s
     if (has_signals && baseline != nullptr)
         words.emplace_back(passes_red(table, *baseline) ? "EVs of the baseline may pass red"
                                                         : "EVs of the baseline stop at red (where yours may "
-                                                          "pass it: --policy red_privilege beside it)");
+                                                          "pass it: --set privilege.pass_red=1)");
     return fmt::format("Simulated: {}.", fmt::join(words, ", "));
 }
 

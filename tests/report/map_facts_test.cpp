@@ -183,7 +183,7 @@ TEST(Assumptions, say_where_traffic_comes_from_and_what_red_means) {
     EXPECT_EQ(assumptions_of(drawn, scenario),
               "Simulated: random trips of 1,159 vehicles in 15 min, density 0.7, automated share 0.35, "
               "EVs of "
-              "the baseline stop at red (where yours may pass it: --policy red_privilege beside it).");
+              "the baseline stop at red (where yours may pass it: --set privilege.pass_red=1).");
     EXPECT_THAT(assumptions_of(drawn + "[[flow]]\nfrom = 'a'\n", scenario), HasSubstr("drawn flows of"));
     const std::string hospital = drawn + "[[emergency_site]]\nkind = 'hospital'\n";
     EXPECT_THAT(assumptions_of(hospital, scenario),
