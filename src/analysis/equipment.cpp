@@ -141,6 +141,8 @@ class Greedy {
             candidate.values = std::move(values.at(i + 1));
             if (candidate.signals.size() > 1) halve_gain(candidate.values);
             candidate.gain = gain_of(candidate.values, config_.level);
+            if (place() > 1 && candidate.signals.size() == 1)
+                plan_.candidates.at(candidate.signals.front()).later = {plan_.steps.size(), candidate.gain};
         }
     }
 

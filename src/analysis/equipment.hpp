@@ -38,12 +38,19 @@ struct EquipConfig {
     std::vector<std::array<std::size_t, 2>> pairs = {};
 };
 
+/// What a candidate was found to add to those chosen before.
+struct EquipLaterGain {
+    std::size_t ranks = 0;  ///< How many those were; 0: it was not tried beside any.
+    MaybeEstimate gain = std::nullopt;
+};
+
 /// A candidate by itself, or a pair, as the first place saw it.
 struct EquipCandidate {
     /// Less time than with no signal equipped, s, of a pair half of it; over fewer runs where it left the
     /// race. Nothing without runs to pair. The intervals of all hold together at the level (Bonferroni).
     MaybeEstimate gain;
-    bool left_race = false;  ///< Shown to gain less than another before all replications were made.
+    bool left_race = false;     ///< Shown to gain less than another before all replications were made.
+    EquipLaterGain later = {};  ///< When it was last tried beside others, chosen then or not.
 };
 
 /// A signal that was chosen, or would have been the next.

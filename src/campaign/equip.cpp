@@ -15,6 +15,7 @@
 #include "campaign/detail/equip_look.hpp"
 #include "campaign/detail/equip_search.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/leftovers.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
@@ -42,7 +43,7 @@ void add_candidates(const analysis::EquipPlan& plan, const Signals& signals, rep
         const analysis::EquipCandidate& found = plan.candidates[candidate];
         facts.candidates.push_back({signals.number(candidate), signals.id(candidate),
                                     signals.streets(candidate), signals.candidates.trips[candidate],
-                                    found.gain, found.left_race, std::nullopt});
+                                    found.gain, found.left_race, std::nullopt, found.later});
     }
     for (std::size_t rank = 0; rank < plan.steps.size(); ++rank)
         facts.candidates.at(plan.steps[rank].candidate).rank = rank + 1;
@@ -72,6 +73,9 @@ void add_outcomes(const analysis::EquipPlan& plan, const Signals& signals, const
                                 signals.streets(step.candidate),
                                 less_time(before.emergency_s, after.emergency_s, together), gain(after),
                                 loss(after), step.gain});
+        // One of its own would judge the gain of rank 1 a second time, and otherwise.
+        if (rank + 1 < plan.steps.size() && facts.ranked.back().so_far)
+            facts.ranked.back().so_far->interval.reset();
     }
 }
 
@@ -104,6 +108,7 @@ report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipReq
                                                    signals.built.network, experiment::ConditionSpec{});
     facts.condition = request.condition.name;
     facts.command = request.run.command;
+    facts.study = request.study;
     facts.seed = config.seed;
     facts.replications = config.replications;
     facts.step_length_s = config.scenarios.front().time.step_length_s;
@@ -118,6 +123,9 @@ report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipReq
     return facts;
 }
 
+constexpr const char* text_name = "equip.txt";
+constexpr const char* json_name = "equip.json";
+
 void write_files(const report::EquipmentFacts& facts, const std::filesystem::path& folder) {
     std::ostringstream page;
     report::write_equipment_page(facts, page);
@@ -125,7 +133,8 @@ void write_files(const report::EquipmentFacts& facts, const std::filesystem::pat
     core::write_output(folder / "equip.csv", report::equipment_csv(facts));
     core::write_output(folder / "candidates.csv", report::candidates_csv(facts));
     core::write_output(folder / "pairs.csv", report::pairs_csv(facts));
-    core::write_output(folder / "equip.json", report::equipment_json(facts));
+    core::write_output(folder / json_name, report::equipment_json(facts));
+    core::write_output(folder / text_name, report::equipment_text(facts));
     core::write_output(folder / "curve.svg", report::equipment_curve(facts));
     core::write_output(folder / "map.svg", report::equipment_map(facts));
 }
@@ -157,9 +166,12 @@ std::pair<analysis::EquipPlan, FreshOutcomes> measured(const EquipRequest& reque
         FreshOutcomes fresh = search.rounds.estimate(chosen);
         return {*std::move(plan), std::move(fresh)};
     } catch (const core::Error& error) {
-        if (is_interrupted(error.exit_code()))
-            core::print_message(plan ? chosen_words(*plan, search.signals)
-                                     : interim_words(look, search.signals));
+        if (is_interrupted(error.exit_code())) {
+            const std::string words =
+                plan ? chosen_words(*plan, search.signals) : interim_words(look, search.signals);
+            core::write_output(request.run.folder / text_name, words);
+            core::print_message(words);
+        }
         throw;
     }
 }
@@ -175,6 +187,7 @@ core::ExitCode equip(EquipRequest request) {
     const auto [plan, fresh] = measured(request, search);
     report::EquipmentFacts facts = facts_of(search.config, request, search.signals);
     facts.fresh_seed = rounds.fresh_seed();
+    facts.study.insert(facts.study.end(), {"--seed", std::to_string(facts.fresh_seed + 1)});
     facts.runs = rounds.runs();
     facts.unsound = fresh.unsound;
     facts.end = plan.end;
@@ -187,6 +200,19 @@ core::ExitCode equip(EquipRequest request) {
                                                                     : report::equipment_text(facts));
     fmt::print(stderr, "clearway: written: {}\n", (request.run.folder / "report.html").string());
     return rounds.failed_runs() == 0 ? core::ExitCode::ok : core::ExitCode::runs_failed;
+}
+
+bool is_equip_folder(const std::filesystem::path& folder) {
+    return std::filesystem::exists(folder / text_name) ||
+           std::filesystem::exists(folder / EquipRounds::first_round / "manifest.json");
+}
+
+void print_equip_folder(const std::filesystem::path& folder, Printing printing) {
+    const std::filesystem::path file = folder / (printing == Printing::json ? json_name : text_name);
+    if (!std::filesystem::exists(file))
+        throw core::InputError({folder.string(), "is of a search by clearway equip that has no answer yet",
+                                "", "The same `clearway equip` command continues it"});
+    fmt::print("{}", core::read_file(file));
 }
 
 }  // namespace clearway::campaign

@@ -2,7 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "analysis/equipment.hpp"
 #include "campaign/study_run.hpp"
@@ -20,16 +23,25 @@ struct EquipRequest {
     analysis::Search search = analysis::Search::lazy;
     std::uint64_t seed = 1;
     std::uint32_t replications = 2;
+    /// Words of a command that runs a study of this scenario and condition, but for seeds and equipped
+    /// signals.
+    std::vector<std::string> study = {};
     double within_s = 0.0;  ///< Time that decides on `replications`, by a forecast; 0: none is given.
     RunOptions run;         ///< Its folder is that of the result and of the rounds.
 };
 
 /// Chooses signals from runs in rounds, estimates their gains from runs on fresh seeds, writes report.html,
 /// equip.csv, candidates.csv, equip.json, curve.svg and map.svg, and prints candidates and ranks. Returns
-/// runs_failed when a run failed. Where it is interrupted it prints the gains of the last look. Throws
-/// core::InputError for a condition that asks no signal for green and a network without signals, and as
-/// EquipRounds does.
+/// runs_failed when a run failed. Where it is interrupted it prints the gains of the last look. What it
+/// prints is kept in equip.txt. Throws core::InputError for a condition that asks no signal for green and a
+/// network without signals, and as EquipRounds does.
 core::ExitCode equip(EquipRequest request);
+
+/// Whether a folder is one of `equip`, which is no run folder.
+bool is_equip_folder(const std::filesystem::path& folder);
+
+/// Prints what `equip` last printed for this folder. Throws core::InputError where it has printed nothing.
+void print_equip_folder(const std::filesystem::path& folder, Printing printing);
 
 /// Prints how many runs `equip` would make, and about how long they take; makes none. Throws likewise, and
 /// where the folder holds another search.

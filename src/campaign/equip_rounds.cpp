@@ -277,11 +277,22 @@ results::Results EquipRounds::run(const study::Plan& plan, const RunOptions& opt
     return results::read_results(store, results::VehicleRows::emergency);
 }
 
+void EquipRounds::add_condition(const analysis::SignalSet& set, study::StudyConfig& config) const {
+    const experiment::ConditionSpec& condition = config.conditions.emplace_back(with(set));
+    std::vector<std::string> equipped;
+    if (!question_.today.empty()) equipped.emplace_back("today's");
+    for (const std::size_t candidate : set)
+        equipped.push_back(fmt::format("#{}", question_.numbers.at(candidate)));
+    if (equipped.empty()) equipped.emplace_back("none");
+    config.titles[condition.name] =
+        fmt::format("{}: {} equipped", question_.base.name, fmt::join(equipped, ", "));
+}
+
 study::StudyConfig EquipRounds::round_of(const Wanted& wanted) const {
     study::StudyConfig config = question_.config;
     config.conditions = {experiment::baseline_for(question_.base)};
     for (const auto& [set, replications] : wanted)
-        config.conditions.push_back(with(set));
+        add_condition(set, config);
     return config;
 }
 
@@ -365,10 +376,12 @@ FreshOutcomes EquipRounds::estimate(const analysis::SignalSet& chosen) {
     const experiment::ConditionSpec solo = experiment::built_in_condition("solo", "solo");
     study::StudyConfig config = question_.config;
     config.seed = fresh_seed();
-    config.conditions = {baseline, question_.base, with({}), solo};
+    config.conditions = {baseline, question_.base};
+    config.titles[question_.base.name] = question_.base.name + ": all equipped";
+    add_condition({}, config);
+    config.conditions.push_back(solo);
     for (std::size_t rank = 0; rank < chosen.size(); ++rank)
-        config.conditions.push_back(
-            with({chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(rank) + 1}));
+        add_condition({chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(rank) + 1}, config);
     RunOptions options = options_;
     const auto names = core::texts_of(config.conditions, &experiment::ConditionSpec::name);
     options.folder /=

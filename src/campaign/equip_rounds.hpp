@@ -61,6 +61,7 @@ struct EquipQuestion {
     study::StudyConfig config;                      ///< Scenario, seed and replications.
     experiment::ConditionSpec base;                 ///< The condition whose signals are chosen.
     std::vector<std::string> signals;               ///< Ids of the candidates.
+    std::vector<std::size_t> numbers;               ///< Theirs, as `clearway scenario signals` counts.
     std::vector<std::string> today;                 ///< Ids of those that are equipped in every set.
     std::vector<analysis::SignalSet> passed;        ///< As EquipCandidates has them.
     std::vector<std::array<std::size_t, 2>> pairs;  ///< That are tried together.
@@ -130,6 +131,8 @@ class EquipRounds {
     /// Makes the missing runs of those sets of `racing` that have at most `largest` signals.
     void measure_up_to(std::size_t largest, const std::vector<analysis::SignalSet>& racing,
                        std::size_t replications);
+    /// Adds the condition with these candidates, with a title that names them.
+    void add_condition(const analysis::SignalSet& set, study::StudyConfig& config) const;
     study::StudyConfig round_of(const Wanted& wanted) const;
     void run_round(const Wanted& wanted);
     results::Results run(const study::Plan& plan, const RunOptions& options);

@@ -117,7 +117,7 @@ const char* const footer =
 Invocation invocation_of(int argument_count, const char* const* arguments) {
     std::vector<std::string> words(arguments, arguments + argument_count);
     words.front() = "clearway";
-    return {core::shell_text(words)};
+    return {core::shell_text(words), words};
 }
 
 std::string names_of(std::span<const Verb> verbs) {

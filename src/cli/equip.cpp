@@ -1,7 +1,9 @@
 #include "campaign/equip.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,6 +13,8 @@
 #include "cli/detail/condition_options.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
+#include "experiment/conditions.hpp"
+#include "experiment/equipped_signals.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -24,6 +28,40 @@ struct EquipArguments {
     scenario::Options options;
     campaign::EquipRequest request;
 };
+
+/// Whether a word is this option, or this option with its value behind `=`.
+bool is_option(const std::string& word, const std::string& name) {
+    return word == name || word.starts_with(name + "=");
+}
+
+/// The command as one of `clearway run`: without what only equip takes, where it writes and what was
+/// equipped.
+std::vector<std::string> study_words(const std::vector<std::string>& command) {
+    const std::vector<std::string> with_value = {"--budget",         "--candidates",  "--seeds", "--seed",
+                                                 "--within",         "--out",         "--jobs",  "--set",
+                                                 "--run-time-limit", "--memory-limit"};
+    const std::vector<std::string> flags = {"--thorough", "--dry-run", "--json", "--retry-failed"};
+    std::vector<std::string> words;
+    bool has_condition = false;
+    for (std::size_t at = 0; at < command.size(); ++at) {
+        const std::string& word = command[at];
+        const auto is_word = [&](const std::string& name) { return is_option(word, name); };
+        if (std::ranges::any_of(flags, is_word)) continue;
+        has_condition = has_condition || is_word("--condition") || is_word("--policy");
+        const bool has_own_value = word.find('=') == std::string::npos && at + 1 < command.size();
+        const std::string value = has_own_value ? command[at + 1] : word.substr(word.find('=') + 1);
+        const bool is_kept_setting =
+            is_word("--set") && !value.starts_with(std::string(experiment::equipped_setting) + "=");
+        if (std::ranges::none_of(with_value, is_word) || is_kept_setting)
+            words.push_back(word);
+        else if (has_own_value)
+            ++at;
+    }
+    if (words.size() > 1) words[1] = "run";
+    if (!has_condition) words.insert(words.end(), {"--condition", experiment::usual_condition});
+    words.insert(words.end(), {"--name", "chosen"});
+    return words;
+}
 
 void add_study_options(App& app, const std::shared_ptr<EquipArguments>& arguments) {
     campaign::EquipRequest& request = arguments->request;
@@ -72,6 +110,7 @@ Action configure_equip(App& app) {
         request.condition = shown_condition(chosen_conditions(arguments->conditions), "equip");
         request.scenario = scenario::load(arguments->scenario, arguments->options);
         request.run.command = invocation.command;
+        request.study = study_words(invocation.words);
         return arguments->mode == Mode::dry_run ? campaign::equip_dry_run(request) : campaign::equip(request);
     };
 }

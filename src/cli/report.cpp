@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "campaign/equip.hpp"
 #include "campaign/study_run.hpp"
 #include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
@@ -17,7 +18,7 @@ Action configure_report(App& app) {
         campaign::PublishOptions how;
     };
     const auto arguments = std::make_shared<ReportArguments>();
-    app.add_option("folder", arguments->folder, "Run folder of run or study, complete or not")
+    app.add_option("folder", arguments->folder, "Folder of run, study or equip, complete or not")
         .required()
         .option_text("DIR (required)");
     app.add_option("--least-difference", arguments->how.least_relevant_s,
@@ -42,6 +43,10 @@ Action configure_report(App& app) {
     add_json_option(app, arguments->how.printing, "the tables");
     add_tables_option(app, arguments->how.tables);
     return [arguments](const Invocation&) {
+        if (campaign::is_equip_folder(arguments->folder)) {
+            campaign::print_equip_folder(arguments->folder, arguments->how.printing);
+            return core::ExitCode::ok;
+        }
         const results::Store store = results::Store::open(arguments->folder);
         return campaign::publish(store, arguments->how);
     };

@@ -3,6 +3,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -12,7 +13,8 @@ class App;
 
 /// How this program was called.
 struct Invocation {
-    std::string command;  ///< One line for a shell: `clearway run city --seeds 5`.
+    std::string command;                  ///< One line for a shell: `clearway run city --seeds 5`.
+    std::vector<std::string> words = {};  ///< Of it, each as it was given.
 };
 
 /// What a verb does once its arguments are parsed. Throws core::Error for errors that are reported to the

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace clearway::core {
@@ -22,6 +23,11 @@ enum class Mark : std::uint8_t {
 /// Units of the picture.
 inline constexpr double disc_radius = 8.0;
 inline constexpr double dot_radius = 4.0;
+
+/// Of words that are to fit into a disc: `7`, `#12`, `#123`.
+inline double disc_text_size(const std::string& words) {
+    return words.size() < 3 ? 11.0 : words.size() == 3 ? 8.0 : 6.5;
+}
 
 /// Where to draw the marks of `places`, so that no disc lies on another one or hides the place of another
 /// mark. A disc with enough room stays at its place. The others take the nearest free spot round theirs,

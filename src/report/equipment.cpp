@@ -33,42 +33,54 @@ SheetCell count_or_nothing(std::size_t count) {
     return count > 0 ? SheetCell(count) : SheetCell();
 }
 
-std::vector<detail::SheetColumn> ranked_columns() {
-    return {{"equipped", "#"},
-            {"number", "No."},
-            {"signal", "", Where::in_data},
-            {"streets", "", Where::in_data},
-            {"", "Signal"},
-            {"gain_s", "Gain, s"},
-            {"shown", "Effect"},
-            {"gain_so_far_s", "So far, s"},
-            {"share_of_all", "%"},
-            {"others_time_loss_s", "Others lose, s", Where::not_on_terminal},
-            {"gain_chosen_by_s", "", Where::in_data}};
+SheetCell share_cell(const EquipmentFacts& facts, const EquippedSignal& signal) {
+    const std::optional<double> share = share_of_all(facts, signal);
+    return share ? SheetCell(Share{*share}) : SheetCell();
 }
 
-/// What people call a signal.
+std::vector<detail::SheetColumn> ranked_columns() {
+    std::vector<detail::SheetColumn> columns;
+    for (const char* const key : {"equipped", "number", "signal", "streets", "gain_s", "shown",
+                                  "gain_so_far_s", "share_of_all", "others_time_loss_s", "gain_chosen_by_s"})
+        columns.push_back({key, ""});
+    return columns;
+}
+
+/// What people call a signal. Ids of joined junctions name all their nodes, and have no end.
 template <class Facts>
-const std::string& name_of(const Facts& one) {
-    return one.streets.empty() ? one.signal : one.streets;
+std::string name_of(const Facts& one) {
+    constexpr std::size_t longest_id = 60;
+    return one.streets.empty() && one.signal.size() <= longest_id ? one.signal
+                                                                  : signal_words(one.signal, one.streets);
 }
 
 /// `equipped`: with how many signals the row ends.
 std::vector<SheetCell> ranked_row(const EquipmentFacts& facts, std::size_t equipped,
                                   const EquippedSignal& signal) {
-    const bool is_signal = signal.number > 0;
-    const std::optional<double> share = share_of_all(facts, signal);
-    return {equipped,
-            count_or_nothing(signal.number),
-            signal.signal,
-            signal.streets,
-            name_of(signal),
-            signal.gain,
-            is_signal ? SheetCell(is_shown(signal.gain)) : SheetCell(),
-            signal.so_far,
-            share ? SheetCell(Share{*share}) : SheetCell(),
-            signal.others,
-            signal.chosen_by};
+    return {equipped,      count_or_nothing(signal.number),
+            signal.signal, signal.streets,
+            signal.gain,   signal.number > 0 ? SheetCell(is_shown(signal.gain)) : SheetCell(),
+            signal.so_far, share_cell(facts, signal),
+            signal.others, signal.chosen_by};
+}
+
+Sheet ranked_sheet(const EquipmentFacts& facts) {
+    Sheet sheet{ranked_columns(), {}};
+    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
+        sheet.rows.push_back(ranked_row(facts, rank + 1, facts.ranked[rank]));
+    return sheet;
+}
+
+/// A row of what several signals bring together.
+std::vector<SheetCell> sum_row(const EquipmentFacts& facts, const EquippedSignal& sum) {
+    return {SheetCell(),
+            SheetCell(),
+            sum.so_far,
+            is_shown(sum.so_far),
+            SheetCell(),
+            share_cell(facts, sum),
+            detail::others_cell(facts, sum.others),
+            sum.signal};
 }
 
 template <class Facts>
@@ -103,40 +115,52 @@ std::string lines(const std::vector<std::string>& sentences) {
 
 namespace detail {
 
-Sheet ranked_sheet(const EquipmentFacts& facts, LastRow last) {
-    Sheet sheet{ranked_columns(), {}};
-    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
-        sheet.rows.push_back(ranked_row(facts, rank + 1, facts.ranked[rank]));
-    if (last == LastRow::all) {
-        sheet.rows.push_back(ranked_row(facts, facts.signals, all_of(facts)));
-        sheet.rows.back().front() = SheetCell();  // how many they are would look like a rank
+Sheet ranks_table(const EquipmentFacts& facts) {
+    Sheet table{{{"", has_order(facts) ? "Rank" : "Step"},
+                 {"", "Signal"},
+                 {"", "Gain, s"},
+                 {"", "Effect"},
+                 {"", "So far, s"},
+                 {"", "%"},
+                 {"", others_save(facts) ? "Others save, s" : "Others lose, s", Where::if_room},
+                 {"", "Streets"}},
+                {}};
+    for (const EquippedSignal& signal : facts.ranked)
+        table.rows.push_back({table.rows.size() + 1, SignalNumber{signal.number}, signal.gain,
+                              is_shown(signal.gain), without_interval(signal.so_far),
+                              share_cell(facts, signal), others_cell(facts, signal.others), name_of(signal)});
+    if (facts.ranked.size() > 1) {
+        EquippedSignal chosen = facts.ranked.back();
+        chosen.signal = fmt::format("these {}", counted(facts.ranked.size(), "signal"));
+        table.rows.push_back(sum_row(facts, chosen));
     }
-    return sheet;
+    table.rows.push_back(sum_row(facts, all_of(facts)));
+    return table;
 }
 
 Sheet candidate_sheet(const EquipmentFacts& facts) {
-    Sheet sheet{{{"number", "No."},
+    Sheet sheet{{{"number", "Signal"},
                  {"signal", "", Where::in_data},
                  {"streets", "", Where::in_data},
-                 {"", "Signal"},
-                 {"share_of_trips", "EVs, %"},
+                 {"share_of_trips", "Trips, %"},
                  {"gain_s", "Gain alone, s"},
                  {"shown", "Effect"},
                  {"pairs", "Seeds"},
                  {"left_race", "", Where::in_data},
-                 {"rank", "Chosen"}},
+                 {"rank", has_order(facts) ? "Rank" : "Step"},
+                 {"", "Streets"}},
                 {}};
     std::vector<EquipCandidateFacts> candidates = facts.candidates;
     std::ranges::stable_sort(candidates, std::greater{}, gain_or_least<EquipCandidateFacts>);
     for (const EquipCandidateFacts& one : candidates)
-        sheet.rows.push_back({one.number, one.signal, one.streets, name_of(one), Share{one.trips}, one.gain,
+        sheet.rows.push_back({SignalNumber{one.number}, one.signal, one.streets, Share{one.trips}, one.gain,
                               is_shown(one.gain), one.gain ? one.gain->n : std::size_t{0}, one.left_race,
-                              count_or_nothing(one.rank.value_or(0))});
+                              count_or_nothing(one.rank.value_or(0)), name_of(one)});
     return sheet;
 }
 
 Sheet pair_sheet(const EquipmentFacts& facts) {
-    Sheet sheet{{{"number", "No."},
+    Sheet sheet{{{"number", "Signal"},
                  {"with", "with"},
                  {"gain_a_signal_s", "Gain a signal, s"},
                  {"shown", "Effect"},
@@ -147,8 +171,9 @@ Sheet pair_sheet(const EquipmentFacts& facts) {
     std::vector<EquipPairFacts> pairs = facts.pairs;
     std::ranges::stable_sort(pairs, std::greater{}, gain_or_least<EquipPairFacts>);
     for (const EquipPairFacts& one : pairs)
-        sheet.rows.push_back({one.numbers[0], one.numbers[1], one.gain, is_shown(one.gain),
-                              one.gain ? one.gain->n : std::size_t{0}, one.left_race, one.chosen});
+        sheet.rows.push_back({SignalNumber{one.numbers[0]}, SignalNumber{one.numbers[1]}, one.gain,
+                              is_shown(one.gain), one.gain ? one.gain->n : std::size_t{0}, one.left_race,
+                              one.chosen});
     return sheet;
 }
 
@@ -185,6 +210,7 @@ std::optional<double> share_of_all(const EquipmentFacts& facts, const EquippedSi
 }
 
 std::optional<std::size_t> rank_with_share(const EquipmentFacts& facts, double share) {
+    if (!detail::has_order(facts)) return std::nullopt;
     for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank) {
         const auto reached = share_of_all(facts, facts.ranked[rank]);
         if (reached && *reached >= share) return rank + 1;
@@ -204,10 +230,11 @@ std::string equipment_text(const EquipmentFacts& facts) {
                 paragraph({detail::candidate_legend(facts)});
     if (!facts.pairs.empty())
         text += "\n" + detail::text_of(detail::pair_sheet(facts)) + paragraph({detail::pair_legend()});
-    text += "\n" + detail::text_of(detail::ranked_sheet(facts, detail::LastRow::all)) +
-            paragraph({detail::ranked_legend(facts)});
-    return text + "\n" + paragraph(detail::circumstances_of(facts)) + "\n" +
-           lines(detail::findings_of(facts));
+    text += "\n" + detail::text_of(detail::ranks_table(facts)) + paragraph({detail::ranks_legend(facts)});
+    text += "\n" + paragraph(detail::circumstances_of(facts)) + "\n" + lines(detail::findings_of(facts));
+    if (const std::string command = detail::study_command(facts); !command.empty())
+        text += lines({detail::study_words}) + command + "\n";
+    return text;
 }
 
 std::string equipment_json(const EquipmentFacts& facts) {
@@ -238,7 +265,9 @@ std::string equipment_json(const EquipmentFacts& facts) {
                        {"alone_s", estimate_json(facts.alone_s)},
                        {"candidates", detail::json_of(detail::candidate_sheet(facts))},
                        {"pairs", detail::json_of(detail::pair_sheet(facts))},
-                       {"ranked", detail::json_of(detail::ranked_sheet(facts, detail::LastRow::ranked))},
+                       {"headline", detail::findings_of(facts).front()},
+                       {"order_shown", detail::has_order(facts)},
+                       {"ranked", detail::json_of(ranked_sheet(facts))},
                        {"all", detail::json_of(all).front()},
                        {"rank_with_80_percent", rank ? Json(*rank) : Json(nullptr)},
                        {"end", end_word(facts.end)}};
@@ -246,9 +275,9 @@ std::string equipment_json(const EquipmentFacts& facts) {
 }
 
 std::string equipment_csv(const EquipmentFacts& facts) {
-    Sheet sheet = detail::ranked_sheet(facts, detail::LastRow::all);
+    Sheet sheet = ranked_sheet(facts);
     const analysis::Estimate nothing{};
-    sheet.rows.back().front() = facts.signals;
+    sheet.rows.push_back(ranked_row(facts, facts.signals, all_of(facts)));
     sheet.rows.back()[2] = std::string();
     sheet.rows.insert(sheet.rows.begin(), ranked_row(facts, 0, {0, "", "", std::nullopt, nothing, nothing}));
     return detail::csv_of(sheet);

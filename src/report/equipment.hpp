@@ -22,7 +22,8 @@ struct EquippedSignal {
         streets;  ///< Names of those that lead to it, with ` / ` between; text from a file. May be empty.
     /// Over those of better rank, s of EV time. The intervals of all ranks hold together (Bonferroni).
     analysis::MaybeEstimate gain;
-    analysis::MaybeEstimate so_far;          ///< Over no signal equipped.
+    /// Over no signal equipped; of the last rank with an interval.
+    analysis::MaybeEstimate so_far;
     analysis::MaybeEstimate others;          ///< Time loss of the others over no signal equipped, s each.
     analysis::MaybeEstimate chosen_by = {};  ///< `gain` in the runs that decided; too high by the choice.
 };
@@ -35,7 +36,8 @@ struct EquipCandidateFacts {
     double trips = 0.0;            ///< Share of the emergency vehicles that pass it.
     analysis::MaybeEstimate gain;  ///< As analysis::EquipCandidate has it.
     bool left_race = false;
-    std::optional<std::size_t> rank;  ///< From 1; nothing if it was not chosen.
+    std::optional<std::size_t> rank;      ///< From 1; nothing if it was not chosen.
+    analysis::EquipLaterGain later = {};  ///< As analysis::EquipCandidate has it.
 };
 
 /// Two candidates that follow each other on the ways of emergency vehicles, tried together as the candidates
@@ -79,8 +81,9 @@ struct EquipmentFacts {
     std::string assumptions;  ///< As simulated_sentence says.
     std::string condition;
     std::string command;
-    std::uint64_t seed = 0;        ///< Of the runs that decide.
-    std::uint64_t fresh_seed = 0;  ///< Of those that estimate.
+    std::vector<std::string> study = {};  ///< Words of a command that runs a study, but for what is equipped.
+    std::uint64_t seed = 0;               ///< Of the runs that decide.
+    std::uint64_t fresh_seed = 0;         ///< Of those that estimate.
     std::uint32_t replications = 0;
     double step_length_s = 0.0;  ///< Of the simulation.
     std::size_t budget = 0;

@@ -20,60 +20,99 @@ namespace {
 
 constexpr std::size_t drawn_candidates = 30;  ///< Those with the greatest gains; the table has all.
 
-/// A disc with the rank: filled where the gain is shown.
-std::string disc(const core::Spot& at, const std::string& rank, bool shown) {
+enum class Disc : std::uint8_t { shown, not_shown, other };
+
+/// A disc with a rank or the number of a signal: filled where the gain is shown, grey where it is not chosen.
+std::string disc(const core::Spot& at, const std::string& words, Disc kind) {
+    const char* const circle = kind == Disc::shown ? "dot better" : kind == Disc::other ? "spare" : "station";
+    const double size = core::disc_text_size(words);
     return fmt::format(
         "<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\"/><text class=\"{}\" x=\"{:.1f}\" "
-        "y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
-        shown ? "dot better" : "station", at.x, at.y, core::disc_radius, shown ? "onDot" : "rank", at.x,
-        at.y + 4.0, rank);
+        "y=\"{:.1f}\" text-anchor=\"middle\" style=\"font-size:{:g}px\">{}</text>\n",
+        circle, at.x, at.y, core::disc_radius, kind == Disc::shown ? "onDot" : "rank", at.x,
+        at.y + 0.35 * size, size, words);
 }
 
-void draw_ranks(detail::MapCanvas& canvas, const EquipmentFacts& facts) {
-    std::map<std::string, std::size_t> ranks;
-    for (const EquippedSignal& signal : facts.ranked)
-        ranks.emplace(signal.signal, ranks.size());
-    std::map<std::string, std::size_t> numbers;  // of candidates
+/// What the disc of a chosen signal bears: its rank, or its number where there is no order.
+std::string words_on_disc(const EquipmentFacts& facts, std::size_t rank) {
+    return detail::has_order(facts) ? std::to_string(rank + 1)
+                                    : fmt::format("#{}", facts.ranked[rank].number);
+}
+
+Disc kind_of(const EquippedSignal& signal) {
+    return is_shown(signal.gain) ? Disc::shown : Disc::not_shown;
+}
+
+/// Whether the candidates that are not chosen have room for discs with their numbers.
+bool has_room(const EquipmentFacts& facts) {
+    return facts.candidates.size() <= drawn_candidates;
+}
+
+/// The disc of each signal that has one, by id.
+std::map<std::string, std::pair<std::string, Disc>> discs_of(const EquipmentFacts& facts) {
+    std::map<std::string, std::pair<std::string, Disc>> discs;
+    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
+        discs.emplace(facts.ranked[rank].signal,
+                      std::pair(words_on_disc(facts, rank), kind_of(facts.ranked[rank])));
+    if (has_room(facts))
+        for (const EquipCandidateFacts& one : facts.candidates)
+            discs.emplace(one.signal, std::pair(fmt::format("#{}", one.number), Disc::other));
+    return discs;
+}
+
+void draw_signals(detail::MapCanvas& canvas, const EquipmentFacts& facts) {
+    const auto discs = discs_of(facts);
+    std::set<std::string> open;
     for (const EquipCandidateFacts& one : facts.candidates)
-        numbers.emplace(one.signal, one.number);
-    const bool has_room = numbers.size() <= drawn_candidates;
-    const bool has_order = detail::has_order(facts);
+        open.insert(one.signal);
     const std::set<std::string> today(facts.equipped_today.begin(), facts.equipped_today.end());
     std::vector<core::Spot> places;
     std::vector<core::Mark> marks;
     for (const MapSignal& signal : facts.roads->signals) {
         const auto [x, y] = canvas.place(signal.place);
         places.push_back({x, y});
-        marks.push_back(ranks.contains(signal.id) ? core::Mark::disc : core::Mark::dot);
-        const bool is_open = numbers.contains(signal.id);
+        marks.push_back(discs.contains(signal.id) ? core::Mark::disc : core::Mark::dot);
+        const bool is_open = open.contains(signal.id);
         if (today.contains(signal.id))
             canvas.circle(x, y, core::dot_radius, "dot better");
         else if (marks.back() == core::Mark::dot)
             canvas.circle(x, y, is_open ? core::dot_radius : 2.0, is_open ? "held" : "tick");
-        if (marks.back() == core::Mark::dot && numbers.contains(signal.id) && has_room)
-            canvas.text(x + 6.0, y - 4.0, std::to_string(numbers.at(signal.id)),
-                        detail::Canvas::Anchor::start, "tick");
     }
     const std::vector<core::Spot> spots = core::spread(places, marks, {canvas.width, canvas.height()});
     for (std::size_t row = 0; row < spots.size(); ++row) {
         if (marks[row] == core::Mark::dot) continue;
-        const std::size_t rank = ranks.at(facts.roads->signals[row].id);
-        if (spots[row] != places[row])
+        if (spots[row] != places[row]) {
             canvas.path({{places[row].x, places[row].y}, {spots[row].x, spots[row].y}}, "zero");
-        const std::size_t shown = has_order ? rank + 1 : facts.ranked[rank].number;
-        canvas.add(disc(spots[row], std::to_string(shown), is_shown(facts.ranked[rank].gain)));
+            canvas.circle(places[row].x, places[row].y, 2.5, "dot s0");
+        }
+        const auto& [words, kind] = discs.at(facts.roads->signals[row].id);
+        canvas.add(disc(spots[row], words, kind));
     }
 }
 
+/// The first chosen signal of this kind, as an example of its disc; nothing without one.
+std::optional<detail::LegendEntry> chosen_entry(const EquipmentFacts& facts, Disc kind, const char* words) {
+    const auto found = std::ranges::find(facts.ranked, kind, kind_of);
+    if (found == facts.ranked.end()) return std::nullopt;
+    const auto rank = static_cast<std::size_t>(found - facts.ranked.begin());
+    const std::string example =
+        detail::has_order(facts) ? fmt::format(" (rank {} is #{})", rank + 1, found->number) : "";
+    return detail::LegendEntry{disc({20.0, 5.0}, words_on_disc(facts, rank), kind), words + example};
+}
+
 std::vector<detail::LegendEntry> map_entries(const EquipmentFacts& facts) {
-    const auto shown = std::ranges::count_if(
-        facts.ranked, [](const EquippedSignal& signal) { return is_shown(signal.gain); });
-    const std::size_t chosen = facts.ranked.size();
     std::vector<detail::LegendEntry> entries;
-    if (shown > 0) entries.push_back({disc({20.0, 5.0}, "n", true), "chosen, gain shown"});
-    if (static_cast<std::size_t>(shown) < chosen)
-        entries.push_back({disc({20.0, 5.0}, "n", false), "chosen, gain not shown"});
-    if (facts.candidates.size() > chosen) entries.push_back(detail::dot_entry("held", "other candidate"));
+    if (const auto entry = chosen_entry(facts, Disc::shown, "chosen, gain shown")) entries.push_back(*entry);
+    if (const auto entry = chosen_entry(facts, Disc::not_shown, "chosen, gain not shown"))
+        entries.push_back(*entry);
+    const auto other = std::ranges::find_if_not(
+        facts.candidates, [](const EquipCandidateFacts& one) { return one.rank.has_value(); });
+    if (other != facts.candidates.end())
+        entries.push_back(
+            has_room(facts)
+                ? detail::LegendEntry{disc({20.0, 5.0}, fmt::format("#{}", other->number), Disc::other),
+                                      "other candidate"}
+                : detail::dot_entry("held", "other candidate"));
     if (!facts.equipped_today.empty()) entries.push_back(detail::dot_entry("dot better", "equipped today"));
     if (facts.signals > facts.candidates.size() + facts.equipped_today.size())
         entries.push_back({"<circle class=\"tick\" cx=\"20\" cy=\"5\" r=\"2\"/>", "left out"});
@@ -81,22 +120,36 @@ std::vector<detail::LegendEntry> map_entries(const EquipmentFacts& facts) {
     return entries;
 }
 
-/// `Discs bear the order: 1 is #7, 2 is #12.`
+/// `Discs bear ranks: 1 is #7, 2 is #12.`; where there are none, the answer that says so.
 std::string order_words(const EquipmentFacts& facts) {
     constexpr std::size_t most_named = 12;
-    if (!detail::has_order(facts)) return "Numbers are those of the tables, in no order.";
+    if (!detail::has_order(facts))
+        return detail::findings_of(facts).front() + " Numbers are those of the tables.";
     std::vector<std::string> words;
     for (const EquippedSignal& signal : facts.ranked)
         words.push_back(fmt::format("{} is #{}", words.size() + 1, signal.number));
     if (words.size() > most_named) words.resize(most_named);
     if (words.empty()) return "";
-    return fmt::format("Discs bear the order: {}{}.", fmt::join(words, ", "),
+    return fmt::format("Discs bear ranks: {}{}.", fmt::join(words, ", "),
                        words.size() < facts.ranked.size() ? " and so on, as in the table" : "");
 }
 
 std::string paragraphs(const std::vector<std::string>& sentences, const char* style) {
     return fmt::format("<p class=\"{}\">{}</p>\n", style,
                        escaped(fmt::format("{}", fmt::join(sentences, " "))));
+}
+
+std::string list_of(const std::vector<std::string>& sentences) {
+    std::string html = "<ul>\n";
+    for (const std::string& sentence : sentences)
+        html += fmt::format("<li>{}</li>\n", escaped(sentence));
+    return html + "</ul>\n";
+}
+
+std::string study_html(const EquipmentFacts& facts) {
+    const std::string command = detail::study_command(facts);
+    if (command.empty()) return "";
+    return fmt::format("<p>{}</p>\n<pre><code>{}</code></pre>\n", detail::study_words, escaped(command));
 }
 
 std::string note(const std::string& words) {
@@ -111,8 +164,11 @@ std::string figures(const std::vector<detail::Figure>& all) {
     return fmt::format("<div class=\"figures {}\">\n{}</div>\n", all.size() == 1 ? "one" : "pair", html);
 }
 
-std::string standalone_or_empty(const detail::Figure& figure) {
-    return figure.drawing.empty() ? "" : detail::standalone(figure.drawing);
+/// With what is said of it on the page, as it may be handed on alone.
+std::string standalone_or_empty(const EquipmentFacts& facts, const detail::Figure& figure) {
+    if (figure.drawing.empty()) return "";
+    return detail::standalone(figure.drawing, fmt::format("{}: signals to equip first", facts.title),
+                              figure.note);
 }
 
 }  // namespace
@@ -145,21 +201,26 @@ Figure curve_figure(const EquipmentFacts& facts) {
     }
     // Without marks, which would stand beside the whole numbers.
     plot.line(points, {0, Series::Weight::lead});
-    std::vector<LegendEntry> legend = {
-        line_entry({0, Series::Weight::lead},
-                   has_intervals ? "the first signals, with 95 % intervals" : "the first signals")};
+    const bool has_order = detail::has_order(facts);
+    std::vector<LegendEntry> legend = {line_entry(
+        {0, Series::Weight::lead}, fmt::format("{}{}", has_order ? "the first signals" : "the chosen signals",
+                                               has_intervals ? ", with the 95 % interval" : ""))};
     if (facts.all_gain) {
         plot.line({{numbers.low, facts.all_gain->mean}, {numbers.high, facts.all_gain->mean}}, {2});
         legend.push_back(line_entry({2}, fmt::format("all of {}", counted(facts.signals, "signal"))));
     }
     plot.legend(legend);
-    return {"curve", "Gain by number of signals", plot.finish(), "", {}};
+    return {"curve",
+            "Gain by number of signals",
+            plot.finish(),
+            has_order ? "" : detail::findings_of(facts).front(),
+            {}};
 }
 
 Figure candidates_figure(const EquipmentFacts& facts) {
     constexpr double row_height = 18.0;
     constexpr double names_end = 226.0;
-    constexpr std::size_t longest_name = 34;  // before it
+    constexpr std::size_t longest_name = 33;  // before it; the table has the rest
     std::vector<EquipCandidateFacts> drawn;
     for (const EquipCandidateFacts& one : facts.candidates)
         if (one.gain) drawn.push_back(one);
@@ -180,7 +241,7 @@ Figure candidates_figure(const EquipmentFacts& facts) {
     for (const EquipCandidateFacts& one : drawn) {
         const std::string name =
             shortened(printable(one.streets.empty() ? one.signal : one.streets), longest_name);
-        plot.text(names_end, y + 4.0, fmt::format("{} {}", one.number, name), Canvas::Anchor::end, "tick");
+        plot.text(names_end, y + 4.0, fmt::format("#{} {}", one.number, name), Canvas::Anchor::end, "tick");
         plot.estimate(one.gain, shown_interval(one.gain), y,
                       {is_shown(one.gain) ? std::size_t{1} : std::size_t{2}});
         y += row_height;
@@ -200,7 +261,7 @@ Figure equipment_map_figure(const EquipmentFacts& facts) {
     canvas.edges(all_edges(*facts.roads), "road");
     canvas.scale_bar();
     canvas.stations(*facts.roads);
-    draw_ranks(canvas, facts);
+    draw_signals(canvas, facts);
     canvas.credit(facts.attribution);
     canvas.legend(map_entries(facts));
     return {"map", "Where they are", canvas.finish(), order_words(facts), {}};
@@ -209,11 +270,11 @@ Figure equipment_map_figure(const EquipmentFacts& facts) {
 }  // namespace detail
 
 std::string equipment_curve(const EquipmentFacts& facts) {
-    return standalone_or_empty(detail::curve_figure(facts));
+    return standalone_or_empty(facts, detail::curve_figure(facts));
 }
 
 std::string equipment_map(const EquipmentFacts& facts) {
-    return standalone_or_empty(detail::equipment_map_figure(facts));
+    return standalone_or_empty(facts, detail::equipment_map_figure(facts));
 }
 
 void write_equipment_page(const EquipmentFacts& facts, std::ostream& page) {
@@ -221,11 +282,9 @@ void write_equipment_page(const EquipmentFacts& facts, std::ostream& page) {
     const std::vector<std::string> findings = detail::findings_of(facts);
     const std::string answer =
         paragraphs({findings.front()}, "headline") + note(facts.assumptions) +
-        detail::coarse_step_note(facts.step_length_s) +
-        paragraphs({findings.begin() + 1, findings.end()}, "") +
-        figures({detail::equipment_map_figure(facts), detail::curve_figure(facts)}) +
-        to_html(detail::data_table_of(detail::ranked_sheet(facts, detail::LastRow::all))) +
-        note(detail::ranked_legend(facts));
+        detail::coarse_step_note(facts.step_length_s) + list_of({findings.begin() + 1, findings.end()}) +
+        study_html(facts) + figures({detail::equipment_map_figure(facts), detail::curve_figure(facts)}) +
+        to_html(detail::data_table_of(detail::ranks_table(facts))) + note(detail::ranks_legend(facts));
     std::vector<detail::PageSection> sections = {{"equipment", "Which first", answer}};
     const std::string pairs =
         facts.pairs.empty()

@@ -1,12 +1,17 @@
 // What `clearway equip` says in sentences, on the terminal and on its page.
 
 #include <algorithm>
-#include <iterator>
+#include <functional>
+#include <limits>
 #include <map>
+#include <ranges>
+#include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/process.hpp"
+#include "core/terminal.hpp"
 #include "report/detail/equipment_sheets.hpp"
 #include "report/equipment.hpp"
 #include "report/locks.hpp"
@@ -22,37 +27,8 @@ bool is_exactly_none(const analysis::MaybeEstimate& gain) {
     return gain && gain->mean == 0.0 && gain->deviation == 0.0;
 }
 
-/// Ranks that changed a trip of the fresh seeds; all where the first did not, as there is no order then.
-std::vector<std::size_t> telling_ranks(const EquipmentFacts& facts) {
-    std::vector<std::size_t> telling;
-    std::vector<std::size_t> all;
-    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank) {
-        all.push_back(rank);
-        if (!is_exactly_none(facts.ranked[rank].gain)) telling.push_back(rank);
-    }
-    return telling.empty() || telling.front() != 0 ? all : telling;
-}
-
-/// `1) Via Po / Via Roma, 2) S5`, numbered as the map and the table of ranks are; without an order `Via Po /
-/// Via Roma; S5`.
-std::string names_of(const EquipmentFacts& facts) {
-    const bool has_order = detail::has_order(facts);
-    std::vector<std::string> names;
-    for (const std::size_t rank : telling_ranks(facts)) {
-        const EquippedSignal& signal = facts.ranked[rank];
-        const std::string name = signal_words(signal.signal, signal.streets);
-        names.push_back(has_order ? fmt::format("{}) {}", rank + 1, name) : name);
-    }
-    return fmt::format("{}", fmt::join(names, has_order ? ", " : "; "));
-}
-
 bool most_are_held_up(const UnsoundRuns& unsound) {
     return 2 * unsound.held_up > unsound.runs;
-}
-
-std::size_t rank_of(const EquipmentFacts& facts, std::size_t number) {
-    const auto found = std::ranges::find(facts.ranked, number, &EquippedSignal::number);
-    return static_cast<std::size_t>(found - facts.ranked.begin()) + 1;
 }
 
 const char* shown_word(const analysis::MaybeEstimate& value) {
@@ -63,44 +39,73 @@ std::string estimate_or_dash(const analysis::MaybeEstimate& value) {
     return estimate(value, {});
 }
 
-/// What the others lose or save.
-std::string others_words(const analysis::MaybeEstimate& loss) {
-    if (!loss || loss->mean >= 0.0)
-        return fmt::format("lose {} s each ({})", estimate_or_dash(loss), shown_word(loss));
-    analysis::MaybeEstimate saving = loss;
-    saving->mean = -loss->mean;
-    if (loss->interval) saving->interval = analysis::Interval{-loss->interval->high, -loss->interval->low};
-    return fmt::format("save {} s each ({})", estimate_or_dash(saving), shown_word(saving));
+analysis::MaybeEstimate negated(analysis::MaybeEstimate value) {
+    if (!value) return value;
+    value->mean = -value->mean;
+    if (value->interval) value->interval = analysis::Interval{-value->interval->high, -value->interval->low};
+    return value;
+}
+
+/// `the others lose 1.0 [0.6, 1.4] s each (shown)`
+std::string others_words(const EquipmentFacts& facts) {
+    const analysis::MaybeEstimate others = detail::others_cell(facts, facts.ranked.back().others);
+    return fmt::format("the others {} {} s each ({})", detail::others_save(facts) ? "save" : "lose",
+                       estimate_or_dash(others), shown_word(others));
+}
+
+/// `#4, #1`
+template <class Numbers>
+std::string hashed(const Numbers& numbers, const char* between = ", ") {
+    return fmt::format("#{}", fmt::join(numbers, fmt::format("{}#", between)));
+}
+
+/// `#4 Via Po / Via Roma`
+std::string numbered_name(const EquippedSignal& signal) {
+    return fmt::format("#{} {}", signal.number, signal_words(signal.signal, signal.streets));
+}
+
+/// Numbers of the signals of the first ranks.
+std::vector<std::size_t> first_numbers(const EquipmentFacts& facts, std::size_t ranks) {
+    std::vector<std::size_t> numbers;
+    for (const EquippedSignal& signal : std::span(facts.ranked).first(std::min(ranks, facts.ranked.size())))
+        numbers.push_back(signal.number);
+    return numbers;
+}
+
+/// The pair that a signal was chosen in; nothing for one that was chosen alone.
+const EquipPairFacts* pair_of(const EquipmentFacts& facts, const EquippedSignal& signal) {
+    const auto found = std::ranges::find_if(facts.pairs, [&](const EquipPairFacts& pair) {
+        return pair.chosen && std::ranges::find(pair.numbers, signal.number) != pair.numbers.end();
+    });
+    return found == facts.pairs.end() ? nullptr : &*found;
+}
+
+/// Its gain, or that of the pair that it was chosen in.
+bool is_shown_of(const EquipmentFacts& facts, const EquippedSignal& signal) {
+    const EquipPairFacts* const pair = pair_of(facts, signal);
+    return is_shown(signal.gain) || (pair != nullptr && is_shown(pair->both_gain));
 }
 
 std::string together_sentence(const EquipmentFacts& facts) {
-    std::vector<std::string> pairs;
-    for (const EquipPairFacts& pair : facts.pairs)
-        if (pair.chosen)
-            pairs.push_back(fmt::format("rank {} with rank {}, which gain {} s ({})",
-                                        rank_of(facts, pair.numbers[0]), rank_of(facts, pair.numbers[1]),
-                                        estimate_or_dash(pair.both_gain), shown_word(pair.both_gain)));
-    return pairs.empty() ? "" : fmt::format("Chosen together: {}.", fmt::join(pairs, "; "));
-}
-
-/// Whether it was chosen in a pair, by what both gain.
-bool is_of_pair(const EquipmentFacts& facts, const EquippedSignal& signal) {
-    return std::ranges::any_of(facts.pairs, [&](const EquipPairFacts& pair) {
-        return pair.chosen && std::ranges::find(pair.numbers, signal.number) != pair.numbers.end();
-    });
+    std::vector<std::string> words;
+    for (const EquipPairFacts& pair : facts.pairs) {
+        if (!pair.chosen) continue;
+        const auto is_of = [&](const EquippedSignal& one) { return pair_of(facts, one) == &pair; };
+        const auto first = std::ranges::find_if(facts.ranked, is_of) - facts.ranked.begin();
+        const std::string gain = estimate_or_dash(pair.both_gain);
+        words.push_back(fmt::format(
+            "{}, which {} ({})", hashed(pair.numbers, " and "),
+            first == 0 ? fmt::format("bring {} s", gain)
+                       : fmt::format("add {} s to {}", gain,
+                                     hashed(first_numbers(facts, static_cast<std::size_t>(first)))),
+            shown_word(pair.both_gain)));
+    }
+    return words.empty() ? "" : fmt::format("Chosen as a pair: {}.", fmt::join(words, "; "));
 }
 
 /// Whether it changed no trip of the fresh seeds, so that its rank is chance.
 bool is_chance(const EquipmentFacts& facts, const EquippedSignal& signal) {
-    return is_exactly_none(signal.gain) && !is_of_pair(facts, signal);
-}
-
-bool shows_any(const EquipmentFacts& facts) {
-    const auto shown = [](const auto& one) { return is_shown(one.gain) || is_shown(one.so_far); };
-    return std::ranges::any_of(facts.ranked, shown) ||
-           std::ranges::any_of(facts.pairs, [](const EquipPairFacts& pair) {
-               return pair.chosen && is_shown(pair.both_gain);
-           });
+    return is_exactly_none(signal.gain) && pair_of(facts, signal) == nullptr;
 }
 
 /// How many seeds would likely show the gain of all ranks, if it and its spread are what they look like.
@@ -135,26 +140,52 @@ std::string unsound_sentence(const UnsoundRuns& unsound) {
 /// A rank that few trips pass rests on them alone.
 std::string few_trips_sentence(const EquipmentFacts& facts) {
     constexpr double few = 10.0;
-    std::map<std::size_t, double> few_trips;  // by rank
+    std::map<std::size_t, std::string> words;  // by rank
     for (const EquipCandidateFacts& candidate : facts.candidates) {
         const double trips = candidate.trips * static_cast<double>(facts.met.trips);
-        if (candidate.rank && trips < few) few_trips.emplace(*candidate.rank, trips);
+        if (candidate.rank && trips < few)
+            words[*candidate.rank] = fmt::format("#{}: {:.0f}", candidate.number, trips);
     }
-    if (few_trips.empty()) return "";
-    std::vector<std::string> words;
-    for (const auto& [rank, trips] : few_trips)
-        words.push_back(fmt::format("rank {}: {:.0f}", rank, trips));
-    return fmt::format("Few of the {} that decided pass them ({}); more --seeds tell.",
-                       counted(facts.met.trips, "trip"), fmt::join(words, ", "));
+    if (words.empty()) return "";
+    return fmt::format("Few of the {} that decided pass them ({}).", counted(facts.met.trips, "trip"),
+                       fmt::join(std::views::values(words), ", "));
 }
 
-/// What a further study sets to equip the ranks that are named; a line of its own can be copied.
-std::vector<std::string> setting_lines(const EquipmentFacts& facts) {
-    std::vector<std::string> signals = facts.equipped_today;
-    for (const std::size_t rank : telling_ranks(facts))
-        signals.push_back(fmt::format("#{}", facts.ranked[rank].number));
-    return {"For a study of them, by the numbers of the signals:",
-            "--set actuation.equipped=" + printable(fmt::format("{}", fmt::join(signals, ",")))};
+/// `Not chosen: #2, which gains 7.4 s alone, adds 0.4 [-0.5, 1.4] s beside #4.`, of those that gain more
+/// alone than one that was chosen.
+std::string passed_over_sentence(const EquipmentFacts& facts) {
+    constexpr std::size_t most_told = 3;
+    double least_s = std::numeric_limits<double>::infinity();
+    for (const EquipCandidateFacts& one : facts.candidates)
+        if (one.rank && one.gain) least_s = std::min(least_s, one.gain->mean);
+    std::vector<EquipCandidateFacts> passed_over;
+    for (const EquipCandidateFacts& one : facts.candidates)
+        if (!one.rank && one.later.ranks > 0 && one.gain && one.gain->mean > least_s)
+            passed_over.push_back(one);
+    std::ranges::stable_sort(passed_over, std::greater{},
+                             [](const EquipCandidateFacts& one) { return one.gain->mean; });
+    passed_over.resize(std::min(passed_over.size(), most_told));
+    const auto words = core::texts_of(passed_over, [&](const EquipCandidateFacts& one) {
+        return fmt::format("#{}, which gains {:.1f} s alone, adds {} s beside {}", one.number, one.gain->mean,
+                           estimate_or_dash(one.later.gain), hashed(first_numbers(facts, one.later.ranks)));
+    });
+    return words.empty() ? "" : fmt::format("Not chosen: {}.", fmt::join(words, "; "));
+}
+
+/// Why no number of seeds makes more of a map that has little to choose from.
+std::string small_map_sentence(const EquipmentFacts& facts) {
+    std::vector<std::string> why;
+    if (facts.ranked.size() + 1 >= facts.candidates.size())
+        why.push_back(fmt::format("the {} chosen are nearly all of its {} that EVs pass", facts.ranked.size(),
+                                  counted(facts.candidates.size(), "signal")));
+    if (2 * facts.met.trips_with_signals < facts.met.trips)
+        why.push_back(fmt::format("only {} of {} pass one", facts.met.trips_with_signals,
+                                  counted(facts.met.trips, "EV trip")));
+    if (why.empty()) return "";
+    return fmt::format(
+        "This map can hardly decide it: {}. What helps: the signals that the map lacks, your "
+        "stations, your calls, or a larger map.",
+        fmt::join(why, ", and "));
 }
 
 /// Where no EV was a step faster or slower, seeds of the same kind would not show more.
@@ -164,44 +195,43 @@ std::string no_effect_sentence(const EquipmentFacts& facts) {
                : "";
 }
 
+/// Numbers of the chosen signals of which it holds.
 template <class Holds>
-std::vector<std::size_t> ranks_where(const EquipmentFacts& facts, const Holds& holds) {
-    std::vector<std::size_t> ranks;
-    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank)
-        if (holds(facts.ranked[rank])) ranks.push_back(rank + 1);
-    return ranks;
+std::vector<std::size_t> numbers_where(const EquipmentFacts& facts, const Holds& holds) {
+    std::vector<std::size_t> numbers;
+    for (const EquippedSignal& signal : facts.ranked)
+        if (holds(signal)) numbers.push_back(signal.number);
+    return numbers;
 }
 
-/// Ranks that decided nothing for an EV of the fresh seeds: which signal has them is chance, but of a pair
-/// the other may have all of its gain.
+/// Signals that decided nothing for an EV of the fresh seeds: their places are chance, but of a pair the
+/// other may have all of its gain.
 std::string unchanged_sentence(const EquipmentFacts& facts) {
     if (is_exactly_none(facts.ranked.back().so_far)) return "";
-    const auto by_chance = ranks_where(facts, [&](const auto& one) { return is_chance(facts, one); });
-    const auto of_pairs = ranks_where(
-        facts, [&](const auto& one) { return is_exactly_none(one.gain) && is_of_pair(facts, one); });
+    const auto by_chance = numbers_where(facts, [&](const auto& one) { return is_chance(facts, one); });
+    const auto of_pairs = numbers_where(
+        facts, [&](const auto& one) { return is_exactly_none(one.gain) && pair_of(facts, one) != nullptr; });
     std::string text;
     if (!by_chance.empty())
-        text = fmt::format("Rank {} changed no trip of the fresh seeds: its place is chance. ",
-                           fmt::join(by_chance, ", "));
+        text = fmt::format("{} changed no trip of the fresh seeds: {} chance. ", hashed(by_chance),
+                           by_chance.size() == 1 ? "its place is" : "their places are");
     if (!of_pairs.empty())
-        text += fmt::format("Rank {} added nothing to the ranks before it in the fresh seeds. ",
-                            fmt::join(of_pairs, ", "));
+        text += fmt::format("{} added nothing to those before in the fresh seeds. ", hashed(of_pairs));
     if (!text.empty()) text.pop_back();
     return text;
 }
 
 std::string not_shown_sentence(const EquipmentFacts& facts) {
-    const auto ranks = ranks_where(facts, [&](const auto& one) {
-        return !is_shown(one.gain) && !is_exactly_none(one.gain) && !is_of_pair(facts, one);
+    const auto numbers = numbers_where(facts, [&](const EquippedSignal& one) {
+        return !is_shown_of(facts, one) && !is_exactly_none(one.gain);
     });
-    if (ranks.empty()) return "";
-    const std::string which = ranks.size() == facts.ranked.size()
-                                  ? "of any of them"
-                                  : fmt::format("of rank {}", fmt::join(ranks, ", "));
+    if (numbers.empty()) return "";
+    const std::string which =
+        numbers.size() == facts.ranked.size() && numbers.size() > 1 ? "any of them" : hashed(numbers);
     if (facts.replications < analysis::fewest_for_interval)
-        return fmt::format("Not shown: the gain {}; that takes {} seeds.", which,
+        return fmt::format("Not shown: what {} adds; that takes {} seeds.", which,
                            analysis::fewest_for_interval);
-    return fmt::format("Not shown: the gain {}. Chance could be all of it; more --seeds tell.", which);
+    return fmt::format("Not shown: what {} adds. Chance could be all of it; more --seeds tell.", which);
 }
 
 std::string end_sentence(const EquipmentFacts& facts) {
@@ -213,26 +243,89 @@ std::string end_sentence(const EquipmentFacts& facts) {
 
 std::string share_sentence(const EquipmentFacts& facts) {
     if (!is_shown(facts.all_gain)) return "The gain of all signals is not shown to be above 0.";
-    if (facts.ranked.empty()) return "";
+    if (facts.ranked.empty() || !detail::has_order(facts)) return "";
     if (const auto rank = rank_with_share(facts, great_share))
         return fmt::format("{} of {} bring {:.0f} % of the gain of all.", *rank,
                            counted(facts.signals, "signal"), great_share * 100.0);
     return fmt::format("These do not bring {:.0f} % of the gain of all.", great_share * 100.0);
 }
 
-/// What comes before the names of those that were chosen.
-std::string answer_of(const EquipmentFacts& facts) {
-    if (detail::has_order(facts)) return "Equip first";
-    const char* const why = most_are_held_up(facts.unsound) ? "locks hold up most fresh runs"
-                            : is_chance(facts, facts.ranked.front())
-                                ? "no gain is shown, and the first choice changed no trip"
-                                : "no gain is shown";
-    return fmt::format("These runs cannot tell which to equip first: {}. Chosen, in no order", why);
-}
-
 /// What gains count from.
 const char* start_of(const EquipmentFacts& facts) {
     return facts.equipped_today.empty() ? "no signal equipped" : "those equipped today";
+}
+
+/// ` (about 24 would likely)`: pairs that would show the gain of the first place, if it and its spread are
+/// what they look like.
+std::string pairs_words(const EquipmentFacts& facts) {
+    const EquipPairFacts* const pair = pair_of(facts, facts.ranked.front());
+    const analysis::MaybeEstimate& gain = pair != nullptr ? pair->both_gain : facts.ranked.front().gain;
+    if (analysis::shown_interval(gain) == nullptr || gain->mean <= 0.0 || gain->deviation <= 0.0) return "";
+    const double ranks = pair != nullptr ? 1.0 : static_cast<double>(facts.ranked.size());
+    const std::size_t pairs = analysis::replications_to_show(gain->deviation, gain->mean,
+                                                             1.0 - (1.0 - analysis::usual_level) / ranks);
+    if (pairs > analysis::most_equip_replications)
+        return fmt::format(" (more than {} would have to)", analysis::most_equip_replications);
+    return fmt::format(" (about {} would likely)", pairs);
+}
+
+/// `Equip first: 1) #4 Via Po / Via Roma; then, not shown: 2) #9 S5.`, numbered as the map and the table of
+/// ranks are; what changed no trip is left out.
+std::string order_headline(const EquipmentFacts& facts) {
+    std::string text = "Equip first";
+    bool are_shown = true;
+    const char* before = ": ";
+    for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank) {
+        const EquippedSignal& signal = facts.ranked[rank];
+        if (is_chance(facts, signal)) continue;
+        if (are_shown && !is_shown_of(facts, signal)) {
+            are_shown = false;
+            before = "; then, not shown: ";
+        }
+        text += fmt::format("{}{}) {}", before, rank + 1, numbered_name(signal));
+        before = ", ";
+    }
+    return text + ".";
+}
+
+/// Whether the headline tells what the chosen bring together.
+bool tells_sum(const EquipmentFacts& facts) {
+    return !detail::has_order(facts) && !most_are_held_up(facts.unsound) &&
+           is_shown(facts.ranked.back().so_far);
+}
+
+/// The answer in a sentence.
+std::string headline(const EquipmentFacts& facts) {
+    if (detail::has_order(facts)) return order_headline(facts);
+    if (most_are_held_up(facts.unsound)) return "No order is shown: locks hold up most fresh runs.";
+    const EquippedSignal& last = facts.ranked.back();
+    const std::size_t pairs = last.so_far ? last.so_far->n : 0;
+    if (tells_sum(facts))
+        return fmt::format(
+            "No order is shown: together the {} chosen bring {} s a trip; which of them first, "
+            "{} cannot tell{}.",
+            facts.ranked.size(), estimate_or_dash(last.so_far), counted(pairs, "pair"), pairs_words(facts));
+    return fmt::format(
+        "No gain is shown: {} cannot tell which to equip first{}.", counted(pairs, "pair"),
+        is_chance(facts, facts.ranked.front()) ? ", and the first choice changed no trip" : "");
+}
+
+/// Those that were chosen, by number, where the headline does not name them.
+std::string chosen_sentence(const EquipmentFacts& facts) {
+    if (detail::has_order(facts)) return "";
+    std::vector<EquippedSignal> chosen = facts.ranked;
+    std::ranges::sort(chosen, {}, &EquippedSignal::number);
+    return fmt::format("Chosen, in no order: {}.", fmt::join(core::texts_of(chosen, numbered_name), "; "));
+}
+
+std::string gain_sentence(const EquipmentFacts& facts) {
+    const EquippedSignal& last = facts.ranked.back();
+    if (tells_sum(facts))
+        return fmt::format("That counts from {}; {}.", start_of(facts), others_words(facts));
+    return fmt::format("Together, an EV needs {} s less a trip than with {} ({}), and {}.",
+                       estimate_or_dash(last.so_far),
+                       facts.equipped_today.empty() ? "none" : "those of today", shown_word(last.so_far),
+                       others_words(facts));
 }
 
 std::string left_out_sentence(std::size_t count, const char* why) {
@@ -244,7 +337,21 @@ std::string left_out_sentence(std::size_t count, const char* why) {
 namespace detail {
 
 bool has_order(const EquipmentFacts& facts) {
-    return !most_are_held_up(facts.unsound) && shows_any(facts);
+    return !most_are_held_up(facts.unsound) && !facts.ranked.empty() &&
+           is_shown_of(facts, facts.ranked.front());
+}
+
+bool others_save(const EquipmentFacts& facts) {
+    return !facts.ranked.empty() && analysis::mean_of(facts.ranked.back().others).value_or(0.0) < 0.0;
+}
+
+analysis::MaybeEstimate others_cell(const EquipmentFacts& facts, const analysis::MaybeEstimate& loss) {
+    return others_save(facts) ? negated(loss) : loss;
+}
+
+analysis::MaybeEstimate without_interval(analysis::MaybeEstimate value) {
+    if (value) value->interval.reset();
+    return value;
 }
 
 std::vector<std::string> findings_of(const EquipmentFacts& facts) {
@@ -255,25 +362,33 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts) {
         sentences.push_back(fmt::format("No signal to equip: in the mean of the runs none of the {} gains.",
                                         counted(facts.candidates.size(), "candidate")));
     } else {
-        const EquippedSignal& last = facts.ranked.back();
-        sentences.push_back(fmt::format("{}: {}.", answer_of(facts), names_of(facts)));
-        sentences.push_back(fmt::format(
-            "Together, an EV needs {} s less a trip than with {} ({}), and the others {}.",
-            estimate_or_dash(last.so_far), facts.equipped_today.empty() ? "none" : "those of today",
-            shown_word(last.so_far), others_words(last.others)));
-        sentences.push_back(no_effect_sentence(facts));
-        sentences.push_back(together_sentence(facts));
-        sentences.push_back(not_shown_sentence(facts));
-        sentences.push_back(unchanged_sentence(facts));
-        sentences.push_back(few_trips_sentence(facts));
-        sentences.push_back(seeds_sentence(facts));
+        sentences = {headline(facts),
+                     has_order(facts) ? "" : small_map_sentence(facts),
+                     chosen_sentence(facts),
+                     gain_sentence(facts),
+                     no_effect_sentence(facts),
+                     together_sentence(facts),
+                     not_shown_sentence(facts),
+                     unchanged_sentence(facts),
+                     passed_over_sentence(facts),
+                     few_trips_sentence(facts),
+                     seeds_sentence(facts)};
     }
     sentences.push_back(unsound_sentence(facts.unsound));
     sentences.push_back(end_sentence(facts));
     sentences.push_back(share_sentence(facts));
-    if (!facts.ranked.empty()) std::ranges::move(setting_lines(facts), std::back_inserter(sentences));
     std::erase(sentences, "");
     return sentences;
+}
+
+std::string study_command(const EquipmentFacts& facts) {
+    if (facts.ranked.empty() || facts.study.empty()) return "";
+    std::vector<std::string> signals = facts.equipped_today;
+    for (const EquippedSignal& signal : facts.ranked)
+        if (!is_chance(facts, signal)) signals.push_back(fmt::format("#{}", signal.number));
+    std::vector<std::string> words = facts.study;
+    words.insert(words.end(), {"--set", fmt::format("actuation.equipped={}", fmt::join(signals, ","))});
+    return printable(core::shell_text(words));
 }
 
 std::vector<std::string> circumstances_of(const EquipmentFacts& facts) {
@@ -299,24 +414,25 @@ std::vector<std::string> circumstances_of(const EquipmentFacts& facts) {
 }
 
 std::string candidate_legend(const EquipmentFacts& facts) {
+    const bool left_race = std::ranges::any_of(facts.candidates, &EquipCandidateFacts::left_race);
     return fmt::format(
-        "Each candidate alone, seed {}. EVs: share that pass it. Gain: less restricted mean travel time of "
-        "the EVs, paired by seed; "
-        "[95 %, all rows together (Bonferroni), from {} pairs on]. One with fewer pairs was shown to gain "
-        "less than another.",
-        facts.seed, analysis::fewest_for_interval);
+        "Each candidate alone, seed {}. Trips: share of the EV trips that pass it. Gain: less restricted "
+        "mean "
+        "travel time of the EVs, paired by seed [95 %, all rows together (Bonferroni), from {} pairs on].{}",
+        facts.seed, analysis::fewest_for_interval,
+        left_race ? " One with fewer seeds was shown to gain less than another." : "");
 }
 
 std::string pair_legend() {
     return "Neighbours on the ways of the EVs, tried together in the same race: half of what both gain.";
 }
 
-std::string ranked_legend(const EquipmentFacts& facts) {
+std::string ranks_legend(const EquipmentFacts& facts) {
     return fmt::format(
-        "In the order of choice. Gains are of fresh runs, seed {}, so that the choice does not flatter "
-        "them: over the ranks before [95 %, all ranks together (Bonferroni)], and so far, over {} [95 %, "
-        "each]. %: of the gain of all signals.",
-        facts.fresh_seed, start_of(facts));
+        "{}Gain: over the rows before, in fresh runs, seed {}, so that the choice does not flatter it [95 %, "
+        "all rows together (Bonferroni)]; of several signals, over {} [95 %]. %: of the gain of all.",
+        has_order(facts) ? "" : "Steps of the search; no order is shown. ", facts.fresh_seed,
+        start_of(facts));
 }
 
 }  // namespace detail

@@ -11,6 +11,7 @@
 
 #include "core/labels.hpp"
 #include "core/markup.hpp"
+#include "core/terminal.hpp"
 #include "scenario/signal_sheet.hpp"
 
 namespace clearway::scenario {
@@ -131,7 +132,8 @@ std::string opened(const Frame& frame, const std::string& title) {
         "<title>{}</title>\n<style>.network polyline{{fill:none;stroke:currentColor;stroke-linejoin:round}}"
         ".network .lane{{opacity:.75}}.network .junction{{opacity:.3}}.network .signal{{fill:#d55e00}}"
         ".network .bar{{stroke:currentColor;stroke-width:2}}.network text{{font:12px "
-        "sans-serif;fill:currentColor}}</style>\n",
+        "sans-serif;fill:currentColor}}"
+        ".network .name{{paint-order:stroke;stroke:#fff;stroke-width:3px}}</style>\n",
         picture_width, frame.height, core::escaped(title));
 }
 
@@ -144,7 +146,7 @@ std::string roads_of(const roads::Network& network, const Frame& frame) {
 }
 
 /// Names that are longer would lie upon something nearly always; units of the picture.
-constexpr std::size_t longest_name = 14;
+constexpr std::size_t longest_name = 28;
 constexpr double width_of_letter = 7.0;
 constexpr double height_of_text = 12.0;
 
@@ -180,18 +182,25 @@ SignalMarks marks_of(const roads::Network& network, const Frame& frame) {
     return marks;
 }
 
+/// Its first street that fits, or its id; empty if that is too long.
+std::string short_name(const SignalSheet& sheet) {
+    for (const SignalApproach& approach : sheet.approaches)
+        if (!approach.street.empty() && core::characters_in(approach.street) <= longest_name)
+            return approach.street;
+    return sheet.signal.size() <= longest_name ? sheet.signal : "";
+}
+
 /// Where the name of a signal lies upon no number and no name in `taken`; nothing if there is no such place.
-std::optional<NameBox> room_for_name(const SignalMarks& marks, std::size_t row,
+std::optional<NameBox> room_for_name(const SignalMarks& marks, std::size_t row, std::size_t letters,
                                      const std::vector<NameBox>& taken) {
-    const std::string& name = marks.sheets[row].signal;
-    // Among signals that lie close together a name would seem to be that of a neighbour.
-    if (marks.spots[row] != marks.places[row] || name.size() > longest_name) return std::nullopt;
-    const double width = width_of_letter * static_cast<double>(name.size());
-    for (const double down : {-8.0, 18.0}) {
-        for (const double right : {12.0, -12.0 - width}) {
+    const double width = width_of_letter * static_cast<double>(letters);
+    for (const double right : {12.0, -12.0 - width}) {
+        for (const double down : {4.0, -8.0, 18.0}) {
             const NameBox box{marks.spots[row].x + right, marks.spots[row].y + down, width};
             const auto meets = [&](const auto& other) { return box.meets(other); };
-            if (std::ranges::none_of(marks.spots, meets) && std::ranges::none_of(taken, meets)) return box;
+            const bool is_inside = box.left >= 0.0 && box.left + width <= picture_width;
+            if (is_inside && std::ranges::none_of(marks.spots, meets) && std::ranges::none_of(taken, meets))
+                return box;
         }
     }
     return std::nullopt;
@@ -205,8 +214,9 @@ void draw_labels(const roads::Network& network, const Frame& frame, std::string&
     for (std::size_t row = 0; row < marks.sheets.size(); ++row) {
         const core::Spot& place = marks.places[row];
         const core::Spot& spot = marks.spots[row];
-        const std::string name = core::escaped(marks.sheets[row].signal);
-        fmt::format_to(out, "<g fill=\"#000\"><title>{}: {}</title>", row + 1, name);
+        const std::string number = fmt::format("#{}", row + 1);
+        fmt::format_to(out, "<g fill=\"#000\"><title>{}: {}</title>", number,
+                       core::escaped(marks.sheets[row].signal));
         if (spot != place)
             fmt::format_to(out,
                            "<path d=\"M{0:.1f} {1:.1f}L{2:.1f} {3:.1f}\" stroke=\"#d55e00\"/>"
@@ -215,10 +225,14 @@ void draw_labels(const roads::Network& network, const Frame& frame, std::string&
         fmt::format_to(out,
                        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"{2:g}\" fill=\"#d55e00\"/>"
                        "<text x=\"{0:.1f}\" y=\"{3:.1f}\" text-anchor=\"middle\" "
-                       "style=\"font-size:9px;fill:#fff\">{4}</text>",
-                       spot.x, spot.y, core::disc_radius, spot.y + 3.5, row + 1);
-        if (const auto box = room_for_name(marks, row, names)) {
-            fmt::format_to(out, "<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", box->left, box->bottom, name);
+                       "style=\"font-size:{4:g}px;fill:#fff\">{5}</text>",
+                       spot.x, spot.y, core::disc_radius, spot.y + 3.5, 0.85 * core::disc_text_size(number),
+                       number);
+        const std::string name = short_name(marks.sheets[row]);
+        const std::size_t letters = core::characters_in(name);
+        if (const auto box = room_for_name(marks, row, letters, names); box && letters > 0) {
+            fmt::format_to(out, "<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", box->left,
+                           box->bottom, core::escaped(name));
             names.push_back(*box);
         }
         svg += "</g>\n";

@@ -17,7 +17,7 @@ std::string network_picture(const roads::Network& network, const std::string& ti
 inline constexpr std::string_view picture_mark = "\" class=\"network\">\n<title>";
 
 /// The same on white paper, with the number of each signal (from 1, in the order of the network) and, where
-/// there is room, its name.
+/// there is room, a street or its id.
 std::string signals_picture(const roads::Network& network, const std::string& title,
                             const std::string& credit);
 

@@ -86,6 +86,10 @@ TEST(Equipment, IsTriedAgainInTheLazySearchUntilNoOlderGainIsGreater) {
     Crossroads roads(4, {{{0}, 9.0}, {{1}, 8.0}, {{2}, 5.0}, {{3}, 3.0}, {{0, 1}, 10.0}, {{0, 2}, 13.0}});
     EXPECT_THAT(chosen(roads.plan(2)), ElementsAre(0, 2));
     EXPECT_EQ(roads.calls().size(), 3U);
+    const EquipPlan plan = roads.plan(2);
+    EXPECT_EQ(plan.candidates[1].later.ranks, 1U) << "beside 0";
+    EXPECT_DOUBLE_EQ(plan.candidates[1].later.gain->mean, 1.0);
+    EXPECT_EQ(plan.candidates[3].later.ranks, 0U) << "3 s were too few to try";
 }
 
 TEST(Equipment, IsFoundByTheThoroughSearchAloneWhereASignalPaysOnlyWithAnother) {

@@ -31,9 +31,9 @@ TEST_F(EquipLook, tells_the_candidates_that_gained_most) {
                     .replications = 2};
     const std::string words = interim_words(look, signals_);
     EXPECT_THAT(words, AllOf(HasSubstr("no ranking yet; the last complete look, 2 seeds. Gains, s"),
-                             HasSubstr("  No. 4 High Street: 2.0"), HasSubstr("  No. 8 Low Road: 10.0"),
+                             HasSubstr("  #4 High Street: 2.0"), HasSubstr("  #8 Low Road: 10.0"),
                              Not(HasSubstr("chosen so far"))));
-    EXPECT_LT(words.find("No. 8"), words.find("No. 4")) << "the greatest gain first, pairs left out";
+    EXPECT_LT(words.find("#8"), words.find("#4")) << "the greatest gain first, pairs left out";
     EXPECT_THAT(interim_words({}, signals_), HasSubstr("no gain can be told yet"));
 }
 
@@ -43,8 +43,8 @@ TEST_F(EquipLook, tells_what_those_gain_that_are_chosen) {
                     .values = {{80.0, 82.0}, {79.0, 81.0}},
                     .replications = 2};
     EXPECT_THAT(interim_words(look, signals_),
-                AllOf(HasSubstr("beside those chosen so far, No. 8 Low Road, which gain 10.0"),
-                      HasSubstr("  No. 4 High Street: 1.0")));
+                AllOf(HasSubstr("beside those chosen so far, #8 Low Road, which gain 10.0"),
+                      HasSubstr("  #4 High Street: 1.0")));
 }
 
 TEST_F(EquipLook, tells_what_was_chosen_where_fresh_seeds_are_interrupted) {
@@ -54,15 +54,15 @@ TEST_F(EquipLook, tells_what_was_chosen_where_fresh_seeds_are_interrupted) {
     plan.steps.back().gain = gain;
     plan.candidates.resize(2);
     plan.candidates[1].gain = gain;
-    EXPECT_THAT(chosen_words(plan, signals_),
-                AllOf(HasSubstr("the search has ended"), HasSubstr("  1) No. 8 Low Road: 10.0, not shown\n"),
-                      HasSubstr("together (Bonferroni):\n  No. 8 Low Road: 10.0"),
-                      HasSubstr("  No. 4 High Street: ")));
+    EXPECT_THAT(
+        chosen_words(plan, signals_),
+        AllOf(HasSubstr("the search has ended"), HasSubstr("  1) #8 Low Road: 10.0, not shown\n"),
+              HasSubstr("together (Bonferroni):\n  #8 Low Road: 10.0"), HasSubstr("  #4 High Street: ")));
     plan.steps.back().gain = less_time({90.0, 92.0, 91.0, 89.0, 93.0}, {80.0, 82.5, 81.0, 79.0, 83.0});
     plan.steps.back().partner = 0;
     EXPECT_THAT(
         chosen_words(plan, signals_),
-        AllOf(HasSubstr("  1) No. 8 Low Road with No. 4, half of what both gain:"), HasSubstr("], shown\n")));
+        AllOf(HasSubstr("  1) #8 Low Road with #4, half of what both gain:"), HasSubstr("], shown\n")));
     plan.steps.clear();
     EXPECT_THAT(chosen_words(plan, signals_), HasSubstr("It chose no signal."));
 }

@@ -211,9 +211,8 @@ TEST_F(EquipTest, interrupted_it_prints_what_the_last_look_knew) {
     ::kill(child.pid, SIGINT);
     const Ended interrupted = finish(child);
     EXPECT_EQ(interrupted.code, 130);
-    EXPECT_THAT(interrupted.err,
-                AllOf(HasSubstr("no ranking yet; the last complete look, "), HasSubstr("  No. 1"),
-                      HasSubstr("  No. 2"), HasSubstr("To continue:")));
+    EXPECT_THAT(interrupted.err, AllOf(HasSubstr("no ranking yet; the last complete look, "),
+                                       HasSubstr("  #1"), HasSubstr("  #2"), HasSubstr("To continue:")));
 }
 
 TEST_F(EquipTest, tries_only_the_signals_that_most_emergency_vehicles_pass_where_that_is_wanted) {

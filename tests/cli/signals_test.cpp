@@ -37,7 +37,7 @@ TEST_F(SignalsTest, are_listed_with_their_phases_and_what_their_programs_show) {
 
 TEST_F(SignalsTest, are_drawn_with_their_numbers) {
     ASSERT_EQ(clearway({"scenario", "signals", "./crossings", "--svg", "map.svg"}).code, 0);
-    EXPECT_THAT(read("map.svg"), AllOf(HasSubstr("Two crossings"), HasSubstr(">2</text>")));
+    EXPECT_THAT(read("map.svg"), AllOf(HasSubstr("Two crossings"), HasSubstr(">#2</text>")));
     EXPECT_EQ(clearway({"scenario", "signals", "./crossings", "--svg", "map.svg"}).code, 0) << "its own map";
     write("map.svg", "<svg>mine</svg>");
     const Ended other = clearway({"scenario", "signals", "./crossings", "--svg", "map.svg"});

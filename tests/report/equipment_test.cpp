@@ -29,6 +29,7 @@ EquipmentFacts two_of_twelve() {
     facts.title = "A town";
     facts.condition = "corridor";
     facts.command = "clearway equip town <&>";
+    facts.study = {"clearway", "run", "town"};
     facts.seed = 7;
     facts.fresh_seed = 8;
     facts.replications = 10;
@@ -88,19 +89,49 @@ TEST(Equipment, HasARowForEachCandidateAndRankInEightyColumns) {
     EXPECT_THAT(text, HasSubstr("31.0 [27.0, 35.0]  shown"));
     EXPECT_THAT(text, HasSubstr("1.0 [-1.0, 3.0]  not shown      5"));
     EXPECT_THAT(text, HasSubstr("30.0 [26.0, 34.0]  shown"));
-    EXPECT_THAT(text, HasSubstr("12.0 [-1.0, 25.0]  not shown  42.0 [38.0, 46.0]   84"));
+    EXPECT_THAT(text, HasSubstr("12.0 [-1.0, 25.0]  not shown       42.0   84"));
+    EXPECT_THAT(text, HasSubstr("42.0 [38.0, 46.0]  shown              -   84  1.0 [0.6, 1.4]"))
+        << "of both, with the cost to the others";
+    EXPECT_EQ(count_of(text, "42.0 [38.0, 46.0]"), 2U) << "in the row of both and in the answer";
     EXPECT_LT(text.find("31.0 ["), text.find("1.0 [-1.0, 3.0]")) << "the greatest gain first";
     for (const std::string& line : lines_of(text))
         EXPECT_LE(line.size(), 80U) << line;
 }
 
+TEST(Equipment, HasNamesInFullBelowTheirRowsWhereALineHasNoRoom) {
+    const std::string text = equipment_text(two_of_twelve());
+    EXPECT_THAT(text, HasSubstr("\n      Gate <Road> / High Street\n"));
+    EXPECT_THAT(text, HasSubstr("\n      south of the old town's gate\n"));
+    EquipmentFacts wide = two_of_twelve();
+    for (EquippedSignal& signal : wide.ranked)
+        signal.gain = signal.so_far = signal.others = about(1000.0, 12345.0);
+    for (const std::string& line : lines_of(equipment_text(wide)))
+        EXPECT_LE(line.size(), 80U) << line;
+    EXPECT_THAT(equipment_text(wide), Not(HasSubstr("Others lose, s"))) << "no room for it";
+}
+
+TEST(Equipment, TellsCandidatesApartFromRanksByAHash) {
+    EXPECT_THAT(equipment_text(two_of_twelve()), testing::ContainsRegex("\n +1 +#4 +30\\.0 \\["));
+}
+
 TEST(Equipment, SaysThatTheOthersSaveTimeWhereThatIsShown) {
     EquipmentFacts facts = two_of_twelve();
+    EXPECT_THAT(equipment_text(facts), AllOf(HasSubstr("Others lose, s"), Not(HasSubstr("Others save"))));
     EXPECT_THAT(flat_text(facts), HasSubstr("the others lose 1.0 [0.6, 1.4] s each (shown)"));
     facts.ranked.back().others = about(-3.0, 1.0);
     EXPECT_THAT(flat_text(facts), HasSubstr("the others save 3.0 [2.0, 4.0] s each (shown)"));
     facts.ranked.back().others = about(-3.0, 4.0);
     EXPECT_THAT(flat_text(facts), HasSubstr("the others save 3.0 [-1.0, 7.0] s each (not shown)"));
+    EXPECT_THAT(equipment_text(facts),
+                AllOf(HasSubstr("Others save, s"), Not(HasSubstr("Others lose")),
+                      HasSubstr("  3.0 [-1.0, 7.0]"), HasSubstr("  -0.5 [-0.7, -0.3]")));
+    EXPECT_DOUBLE_EQ(nlohmann::json::parse(equipment_json(facts))
+                         .at("ranked")
+                         .at(1)
+                         .at("others_time_loss_s")
+                         .at("mean")
+                         .get<double>(),
+                     -3.0);
 }
 
 TEST(Equipment, HasPairsThatWereTriedTogether) {
@@ -109,16 +140,22 @@ TEST(Equipment, HasPairsThatWereTriedTogether) {
     facts.pairs = {{{1, 4}, about(2.0, 3.0), true, false},
                    {{4, 9}, about(21.0, 4.0), false, true, about(42.0, 5.0)}};
     const std::string text = flat_text(facts);
-    EXPECT_THAT(
-        text, AllOf(HasSubstr("21.0 [17.0, 25.0]  shown"),
-                    HasSubstr("Chosen together: rank 1 with rank 2, which gain 42.0 [37.0, 47.0] s (shown)."),
-                    Not(HasSubstr("Not shown:"))));
+    EXPECT_THAT(text,
+                AllOf(HasSubstr("21.0 [17.0, 25.0]  shown"),
+                      HasSubstr("Chosen as a pair: #4 and #9, which bring 42.0 [37.0, 47.0] s (shown)."),
+                      Not(HasSubstr("Not shown:"))));
     EXPECT_LT(text.find("21.0 [17"), text.find("2.0 [-1.0, 5.0]")) << "the greatest gain first";
     EXPECT_THAT(text, Not(HasSubstr("added nothing")));
     EquipmentFacts one_of_both = facts;
     one_of_both.ranked[1].gain = Estimate{10, 0.0, 0.0, Interval{0.0, 0.0}};
-    EXPECT_THAT(flat_text(one_of_both),
-                HasSubstr("Rank 2 added nothing to the ranks before it in the fresh seeds."));
+    EXPECT_THAT(flat_text(one_of_both), HasSubstr("#9 added nothing to those before in the fresh seeds."));
+    EquipmentFacts later = facts;
+    later.ranked.insert(later.ranked.begin(),
+                        {2, "first", "", about(9.0, 1.0), about(9.0, 1.0), about(0.0, 1.0), about(9.0, 1.0)});
+    later.pairs[1].both_gain = about(2.4, 2.5);
+    EXPECT_THAT(flat_text(later),
+                AllOf(HasSubstr("#4 and #9, which add 2.4 [-0.1, 4.9] s to #2 (not shown)."),
+                      HasSubstr("Equip first: 1) #2 first, 2) #4 Gate")));
     EXPECT_EQ(
         pairs_csv(facts),
         "number,with,gain_a_signal_s,gain_a_signal_low_s,gain_a_signal_high_s,shown,pairs,left_race,chosen\n"
@@ -131,13 +168,14 @@ TEST(Equipment, HasPairsThatWereTriedTogether) {
 
 TEST(Equipment, EndsWithTheAnswer) {
     const std::string text = flat_text(two_of_twelve());
-    const std::string answer =
-        text.substr(text.find("Equip first: 1) Gate <Road> / High Street, 2) south of"));
+    const std::string answer = text.substr(
+        text.find("Equip first: 1) #4 Gate <Road> / High Street; then, not shown: 2) #9 south of"));
     EXPECT_THAT(answer, HasSubstr("42.0 [38.0, 46.0]"));
-    EXPECT_THAT(text, HasSubstr("Not shown: the gain of rank 2"));
-    EXPECT_THAT(equipment_text(two_of_twelve()), testing::EndsWith(":\n--set actuation.equipped=#4,#9\n"));
+    EXPECT_THAT(text, HasSubstr("Not shown: what #9 adds"));
+    EXPECT_THAT(equipment_text(two_of_twelve()),
+                testing::EndsWith(":\nclearway run town --set 'actuation.equipped=#4,#9'\n"));
     EXPECT_THAT(text, HasSubstr("Stopped at 2 of 5"));
-    EXPECT_THAT(text, testing::ContainsRegex("- +- +all signals")) << "no rank 12";
+    EXPECT_THAT(text, testing::ContainsRegex("- +- +50\\.0 .* all signals")) << "no rank 12";
     EXPECT_LE(answer.size(), 8U * 80U) << "eight lines at the end of a terminal";
 }
 
@@ -145,7 +183,7 @@ TEST(Equipment, SaysWhatItsFreshRunsAreWorthAndHowFewTripsDecided) {
     EquipmentFacts facts = two_of_twelve();
     EXPECT_THAT(flat_text(facts),
                 AllOf(Not(HasSubstr("locked each other")),
-                      HasSubstr("Few of the 8 trips that decided pass them (rank 1: 4, rank 2: 2)")));
+                      HasSubstr("Few of the 8 trips that decided pass them (#4: 4, #9: 2)")));
     facts.unsound = {30, 4, 2, 1};
     EXPECT_THAT(
         flat_text(facts),
@@ -159,22 +197,21 @@ TEST(Equipment, SaysWhatItsFreshRunsAreWorthAndHowFewTripsDecided) {
     facts.met.trips = 80;
     EXPECT_THAT(flat_text(facts), AllOf(Not(HasSubstr("Few of the")), HasSubstr("Equip first: 1)")));
     facts.unsound.held_up = 16;
-    EXPECT_THAT(
-        flat_text(facts),
-        AllOf(HasSubstr("cannot tell which to equip first: locks hold up most fresh runs. Chosen, in no "
-                        "order: Gate <Road> / High Street; south of"),
-              Not(HasSubstr("Equip first"))));
+    EXPECT_THAT(flat_text(facts),
+                AllOf(HasSubstr("No order is shown: locks hold up most fresh runs."),
+                      HasSubstr("Chosen, in no order: #4 Gate <Road> / High Street; #9 south of"),
+                      Not(HasSubstr("Equip first"))));
 }
 
 TEST(Equipment, SaysWhichRanksChangedNothingAndWhosePrograms) {
     EquipmentFacts facts = two_of_twelve();
-    EXPECT_THAT(flat_text(facts), AllOf(Not(HasSubstr("changed no trip")), HasSubstr(", 2) ")));
+    EXPECT_THAT(flat_text(facts), AllOf(Not(HasSubstr("changed no trip")), HasSubstr(" 2) #9")));
     facts.ranked[1].gain = Estimate{10, 0.0, 0.0, Interval{0.0, 0.0}};
     facts.assumptions = "Simulated: random trips of 7 vehicles.";
     EXPECT_THAT(flat_text(facts),
-                AllOf(HasSubstr("Rank 2 changed no trip of the fresh seeds: its place is chance."),
-                      HasSubstr("Simulated: random trips of 7 vehicles."), Not(HasSubstr(", 2) ")),
-                      Not(HasSubstr("Not shown: the gain of rank 2"))));
+                AllOf(HasSubstr("#9 changed no trip of the fresh seeds: its place is chance."),
+                      HasSubstr("Simulated: random trips of 7 vehicles."), Not(HasSubstr(" 2) ")),
+                      Not(HasSubstr("Not shown: what #9 adds"))));
     EXPECT_EQ(programs_words("from net.net.xml"), "");
 }
 
@@ -184,8 +221,9 @@ TEST(Equipment, NamesNoBestWhereTheFirstRankIsChance) {
     facts.ranked[1].gain = facts.ranked[1].so_far = about(3.0, 6.0);
     EXPECT_THAT(
         flat_text(facts),
-        AllOf(HasSubstr("no gain is shown, and the first choice changed no trip. Chosen, in no order: Gate"),
-              HasSubstr("Rank 1 changed no trip")));
+        AllOf(HasSubstr("No gain is shown: 10 pairs cannot tell which to equip first, and the first choice "
+                        "changed no trip."),
+              HasSubstr("Chosen, in no order: #4 Gate"), HasSubstr("#4 changed no trip")));
 }
 
 TEST(Equipment, NamesNoOrderWhereNothingIsShown) {
@@ -197,9 +235,10 @@ TEST(Equipment, NamesNoOrderWhereNothingIsShown) {
     facts.ranked[1].so_far->deviation = 9.0;
     EXPECT_THAT(
         flat_text(facts),
-        AllOf(HasSubstr("These runs cannot tell which to equip first: no gain is shown. Chosen, in no order: "
-                        "Gate <Road> / High"),
-              Not(HasSubstr("Equip first")),
+        AllOf(HasSubstr("No gain is shown: 10 pairs cannot tell which to equip first."),
+              HasSubstr("Chosen, in no order: #4 Gate <Road> / High"),
+              HasSubstr("Not shown: what any of them adds."), Not(HasSubstr("Equip first")),
+              Not(HasSubstr("1) ")), testing::ContainsRegex("Step +Signal"), Not(HasSubstr("bring 80 %")),
               HasSubstr("About 73 seeds would likely (80 %) show the gain of all")));
     facts.ranked[1].so_far->mean = 0.1;
     EXPECT_THAT(flat_text(facts), HasSubstr("It would take more than 1000 seeds to show so small a gain"));
@@ -208,6 +247,75 @@ TEST(Equipment, NamesNoOrderWhereNothingIsShown) {
     EXPECT_THAT(flat_text(facts), HasSubstr("In these runs no trip of an EV was changed"));
     facts.ranked[1].so_far = about(-1.0, 6.0);
     EXPECT_THAT(flat_text(facts), HasSubstr("Their mean is no gain."));
+}
+
+/// What two bring together is shown, what the first brings is not.
+EquipmentFacts sum_without_order() {
+    EquipmentFacts facts = two_of_twelve();
+    facts.ranked[0].gain = facts.ranked[0].so_far = about(6.0, 8.0);
+    facts.ranked[0].gain->deviation = 10.0;
+    facts.ranked[1].gain = about(2.0, 3.0);
+    facts.ranked[1].so_far = about(8.0, 7.0);
+    return facts;
+}
+
+TEST(Equipment, NamesNoOrderWhereOnlyTheSumIsShown) {
+    const EquipmentFacts facts = sum_without_order();
+    // t(n - 1) at 1 - 0.05 / 2 ranks and 80 % times 10 s / sqrt(n): 5.99 s for 29 pairs, 6.10 s for 28.
+    const std::string headline =
+        "No order is shown: together the 2 chosen bring 8.0 [1.0, 15.0] s a trip; which of them first, 10 "
+        "pairs cannot tell (about 29 would likely).";
+    EXPECT_THAT(flat_text(facts), AllOf(HasSubstr(headline), Not(HasSubstr("Equip first")),
+                                        HasSubstr("That counts from no signal equipped; the others lose")));
+    const auto json = nlohmann::json::parse(equipment_json(facts));
+    EXPECT_EQ(json.at("headline"), headline);
+    EXPECT_FALSE(json.at("order_shown").get<bool>());
+    EXPECT_TRUE(json.at("rank_with_80_percent").is_null());
+    EXPECT_TRUE(nlohmann::json::parse(equipment_json(two_of_twelve())).at("order_shown").get<bool>());
+    std::ostringstream page;
+    write_equipment_page(facts, page);
+    EXPECT_THAT(page.str(),
+                AllOf(HasSubstr("<p class=\"headline\">No order is shown"), Not(HasSubstr("Equip first"))));
+    EquipmentFacts drawn = facts;
+    drawn.roads = three_roads();
+    EXPECT_THAT(equipment_map(drawn), HasSubstr(">No order is shown: together"));
+    EXPECT_THAT(equipment_curve(drawn),
+                AllOf(HasSubstr(">No order is shown: together"), Not(HasSubstr("the first signals"))));
+    EXPECT_THAT(equipment_curve(two_of_twelve()), HasSubstr("the first signals"));
+}
+
+TEST(Equipment, SaysWhatASmallMapCannotDecide) {
+    EquipmentFacts facts = sum_without_order();
+    EXPECT_THAT(
+        flat_text(facts),
+        HasSubstr("This map can hardly decide it: the 2 chosen are nearly all of its 3 signals that EVs "
+                  "pass. What helps:"));
+    facts.met = {60, 9, 25};
+    EXPECT_THAT(flat_text(facts), HasSubstr("and only 9 of 60 EV trips pass one. What helps:"));
+    facts.candidates.push_back(facts.candidates.front());
+    facts.met = {8, 5, 15};
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("This map can hardly")))
+        << "two of four, most trips pass one";
+    EXPECT_THAT(flat_text(two_of_twelve()), Not(HasSubstr("This map can hardly"))) << "it has decided";
+}
+
+TEST(Equipment, SaysWhyASignalWithMoreGainAloneWasNotChosen) {
+    EquipmentFacts facts = two_of_twelve();
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("Not chosen")));
+    facts.candidates[0].gain = about(20.0, 3.0);
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("Not chosen"))) << "never tried beside another";
+    facts.candidates[0].later = {1, about(0.4, 1.0)};
+    EXPECT_THAT(flat_text(facts),
+                HasSubstr("Not chosen: #1, which gains 20.0 s alone, adds 0.4 [-0.6, 1.4] s beside #4."));
+    facts.candidates[0].gain = about(11.0, 3.0);
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("Not chosen"))) << "less than each that was chosen";
+}
+
+TEST(Equipment, ExplainsFewerSeedsOnlyWhereARowHasThem) {
+    EquipmentFacts facts = two_of_twelve();
+    EXPECT_THAT(flat_text(facts), HasSubstr("One with fewer seeds was shown to gain less than another."));
+    facts.candidates[0].left_race = false;
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("One with fewer seeds")));
 }
 
 TEST(Equipment, OpensWithHowManyTripsMeetSignals) {
@@ -247,6 +355,7 @@ TEST(Equipment, SaysThatTheBudgetIsMoreThanThereAreSignals) {
 TEST(Equipment, IsShownNowhereWhereNoCandidateGains) {
     EquipmentFacts facts = two_of_twelve();
     facts.ranked.clear();
+    facts.all_gain = about(0.0, 0.0);
     for (EquipCandidateFacts& one : facts.candidates)
         one = {one.number, one.signal, one.streets, one.trips, about(0.0, 0.0), false, std::nullopt};
     const std::string text = flat_text(facts);
@@ -360,7 +469,10 @@ TEST(Equipment, IsMappedWithCandidatesAndChosenDrawnApart) {
     EXPECT_THAT(equipment_map(facts), testing::IsEmpty()) << "no roads, no map";
     facts.roads = three_roads();
     const std::string svg = equipment_map(facts);
-    EXPECT_EQ(count_of(svg, "<circle class=\"held\""), 2U) << "west, and the legend";
+    EXPECT_EQ(count_of(svg, "<circle class=\"spare\""), 2U) << "west, and the legend";
+    EXPECT_EQ(count_of(svg, ">#1</text>"), 2U) << "a signal has a hash, a rank has none";
+    EXPECT_EQ(count_of(svg, ">1</text>"), 2U) << "rank 1, and its example in the legend";
+    EXPECT_THAT(svg, HasSubstr("chosen, gain shown (rank 1 is #4)"));
     EXPECT_EQ(count_of(svg, "<circle class=\"tick\""), 2U) << "east, and the legend";
     EXPECT_EQ(count_of(svg, "<circle class=\"dot better\""), 2U) << "north, and the legend";
     EXPECT_THAT(svg,
@@ -370,6 +482,10 @@ TEST(Equipment, IsMappedWithCandidatesAndChosenDrawnApart) {
     facts.roads->stations.clear();
     facts.ranked[0].gain = about(30.0, 31.0);
     EXPECT_EQ(count_of(equipment_map(facts), "<circle class=\"station\""), 2U) << "north is not shown";
+    for (std::size_t number = 20; number < 50; ++number)
+        facts.candidates.push_back(
+            {number, std::to_string(number), "", 0.1, about(1.0, 2.0), true, std::nullopt});
+    EXPECT_EQ(count_of(equipment_map(facts), "<circle class=\"held\""), 2U) << "no room for so many numbers";
 }
 
 TEST(Equipment, NumbersTheMapAsTheTablesWhereThereIsNoOrder) {
@@ -380,21 +496,20 @@ TEST(Equipment, NumbersTheMapAsTheTablesWhereThereIsNoOrder) {
         write_equipment_page(facts, page);
         return page.str();
     };
-    EXPECT_THAT(page_of(), HasSubstr("Discs bear the order: 1 is #4, 2 is #9."));
+    EXPECT_THAT(page_of(), HasSubstr("Discs bear ranks: 1 is #4, 2 is #9."));
     for (analysis::MaybeEstimate* const gain : {&facts.ranked[0].gain, &facts.ranked[0].so_far})
         *gain = about(2.0, 3.0);
     facts.ranked[1].gain = facts.ranked[1].so_far = about(3.0, 6.0);
-    EXPECT_THAT(page_of(), HasSubstr("Numbers are those of the tables, in no order."));
-    EXPECT_THAT(equipment_map(facts), AllOf(HasSubstr("text-anchor=\"middle\">4</text>"),
-                                            Not(HasSubstr("text-anchor=\"middle\">1</text>"))));
+    EXPECT_THAT(page_of(), HasSubstr("Numbers are those of the tables."));
+    EXPECT_THAT(equipment_map(facts), AllOf(HasSubstr(">#4</text>"), Not(HasSubstr(">1</text>"))));
 }
 
 TEST(Equipment, HasAPageWithAnswerMapTablesAndCommand) {
     EquipmentFacts facts = two_of_twelve();
     facts.roads = three_roads();
     facts.attribution = "OpenStreetMap contributors";
-    EXPECT_THAT(equipment_map(facts), AllOf(HasSubstr("OpenStreetMap contributors</text>"),
-                                            HasSubstr("text-anchor=\"middle\">1</text>")));
+    EXPECT_THAT(equipment_map(facts),
+                AllOf(HasSubstr("OpenStreetMap contributors</text>"), HasSubstr(">1</text>")));
     std::ostringstream page;
     write_equipment_page(facts, page);
     const std::string html = page.str();
@@ -408,13 +523,17 @@ TEST(Equipment, HasAPageWithAnswerMapTablesAndCommand) {
                   "the others lose [^.]* s each \\(not shown\\)|the others lose .* s each \\(shown\\)")));
     EXPECT_THAT(html, Not(HasSubstr("north<&>")));
     EXPECT_THAT(html, HasSubstr("south of the old town&#39;s gate"));
-    EXPECT_EQ(count_of(html, "<th scope=\"row\">"), 6U) << "3 candidates, 2 ranks and all signals";
+    EXPECT_EQ(count_of(html, "<th scope=\"row\">"), 7U) << "3 candidates, 2 ranks, both and all signals";
+    EXPECT_THAT(html,
+                AllOf(HasSubstr("<li>Not shown: what #9 adds."),
+                      HasSubstr("<code>clearway run town --set &#39;actuation.equipped=#4,#9&#39;</code>")));
     EquipmentFacts joined = facts;
     joined.candidates[0].signal = "cluster_" + std::string(90, '1');
+    joined.candidates[1].streets = std::string(66, 'a');
     std::ostringstream cut;
     write_equipment_page(joined, cut);
-    EXPECT_THAT(cut.str(), AllOf(HasSubstr("cluster_" + std::string(52, '1') + "\u2026"),
-                                 Not(HasSubstr(std::string(53, '1')))));
+    EXPECT_THAT(cut.str(),
+                AllOf(HasSubstr("cluster_" + std::string(13, '1') + "..."), HasSubstr(std::string(66, 'a'))));
 }
 
 TEST(Equipment, marks_coarse_steps_on_the_console_and_the_page) {

@@ -63,10 +63,10 @@ TEST(SignalsPicture, has_a_number_and_a_name_at_each_signal) {
     const std::string svg = signals_picture(network, "two <crossings>", "Map (c) A & B");
     EXPECT_THAT(svg, HasSubstr("two &lt;crossings&gt;"));
     EXPECT_THAT(svg, HasSubstr("Map (c) A &amp; B</text>"));
-    EXPECT_THAT(svg, HasSubstr(">1</text>"));
-    EXPECT_THAT(svg, HasSubstr(">2</text>"));
-    EXPECT_THAT(svg, HasSubstr("<title>1: A</title>"));
-    EXPECT_THAT(network_picture(network, "two", ""), ::testing::Not(HasSubstr(">1</text>")));
+    EXPECT_THAT(svg, HasSubstr(">#1</text>"));
+    EXPECT_THAT(svg, HasSubstr(">#2</text>"));
+    EXPECT_THAT(svg, HasSubstr("<title>#1: A</title>"));
+    EXPECT_THAT(network_picture(network, "two", ""), ::testing::Not(HasSubstr(">#1</text>")));
 }
 
 }  // namespace

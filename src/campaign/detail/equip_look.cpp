@@ -23,7 +23,7 @@ namespace {
 using Gain = std::pair<analysis::MaybeEstimate, std::size_t>;  // of a candidate
 
 std::string name_of(std::size_t candidate, const Signals& signals) {
-    return fmt::format("No. {} {}", signals.number(candidate),
+    return fmt::format("#{} {}", signals.number(candidate),
                        report::signal_words(signals.id(candidate), signals.streets(candidate)));
 }
 
@@ -71,7 +71,7 @@ std::string chosen_words(const analysis::EquipPlan& plan, const Signals& signals
     for (std::size_t rank = 0; rank < plan.steps.size(); ++rank) {
         const analysis::EquipStep& step = plan.steps[rank];
         const std::string with =
-            step.partner ? fmt::format(" with No. {}, half of what both gain", signals.number(*step.partner))
+            step.partner ? fmt::format(" with #{}, half of what both gain", signals.number(*step.partner))
                          : "";
         text += line_of(fmt::format("{}) {}{}", rank + 1, name_of(step.candidate, signals), with), step.gain,
                         report::is_shown(step.gain) ? ", shown" : ", not shown");

@@ -74,6 +74,7 @@ EquipQuestion question_of(const study::StudyConfig& config, const EquipRequest& 
     EquipQuestion question{.config = config,
                            .base = request.condition,
                            .signals = {},
+                           .numbers = {},
                            .today = signals.ids_of_today(),
                            .passed = signals.candidates.passed,
                            .pairs = signals.candidates.neighbours,
@@ -84,6 +85,7 @@ EquipQuestion question_of(const study::StudyConfig& config, const EquipRequest& 
     for (std::size_t candidate = 0; candidate < signals.candidates.signals.size(); ++candidate) {
         all.push_back(candidate);
         question.signals.push_back(signals.id(candidate));
+        question.numbers.push_back(signals.number(candidate));
     }
     // A user's code may ask signals that no emergency vehicle passes.
     if (has_own_code(request.condition)) question.passed.assign(config.replications, all);

@@ -11,21 +11,29 @@ namespace clearway::report::detail {
 /// Of the gain of all signals: how many signals bring it is said.
 inline constexpr double great_share = 0.8;
 
-/// Ranks, with a row for `all` at the end if it is wanted.
-enum class LastRow : std::uint8_t { ranked, all };
-Sheet ranked_sheet(const EquipmentFacts& facts, LastRow last);
+/// The ranks for people, then what they and all signals bring together.
+Sheet ranks_table(const EquipmentFacts& facts);
 /// The greatest gain first.
 Sheet candidate_sheet(const EquipmentFacts& facts);
 Sheet pair_sheet(const EquipmentFacts& facts);
 
-/// Whether the runs tell which signals come first; else those that were chosen stand in no order.
+/// Whether the runs tell which signals come first: the gain of the first, or of the pair that it was chosen
+/// in, is shown. Else those that were chosen stand in no order.
 bool has_order(const EquipmentFacts& facts);
+/// Whether the others gain by the chosen signals in the mean: their times are then told as savings.
+bool others_save(const EquipmentFacts& facts);
+/// A loss of the others as others_save has it told.
+analysis::MaybeEstimate others_cell(const EquipmentFacts& facts, const analysis::MaybeEstimate& loss);
+analysis::MaybeEstimate without_interval(analysis::MaybeEstimate value);
 /// What was found, a sentence each, the answer first.
 std::vector<std::string> findings_of(const EquipmentFacts& facts);
+/// A command for a study of those that were chosen; empty without any.
+std::string study_command(const EquipmentFacts& facts);
+inline constexpr const char* study_words = "To study these signals on other seeds:";
 /// What was left out, and EV times.
 std::vector<std::string> circumstances_of(const EquipmentFacts& facts);
 /// How the columns are to be read.
-std::string ranked_legend(const EquipmentFacts& facts);
+std::string ranks_legend(const EquipmentFacts& facts);
 std::string candidate_legend(const EquipmentFacts& facts);
 std::string pair_legend();
 

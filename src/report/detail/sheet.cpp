@@ -1,6 +1,7 @@
 #include "report/detail/sheet.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,9 +15,8 @@ namespace clearway::report::detail {
 namespace {
 
 constexpr std::size_t column_gap = 2;
-constexpr std::size_t least_text = 8;
-/// Two street names; ids of joined junctions name all their nodes.
-constexpr std::size_t longest_on_page = 60;
+/// Three or four street names; ids of joined junctions name all their nodes.
+constexpr std::size_t longest_on_page = 100;
 
 template <class... Cases>
 struct Overloaded : Cases... {
@@ -28,6 +28,7 @@ Overloaded(Cases...) -> Overloaded<Cases...>;
 std::string cell_words(const SheetCell& cell, Script script) {
     return std::visit(Overloaded{[&](std::monostate) { return missing(script); },
                                  [](std::size_t count) { return std::to_string(count); },
+                                 [](SignalNumber number) { return fmt::format("#{}", number.value); },
                                  [&](const std::string& text) {
                                      return script == Script::plain
                                                 ? printable(text)
@@ -46,6 +47,7 @@ std::string cell_words(const SheetCell& cell, Script script) {
 Json json_cell(const SheetCell& cell) {
     return std::visit(Overloaded{[](std::monostate) { return Json(nullptr); },
                                  [](Share share) { return Json(share.value); },
+                                 [](SignalNumber number) { return Json(number.value); },
                                  [](const MaybeEstimate& value) { return estimate_json(value); },
                                  [](const auto& value) { return Json(value); }},
                       cell);
@@ -81,7 +83,8 @@ bool holds_text(const Sheet& sheet, std::size_t column) {
 struct TextColumn {
     std::vector<std::string> cells;
     bool left = false;
-    bool can_be_cut = false;
+    bool holds_names = false;
+    bool if_room = false;
 
     std::size_t width() const {
         std::size_t most = 0;
@@ -89,36 +92,38 @@ struct TextColumn {
             most = std::max(most, core::characters_in(cell));
         return most;
     }
-    void cut(std::size_t most) {
-        for (std::string& cell : cells)
-            if (core::characters_in(cell) > most) cell = core::cut_to_columns(cell, most - 2) + "..";
-    }
 };
 
 std::vector<TextColumn> text_columns(const Sheet& sheet) {
     std::vector<TextColumn> columns;
     for (std::size_t at = 0; at < sheet.columns.size(); ++at) {
-        if (sheet.columns[at].shown != SheetColumn::Shown::everywhere) continue;
+        if (sheet.columns[at].shown == SheetColumn::Shown::in_data) continue;
         TextColumn column{{sheet.columns[at].title}, holds_text(sheet, at)};
+        column.if_room = sheet.columns[at].shown == SheetColumn::Shown::if_room;
         for (const std::vector<SheetCell>& row : sheet.rows) {
             column.cells.push_back(cell_words(row[at], Script::plain));
-            column.can_be_cut = column.can_be_cut || std::holds_alternative<std::string>(row[at]);
+            column.holds_names = column.holds_names || std::holds_alternative<std::string>(row[at]);
         }
         columns.push_back(std::move(column));
     }
     return columns;
 }
 
-void fit(std::vector<TextColumn>& columns) {
-    std::size_t total = column_gap * (columns.size() - 1);
+bool fits(const std::vector<TextColumn>& columns) {
+    std::size_t total = 0;
     for (const TextColumn& column : columns)
-        total += column.width();
-    for (TextColumn& column : columns) {
-        if (!column.can_be_cut || total <= core::help_columns) continue;
-        const std::size_t before = column.width();
-        column.cut(std::max(least_text, before - std::min(before, total - core::help_columns)));
-        total -= before - column.width();
-    }
+        total += column.width() + column_gap;
+    return total <= core::help_columns + column_gap;
+}
+
+/// Takes out what has no room: first the names, which it returns, then what may be left out.
+std::vector<TextColumn> taken_out(std::vector<TextColumn>& columns) {
+    std::vector<TextColumn> names;
+    if (fits(columns)) return names;
+    std::ranges::copy_if(columns, std::back_inserter(names), &TextColumn::holds_names);
+    std::erase_if(columns, [](const TextColumn& column) { return column.holds_names; });
+    if (!fits(columns)) std::erase_if(columns, [](const TextColumn& column) { return column.if_room; });
+    return names;
 }
 
 }  // namespace
@@ -163,7 +168,7 @@ std::string csv_of(const Sheet& sheet) {
 
 std::string text_of(const Sheet& sheet) {
     std::vector<TextColumn> columns = text_columns(sheet);
-    fit(columns);
+    const std::vector<TextColumn> names = taken_out(columns);
     std::string text;
     for (std::size_t line = 0; line <= sheet.rows.size(); ++line) {
         std::string words;
@@ -175,6 +180,8 @@ std::string text_of(const Sheet& sheet) {
         }
         words.erase(words.find_last_not_of(' ') + 1);
         text += words + "\n";
+        for (const TextColumn& column : names)
+            if (line > 0) text += core::wrapped("      " + column.cells[line], 6) + "\n";
     }
     return text;
 }

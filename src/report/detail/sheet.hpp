@@ -17,15 +17,22 @@ struct Share {
     double value = 0.0;
 };
 
-/// Nothing, a count, a text from a file, whether an effect is shown, a share, or an estimate in seconds.
-using SheetCell = std::variant<std::monostate, std::size_t, std::string, bool, Share, MaybeEstimate>;
+/// As `clearway scenario signals` counts; `#7` for people, 7 in data.
+struct SignalNumber {
+    std::size_t value = 0;
+};
+
+/// Nothing, a count, a number of a signal, a text from a file, whether an effect is shown, a share, or an
+/// estimate in seconds.
+using SheetCell =
+    std::variant<std::monostate, std::size_t, SignalNumber, std::string, bool, Share, MaybeEstimate>;
 
 struct SheetColumn {
     std::string key;    ///< In JSON and CSV; ends in `_s` for estimates. Empty: not there.
     std::string title;  ///< In tables for people.
     enum class Shown : std::uint8_t {
         everywhere,
-        not_on_terminal,
+        if_room,  ///< On a terminal only if the others leave room for it.
         in_data,  ///< JSON and CSV.
     } shown = Shown::everywhere;
 };
@@ -42,9 +49,10 @@ Json estimate_json(const MaybeEstimate& estimate);
 Json json_of(const Sheet& sheet);
 /// An estimate `gain_s` becomes the columns gain_s, gain_low_s and gain_high_s.
 std::string csv_of(const Sheet& sheet);
-/// For a terminal of 80 columns: long texts are cut, at least to 8 characters.
+/// For a terminal of 80 columns: texts for which there is no room stand in lines of their own below their
+/// row.
 std::string text_of(const Sheet& sheet);
-/// For a page: texts are cut to 60 characters.
+/// For a page: texts are cut to 100 characters.
 DataTable data_table_of(const Sheet& sheet);
 
 }  // namespace clearway::report::detail

@@ -167,6 +167,7 @@ stroke-width:4px;stroke-linejoin:round}
 .plot .way.taken,.plot .way.left{stroke:var(--ink);stroke-width:7;stroke-opacity:.22}
 .plot .way.left{stroke-dasharray:1.5 2.5;stroke-opacity:.45}
 .plot .way.considered{stroke:var(--ink);stroke-width:1.4;stroke-dasharray:4 3}
+.plot .spare{fill:var(--paper);stroke:var(--muted);stroke-width:1}
 .plot .held{fill:none;stroke:var(--ink);stroke-width:1.5}.plot .losing{fill:var(--worse);stroke:var(--paper);stroke-width:.8}
 .plot .lock{fill:none;stroke:var(--ink);stroke-width:2}.plot .lock.before{opacity:.45}
 .plot .call{fill:none;stroke:var(--better);stroke-width:2}.plot .block{fill:var(--worse);stroke:var(--paper);stroke-width:1}.plot .blockBar{fill:var(--paper)}.plot .blocked{fill:none;stroke:var(--worse);stroke-width:4;stroke-dasharray:4 3}
