@@ -45,32 +45,50 @@ RunCost cost_of(const Search& search, const EquipRequest& request) {
     return cost;
 }
 
-/// As many seeds as the time allows by the forecast of the fewest, to which runs are in proportion.
+/// The time of a whole search, s.
+double time_of(const EquipRounds& rounds, const EquipRequest& request, std::size_t budget,
+               std::uint32_t seeds, double run_s) {
+    return static_cast<double>(rounds.forecast(budget, seeds).likely()) * run_s /
+           static_cast<double>(core::process_count(request.run.workers));
+}
+
+void warn_of_least(const EquipRounds& rounds, const EquipRequest& request, const RunCost& cost) {
+    const auto time_s = [&](std::size_t budget) {
+        return time_of(rounds, request, budget, request.replications, *cost.wall_s);
+    };
+    std::size_t less = request.budget - 1;
+    while (less > 1 && time_s(less) > request.within_s)
+        --less;
+    core::print_message(fmt::format(
+        "clearway: the least, {} seeds, takes about {} from nothing, more than the {} given ({}), and is "
+        "made all the same; {}fewer --candidates take less\n",
+        request.replications, clock_words(time_s(request.budget)), clock_words(request.within_s),
+        words(cost.basis),
+        less > 0 ? fmt::format("--budget {} takes about {}, ", less, clock_words(time_s(less))) : ""));
+}
+
+/// As many seeds as the time allows. More seeds take more time than in proportion to the fewest, as their
+/// vehicles may pass other signals: what that gives is therefore looked at again.
 std::uint32_t seeds_within(EquipRequest request, const scenario::BuiltNetwork& built) {
     request.replications = analysis::fewest_for_interval;
-    const Search search = search_of(request, built);
-    const RunCost cost = cost_of(search, request);
+    const Search least = search_of(request, built);
+    const RunCost cost = cost_of(least, request);
     if (!cost.wall_s)
         throw core::InputError({"--within", "the time of a run is unknown: its route files cannot be read",
                                 "a scenario whose files can be read", "Give --seeds instead"});
-    const auto time_s = [&](std::size_t budget) {
-        return static_cast<double>(search.rounds.forecast(budget, request.replications).likely()) *
-               *cost.wall_s / static_cast<double>(core::process_count(request.run.workers));
-    };
-    const double least_s = time_s(request.budget);
+    const double least_s = time_of(least.rounds, request, request.budget, request.replications, *cost.wall_s);
     if (least_s > request.within_s) {
-        std::size_t less = request.budget - 1;
-        while (less > 1 && time_s(less) > request.within_s)
-            --less;
-        core::print_message(fmt::format(
-            "clearway: the least, {} seeds, takes about {} from nothing, more than the {} given ({}), and is "
-            "made all the same; {}fewer --candidates take less\n",
-            request.replications, clock_words(least_s), clock_words(request.within_s), words(cost.basis),
-            less > 0 ? fmt::format("--budget {} takes about {}, ", less, clock_words(time_s(less))) : ""));
+        warn_of_least(least.rounds, request, cost);
+        return request.replications;
     }
-    return static_cast<std::uint32_t>(std::clamp<double>(request.replications * request.within_s / least_s,
-                                                         request.replications,
-                                                         analysis::most_equip_replications));
+    request.replications = static_cast<std::uint32_t>(std::min<double>(
+        request.replications * request.within_s / least_s, analysis::most_equip_replications));
+    const Search most = search_of(request, built);
+    std::uint32_t seeds = request.replications;
+    while (seeds > analysis::fewest_for_interval &&
+           time_of(most.rounds, request, request.budget, seeds, *cost.wall_s) > request.within_s)
+        --seeds;
+    return seeds;
 }
 
 /// Complete runs of earlier calls; one that a later round took over counts once.
@@ -179,11 +197,15 @@ core::ExitCode equip_dry_run(EquipRequest request) {
         request.replications < analysis::fewest_for_interval
             ? fmt::format(" Nothing can be shown by fewer than {} seeds.", analysis::fewest_for_interval)
             : "";
-    const std::string time = cost.wall_s
-                                 ? fmt::format("About {}{} with {}, warm-ups left out ({}).", clock(rest),
-                                               held == 0 ? "" : " for the rest",
-                                               report::counted(processes, "worker"), words(cost.basis))
-                                 : "Time unknown: a run of this scenario beside that folder tells.";
+    const std::string first_told =
+        held < runs.first_look ? fmt::format(" Nothing can be told before about {}.",
+                                             clock(runs.first_look - held))
+                               : "";
+    const std::string time =
+        cost.wall_s ? fmt::format("About {}{} with {} ({}); loading and warm-up of each seed come on top.{}",
+                                  clock(rest), held == 0 ? "" : " for the rest",
+                                  report::counted(processes, "worker"), words(cost.basis), first_told)
+                    : "Time unknown: a run of this scenario beside that folder tells.";
     const std::string few = request.budget > candidates
                                 ? fmt::format(" The budget is {}, and {} could gain.", request.budget,
                                               report::counted(candidates, "signal"))

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <thread>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
@@ -38,6 +39,18 @@ std::set<std::string> folders(const std::filesystem::path& out, const std::strin
         if (name.starts_with(beginning)) names.insert(name);
     }
     return names;
+}
+
+/// Of a command behind `clearway`, without the marks of the shell.
+std::vector<std::string> words_of_last_line(std::string text) {
+    text = text.substr(text.rfind('\n', text.size() - 2) + 1);
+    std::erase(text, '\'');
+    std::istringstream stream(text);
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;)
+        words.push_back(word);
+    words.erase(words.begin());
+    return words;
 }
 
 TEST_F(EquipTest, ranks_signals_and_continues_in_its_folder_without_new_runs) {
@@ -84,6 +97,15 @@ TEST_F(EquipTest, ranks_signals_and_continues_in_its_folder_without_new_runs) {
     EXPECT_EQ(std::filesystem::last_write_time(folder() / none), made);
     EXPECT_EQ(read("out/equip.json"), ended.out);
     EXPECT_THAT(again.out, AllOf(HasSubstr("Two crossings"), HasSubstr("Equip first: ")));
+    EXPECT_EQ(clearway({"report", "out"}).out, again.out);
+    const Ended study = clearway(words_of_last_line(again.out));
+    EXPECT_EQ(study.code, 0) << study.err;
+    EXPECT_THAT(study.out, HasSubstr("chosen"));
+    const std::string fresh = *folders(folder() / "out", "fresh-").begin();
+    EXPECT_THAT(
+        clearway({"report", "out/" + fresh}).out,
+        AllOf(HasSubstr("preempt_signals: none equipped"), HasSubstr("preempt_signals: all equipped"),
+              testing::ContainsRegex("preempt_signals: #[12] equipped"), Not(HasSubstr("_equipped"))));
 }
 
 TEST_F(EquipTest, shows_one_progress_and_takes_over_fresh_runs_where_the_budget_grows) {
@@ -155,8 +177,11 @@ TEST_F(EquipTest, says_before_it_runs_what_a_quarter_of_an_hour_would_do) {
         std::ranges::replace(text, '\n', ' ');
         return text;
     };
-    EXPECT_THAT(plan(1.0), AllOf(HasSubstr("runs likely"), HasSubstr("(m:s)"), Not(HasSubstr("15 minutes")),
-                                 Not(HasSubstr("smallest plan"))));
+    // None, each alone and both together on 5 seeds.
+    EXPECT_THAT(plan(1.0),
+                AllOf(HasSubstr("Nothing can be told before about 0:20 (m:s)."),
+                      HasSubstr("runs likely"), HasSubstr("(m:s)"), Not(HasSubstr("15 minutes")),
+                      Not(HasSubstr("smallest plan"))));
     // None and each alone on 5 seeds; then baseline, none, all, alone and one rank.
     EXPECT_THAT(
         plan(900.0 / 40.0),
@@ -186,13 +211,21 @@ TEST_F(EquipTest, chooses_its_seeds_by_the_time_that_is_given) {
                                       Not(HasSubstr("allow"))));
     EXPECT_THAT(short_time.err, AllOf(HasSubstr("all the same; fewer --candidates take less"),
                                       Not(HasSubstr("smaller --budget"))));
-    EXPECT_THAT(short_time.out, AllOf(Not(HasSubstr("first look")), Not(HasSubstr("smallest plan"))));
+    EXPECT_THAT(short_time.out, AllOf(Not(HasSubstr("A first look")), Not(HasSubstr("smallest plan"))));
     const Ended long_time = planned("5min");
     EXPECT_EQ(long_time.code, 0);
     EXPECT_THAT(long_time.err, Not(HasSubstr("the least")));
     EXPECT_THAT(long_time.err, testing::ContainsRegex("--seeds [0-9]{2,}\n"));
     EXPECT_NE(clearway({"equip", "./crossings", "--budget", "1", "--within", "5min", "--seeds", "5"}).code,
               0);
+    for (const double given_s : {20.0, 30.0, 120.0}) {
+        const auto json =
+            nlohmann::json::parse(clearway({"equip", "./crossings", "--budget", "2", "--dry-run", "--jobs",
+                                            "1", "--within", fmt::format("{}s", given_s), "--json"})
+                                      .out);
+        EXPECT_LE(json.at("estimated_time_s").get<double>(), given_s) << "of the seeds that it chose";
+        EXPECT_GT(json.at("estimated_time_s").get<double>(), 0.5 * given_s);
+    }
 }
 
 TEST_F(EquipTest, interrupted_it_prints_what_the_last_look_knew) {
@@ -213,6 +246,10 @@ TEST_F(EquipTest, interrupted_it_prints_what_the_last_look_knew) {
     EXPECT_EQ(interrupted.code, 130);
     EXPECT_THAT(interrupted.err, AllOf(HasSubstr("no ranking yet; the last complete look, "),
                                        HasSubstr("  #1"), HasSubstr("  #2"), HasSubstr("To continue:")));
+    const Ended report = clearway({"report", "out"});
+    EXPECT_EQ(report.code, 0) << report.err;
+    EXPECT_THAT(report.out, AllOf(HasSubstr("no ranking yet"), HasSubstr("  #1")));
+    EXPECT_EQ(clearway({"report", "out", "--json"}).code, 3) << "there is no answer";
 }
 
 TEST_F(EquipTest, tries_only_the_signals_that_most_emergency_vehicles_pass_where_that_is_wanted) {
@@ -287,9 +324,11 @@ TEST_F(EquipTest, starts_from_what_is_equipped_today) {
     for (const auto& condition : manifest.at("conditions"))
         sets.insert(condition.value("settings", nlohmann::json::object()).value("actuation.equipped", ""));
     EXPECT_THAT(read("out/map.svg"), HasSubstr("equipped today"));
-    const Ended report = clearway({"report", "out"});
-    EXPECT_EQ(report.code, 3);
-    EXPECT_THAT(report.err, HasSubstr("out/report.html shows its answer"));
+    EXPECT_EQ(clearway({"report", "out", "--json"}).out, ended.out);
+    EXPECT_THAT(clearway({"report", "out"}).out,
+                AllOf(HasSubstr("Two crossings"),
+                      HasSubstr("clearway run ./crossings --condition corridor --name chosen --seed 3 --set"),
+                      HasSubstr("actuation.equipped=A,#2")));
     EXPECT_THAT(sets, testing::UnorderedElementsAre("", "A", "A,B")) << "the first is the baseline";
 }
 
