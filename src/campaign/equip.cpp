@@ -19,6 +19,7 @@
 #include "core/leftovers.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
+#include "experiment/related_conditions.hpp"
 #include "report/configuration.hpp"
 #include "report/equipment.hpp"
 
@@ -105,7 +106,8 @@ report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipReq
     facts.title = config.scenarios.front().title;
     facts.attribution = config.scenarios.front().network.attribution;
     facts.assumptions = report::simulated_sentence(scenario::to_toml(config.scenarios.front()),
-                                                   signals.built.network, experiment::ConditionSpec{});
+                                                   signals.built.network,
+                                                   experiment::baseline_for(request.condition));
     facts.condition = request.condition.name;
     facts.command = request.run.command;
     facts.study = request.study;

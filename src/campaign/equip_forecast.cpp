@@ -198,9 +198,9 @@ core::ExitCode equip_dry_run(EquipRequest request) {
             ? fmt::format(" Nothing can be shown by fewer than {} seeds.", analysis::fewest_for_interval)
             : "";
     const std::string first_told =
-        held < runs.first_look ? fmt::format(" Nothing can be told before about {}.",
-                                             clock(runs.first_look - held))
-                               : "";
+        held < runs.first_look
+            ? fmt::format(" Nothing can be told before about {}.", clock(runs.first_look - held))
+            : "";
     const std::string time =
         cost.wall_s ? fmt::format("About {}{} with {} ({}); loading and warm-up of each seed come on top.{}",
                                   clock(rest), held == 0 ? "" : " for the rest",

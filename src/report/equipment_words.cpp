@@ -221,19 +221,6 @@ std::string unchanged_sentence(const EquipmentFacts& facts) {
     return text;
 }
 
-std::string not_shown_sentence(const EquipmentFacts& facts) {
-    const auto numbers = numbers_where(facts, [&](const EquippedSignal& one) {
-        return !is_shown_of(facts, one) && !is_exactly_none(one.gain);
-    });
-    if (numbers.empty()) return "";
-    const std::string which =
-        numbers.size() == facts.ranked.size() && numbers.size() > 1 ? "any of them" : hashed(numbers);
-    if (facts.replications < analysis::fewest_for_interval)
-        return fmt::format("Not shown: what {} adds; that takes {} seeds.", which,
-                           analysis::fewest_for_interval);
-    return fmt::format("Not shown: what {} adds. Chance could be all of it; more --seeds tell.", which);
-}
-
 std::string end_sentence(const EquipmentFacts& facts) {
     if (facts.ranked.empty() || facts.end == EquipEnd::budget) return "";
     if (facts.end == EquipEnd::exhausted) return "Every signal that could gain is equipped.";
@@ -267,6 +254,23 @@ std::string pairs_words(const EquipmentFacts& facts) {
     if (pairs > analysis::most_equip_replications)
         return fmt::format(" (more than {} would have to)", analysis::most_equip_replications);
     return fmt::format(" (about {} would likely)", pairs);
+}
+
+std::string not_shown_sentence(const EquipmentFacts& facts) {
+    const auto numbers = numbers_where(facts, [&](const EquippedSignal& one) {
+        return !is_shown_of(facts, one) && !is_exactly_none(one.gain);
+    });
+    if (numbers.empty()) return "";
+    const bool is_none_shown = std::ranges::none_of(
+        facts.ranked, [&](const EquippedSignal& one) { return is_shown_of(facts, one); });
+    const std::string which =
+        is_none_shown && facts.ranked.size() > 1 ? "any of them" : hashed(numbers, " or ");
+    if (facts.replications < analysis::fewest_for_interval)
+        return fmt::format("Not shown: what {} adds; that takes {} seeds.", which,
+                           analysis::fewest_for_interval);
+    const bool tells_seeds = !seeds_sentence(facts).empty() || !pairs_words(facts).empty();
+    return fmt::format("Not shown: what {} adds. Chance could be all of it{}.", which,
+                       !detail::has_order(facts) && tells_seeds ? "" : "; more --seeds tell");
 }
 
 /// `Equip first: 1) #4 Via Po / Via Roma; then, not shown: 2) #9 S5.`, numbered as the map and the table of
@@ -315,7 +319,8 @@ std::string chosen_sentence(const EquipmentFacts& facts) {
     if (detail::has_order(facts)) return "";
     std::vector<EquippedSignal> chosen = facts.ranked;
     std::ranges::sort(chosen, {}, &EquippedSignal::number);
-    return fmt::format("Chosen, in no order: {}.", fmt::join(core::texts_of(chosen, numbered_name), "; "));
+    return fmt::format("Chosen{}: {}.", chosen.size() > 1 ? ", in no order" : "",
+                       fmt::join(core::texts_of(chosen, numbered_name), "; "));
 }
 
 std::string gain_sentence(const EquipmentFacts& facts) {
@@ -384,8 +389,10 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts) {
 std::string study_command(const EquipmentFacts& facts) {
     if (facts.ranked.empty() || facts.study.empty()) return "";
     std::vector<std::string> signals = facts.equipped_today;
+    const bool are_all_chance = std::ranges::all_of(
+        facts.ranked, [&](const EquippedSignal& signal) { return is_chance(facts, signal); });
     for (const EquippedSignal& signal : facts.ranked)
-        if (!is_chance(facts, signal)) signals.push_back(fmt::format("#{}", signal.number));
+        if (are_all_chance || !is_chance(facts, signal)) signals.push_back(fmt::format("#{}", signal.number));
     std::vector<std::string> words = facts.study;
     words.insert(words.end(), {"--set", fmt::format("actuation.equipped={}", fmt::join(signals, ","))});
     return printable(core::shell_text(words));

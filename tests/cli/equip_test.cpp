@@ -179,9 +179,8 @@ TEST_F(EquipTest, says_before_it_runs_what_a_quarter_of_an_hour_would_do) {
     };
     // None, each alone and both together on 5 seeds.
     EXPECT_THAT(plan(1.0),
-                AllOf(HasSubstr("Nothing can be told before about 0:20 (m:s)."),
-                      HasSubstr("runs likely"), HasSubstr("(m:s)"), Not(HasSubstr("15 minutes")),
-                      Not(HasSubstr("smallest plan"))));
+                AllOf(HasSubstr("Nothing can be told before about 0:20 (m:s)."), HasSubstr("runs likely"),
+                      HasSubstr("(m:s)"), Not(HasSubstr("15 minutes")), Not(HasSubstr("smallest plan"))));
     // None and each alone on 5 seeds; then baseline, none, all, alone and one rank.
     EXPECT_THAT(
         plan(900.0 / 40.0),
@@ -308,6 +307,19 @@ TEST_F(EquipTest, may_take_a_run_for_that_of_a_set_without_the_signals_that_nobo
     EXPECT_EQ(time_with("A", "first"), time_with("A,B", "both")) << "they turn off before B";
     EXPECT_EQ(time_with("none", "without"), time_with("B", "second"));
     EXPECT_NE(time_with("none", "without2"), time_with("A", "first2"));
+}
+
+TEST_F(EquipTest, lets_every_condition_pass_red_where_that_is_set) {
+    const Ended ended = clearway({"equip", "./crossings", "--budget", "1", "--seeds", "2", "--out", "out",
+                                  "--set", "privilege.pass_red=1"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(ended.out, AllOf(HasSubstr("EVs of the"), HasSubstr("may pass"),
+                                 Not(HasSubstr("--set privilege.pass_red=1)"))));
+    for (const std::string& part : folders(folder() / "out", "round-")) {
+        const auto manifest = nlohmann::json::parse(read("out/" + part + "/manifest.json"));
+        for (const auto& condition : manifest.at("conditions"))
+            EXPECT_EQ(condition.at("settings").at("privilege.pass_red"), "1") << condition;
+    }
 }
 
 TEST_F(EquipTest, starts_from_what_is_equipped_today) {

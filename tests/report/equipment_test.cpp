@@ -171,7 +171,8 @@ TEST(Equipment, EndsWithTheAnswer) {
     const std::string answer = text.substr(
         text.find("Equip first: 1) #4 Gate <Road> / High Street; then, not shown: 2) #9 south of"));
     EXPECT_THAT(answer, HasSubstr("42.0 [38.0, 46.0]"));
-    EXPECT_THAT(text, HasSubstr("Not shown: what #9 adds"));
+    EXPECT_THAT(text, HasSubstr("Not shown: what #9 adds. Chance could be all of it; more --seeds"));
+    EXPECT_EQ(count_of(text, "more --seeds"), 1U);
     EXPECT_THAT(equipment_text(two_of_twelve()),
                 testing::EndsWith(":\nclearway run town --set 'actuation.equipped=#4,#9'\n"));
     EXPECT_THAT(text, HasSubstr("Stopped at 2 of 5"));
@@ -223,7 +224,12 @@ TEST(Equipment, NamesNoBestWhereTheFirstRankIsChance) {
         flat_text(facts),
         AllOf(HasSubstr("No gain is shown: 10 pairs cannot tell which to equip first, and the first choice "
                         "changed no trip."),
-              HasSubstr("Chosen, in no order: #4 Gate"), HasSubstr("#4 changed no trip")));
+              HasSubstr("Chosen, in no order: #4 Gate"), HasSubstr("#4 changed no trip"),
+              HasSubstr("Not shown: what any of them adds.")));
+    facts.ranked[1].gain = facts.ranked[0].gain;
+    EXPECT_THAT(flat_text(facts), HasSubstr("actuation.equipped=#4,#9")) << "all, where none is better";
+    facts.ranked.pop_back();
+    EXPECT_THAT(flat_text(facts), HasSubstr(" Chosen: #4 Gate"));
 }
 
 TEST(Equipment, NamesNoOrderWhereNothingIsShown) {
@@ -233,13 +239,13 @@ TEST(Equipment, NamesNoOrderWhereNothingIsShown) {
     facts.ranked[1].gain = about(1.0, 4.0);
     facts.ranked[1].so_far = about(3.0, 6.0);
     facts.ranked[1].so_far->deviation = 9.0;
-    EXPECT_THAT(
-        flat_text(facts),
-        AllOf(HasSubstr("No gain is shown: 10 pairs cannot tell which to equip first."),
-              HasSubstr("Chosen, in no order: #4 Gate <Road> / High"),
-              HasSubstr("Not shown: what any of them adds."), Not(HasSubstr("Equip first")),
-              Not(HasSubstr("1) ")), testing::ContainsRegex("Step +Signal"), Not(HasSubstr("bring 80 %")),
-              HasSubstr("About 73 seeds would likely (80 %) show the gain of all")));
+    EXPECT_THAT(flat_text(facts),
+                AllOf(HasSubstr("No gain is shown: 10 pairs cannot tell which to equip first."),
+                      HasSubstr("Chosen, in no order: #4 Gate <Road> / High"),
+                      HasSubstr("Not shown: what any of them adds. Chance could be all of it. "),
+                      Not(HasSubstr("more --seeds")), Not(HasSubstr("Equip first")), Not(HasSubstr("1) ")),
+                      testing::ContainsRegex("Step +Signal"), Not(HasSubstr("bring 80 %")),
+                      HasSubstr("About 73 seeds would likely (80 %) show the gain of all")));
     facts.ranked[1].so_far->mean = 0.1;
     EXPECT_THAT(flat_text(facts), HasSubstr("It would take more than 1000 seeds to show so small a gain"));
     facts.ranked[1].so_far = about(0.0, 0.0);
