@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -182,12 +183,28 @@ SignalMarks marks_of(const roads::Network& network, const Frame& frame) {
     return marks;
 }
 
-/// Its first street that fits, or its id; empty if that is too long.
-std::string short_name(const SignalSheet& sheet) {
-    for (const SignalApproach& approach : sheet.approaches)
-        if (!approach.street.empty() && core::characters_in(approach.street) <= longest_name)
-            return approach.street;
-    return sheet.signal.size() <= longest_name ? sheet.signal : "";
+/// How many signals have each street.
+std::map<std::string, std::size_t> street_counts(const std::vector<SignalSheet>& sheets) {
+    std::map<std::string, std::size_t> counts;
+    for (const SignalSheet& sheet : sheets) {
+        std::set<std::string> streets;
+        for (const SignalApproach& approach : sheet.approaches)
+            streets.insert(approach.street);
+        for (const std::string& street : streets)
+            ++counts[street];
+    }
+    return counts;
+}
+
+/// Of its streets that fit, the first that fewest signals have, or its id; empty if that is too long.
+std::string short_name(const SignalSheet& sheet, const std::map<std::string, std::size_t>& counts) {
+    std::string name;
+    for (const SignalApproach& approach : sheet.approaches) {
+        const std::string& street = approach.street;
+        if (street.empty() || core::characters_in(street) > longest_name) continue;
+        if (name.empty() || counts.at(street) < counts.at(name)) name = street;
+    }
+    return name.empty() && sheet.signal.size() <= longest_name ? sheet.signal : name;
 }
 
 /// Where the name of a signal lies upon no number and no name in `taken`; nothing if there is no such place.
@@ -210,6 +227,7 @@ std::optional<NameBox> room_for_name(const SignalMarks& marks, std::size_t row, 
 void draw_labels(const roads::Network& network, const Frame& frame, std::string& svg) {
     auto out = std::back_inserter(svg);
     const SignalMarks marks = marks_of(network, frame);
+    const std::map<std::string, std::size_t> counts = street_counts(marks.sheets);
     std::vector<NameBox> names;
     for (std::size_t row = 0; row < marks.sheets.size(); ++row) {
         const core::Spot& place = marks.places[row];
@@ -226,9 +244,9 @@ void draw_labels(const roads::Network& network, const Frame& frame, std::string&
                        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"{2:g}\" fill=\"#d55e00\"/>"
                        "<text x=\"{0:.1f}\" y=\"{3:.1f}\" text-anchor=\"middle\" "
                        "style=\"font-size:{4:g}px;fill:#fff\">{5}</text>",
-                       spot.x, spot.y, core::disc_radius, spot.y + 3.5, 0.85 * core::disc_text_size(number),
+                       spot.x, spot.y, core::disc_radius, spot.y + 3.5, 0.9 * core::disc_text_size(number),
                        number);
-        const std::string name = short_name(marks.sheets[row]);
+        const std::string name = short_name(marks.sheets[row], counts);
         const std::size_t letters = core::characters_in(name);
         if (const auto box = room_for_name(marks, row, letters, names); box && letters > 0) {
             fmt::format_to(out, "<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", box->left,

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "core/files.hpp"
+#include "core/leftovers.hpp"
+#include "core/temporary_folder.hpp"
 #include "scenario/picture.hpp"
 
 namespace clearway::scenario {
@@ -67,6 +70,22 @@ TEST(SignalsPicture, has_a_number_and_a_name_at_each_signal) {
     EXPECT_THAT(svg, HasSubstr(">#2</text>"));
     EXPECT_THAT(svg, HasSubstr("<title>#1: A</title>"));
     EXPECT_THAT(network_picture(network, "two", ""), ::testing::Not(HasSubstr(">#1</text>")));
+}
+
+TEST(SignalsPicture, names_a_signal_by_the_street_that_fewest_have) {
+    std::string text = core::read_file(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml");
+    const auto name = [&](const std::string& edge, const std::string& street) {
+        const std::string begin = "<edge id=\"" + edge + "\"";
+        text.replace(text.find(begin), begin.size(), begin + " name=\"" + street + "\"");
+    };
+    for (const char* const edge : {"A_B", "B_A", "west_A", "east_B"})
+        name(edge, "Main Road");
+    name("north_a_A", "Side Street");
+    const core::TemporaryFolder folder;
+    core::write_output(folder.path() / "net.net.xml", text);
+    const std::string svg = signals_picture(roads::Network::read(folder.path() / "net.net.xml"), "two", "");
+    EXPECT_THAT(svg, HasSubstr(">Side Street</text>")) << "A, on both streets";
+    EXPECT_THAT(svg, HasSubstr(">Main Road</text>")) << "B";
 }
 
 }  // namespace
