@@ -26,7 +26,7 @@ inline constexpr double dot_radius = 4.0;
 
 /// Of words that are to fit into a disc: `7`, `#12`, `#123`.
 inline double disc_text_size(const std::string& words) {
-    return words.size() < 3 ? 11.0 : words.size() == 3 ? 8.5 : 6.5;
+    return words.size() < 2 ? 11.0 : words.size() == 2 ? 10.0 : words.size() == 3 ? 8.5 : 6.5;
 }
 
 /// Where to draw the marks of `places`, so that no disc lies on another one or hides the place of another

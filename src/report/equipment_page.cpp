@@ -167,7 +167,7 @@ std::string figures(const std::vector<detail::Figure>& all) {
 /// With what is said of it on the page, as it may be handed on alone.
 std::string standalone_or_empty(const EquipmentFacts& facts, const detail::Figure& figure) {
     if (figure.drawing.empty()) return "";
-    return detail::standalone(figure.drawing, fmt::format("{}: signals to equip first", facts.title),
+    return detail::standalone(figure.drawing, fmt::format("{}: which signals to equip first", facts.title),
                               figure.note);
 }
 
@@ -220,7 +220,7 @@ Figure curve_figure(const EquipmentFacts& facts) {
 Figure candidates_figure(const EquipmentFacts& facts) {
     constexpr double row_height = 18.0;
     constexpr double names_end = 226.0;
-    constexpr std::size_t longest_name = 33;  // before it; the table has the rest
+    constexpr std::size_t longest_name = 36;  // before it; the table has the rest
     std::vector<EquipCandidateFacts> drawn;
     for (const EquipCandidateFacts& one : facts.candidates)
         if (one.gain) drawn.push_back(one);
@@ -257,7 +257,7 @@ Figure candidates_figure(const EquipmentFacts& facts) {
 
 Figure equipment_map_figure(const EquipmentFacts& facts) {
     if (!facts.roads || !is_drawable(*facts.roads)) return {};
-    MapCanvas canvas(fmt::format("{}: signals to equip first", facts.title), *facts.roads);
+    MapCanvas canvas(fmt::format("{}: which signals to equip first", facts.title), *facts.roads);
     canvas.edges(all_edges(*facts.roads), "road");
     canvas.scale_bar();
     canvas.stations(*facts.roads);
@@ -298,7 +298,7 @@ void write_equipment_page(const EquipmentFacts& facts, std::ostream& page) {
     sections.push_back({"reproduce", "Conditions",
                         paragraphs(detail::circumstances_of(facts), "") + "<pre><code>" +
                             escaped(facts.command) + "</code></pre>\n"});
-    detail::write({facts.title + ": signals to equip first",
+    detail::write({facts.title + ": which signals to equip first",
                    fmt::format("{}, {}; seed {} decides, seed {} estimates. {}", facts.condition,
                                counted(facts.replications, "replication"), facts.seed, facts.fresh_seed,
                                facts.met.words()),

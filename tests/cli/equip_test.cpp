@@ -80,7 +80,7 @@ TEST_F(EquipTest, ranks_signals_and_continues_in_its_folder_without_new_runs) {
     EXPECT_THAT(read("out/candidates.csv"), HasSubstr("number,signal,streets,share_of_trips,gain_s"));
     EXPECT_THAT(read("out/pairs.csv"), HasSubstr("\n1,2,")) << "A and B follow each other";
     EXPECT_THAT(read("out/curve.svg"), HasSubstr("<svg"));
-    EXPECT_THAT(read("out/map.svg"), HasSubstr("Two crossings: signals to equip first"));
+    EXPECT_THAT(read("out/map.svg"), HasSubstr("Two crossings: which signals to equip first"));
     EXPECT_EQ(clearway({"export", "figures", "out", "--out", "figures", "--svg-only"}).err,
               "clearway: written to figures: 2 figures as SVG\n");
     EXPECT_EQ(read("figures/map.svg"), read("out/map.svg"));
