@@ -202,10 +202,13 @@ core::ExitCode equip_dry_run(EquipRequest request) {
             ? fmt::format(" Nothing can be told before about {}.", clock(runs.first_look - held))
             : "";
     const std::string time =
-        cost.wall_s ? fmt::format("About {}{} with {} ({}); loading and warm-up of each seed come on top.{}",
-                                  clock(rest), held == 0 ? "" : " for the rest",
-                                  report::counted(processes, "worker"), words(cost.basis), first_told)
-                    : "Time unknown: a run of this scenario beside that folder tells.";
+        cost.wall_s
+            ? fmt::format(
+                  "About {}{} with {} ({}){}.{}", clock(rest), held == 0 ? "" : " for the rest",
+                  report::counted(processes, "worker"), words(cost.basis),
+                  cost.basis == CostBasis::measured ? "" : "; loading and warm-up of each seed come on top",
+                  first_told)
+            : "Time unknown: a run of this scenario beside that folder tells.";
     const std::string few = request.budget > candidates
                                 ? fmt::format(" The budget is {}, and {} could gain.", request.budget,
                                               report::counted(candidates, "signal"))

@@ -66,7 +66,8 @@ std::string interim_words(const Look& look, const Signals& signals) {
 
 std::string chosen_words(const analysis::EquipPlan& plan, const Signals& signals) {
     std::string text = "clearway: the search has ended, the fresh seeds that tell its gain have not. ";
-    text += plan.steps.empty() ? "It chose no signal. " : "It chose, in this order, with what each adds. ";
+    text += plan.steps.empty() ? "It chose no signal. "
+                               : "It chose, in steps whose order nothing shows yet, with what each adds. ";
     text += flatters;
     for (std::size_t rank = 0; rank < plan.steps.size(); ++rank) {
         const analysis::EquipStep& step = plan.steps[rank];
