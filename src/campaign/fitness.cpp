@@ -23,9 +23,9 @@
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
 #include "experiment/conditions.hpp"
-#include "report/equipment.hpp"
 #include "report/safety.hpp"
 #include "scenario/network.hpp"
+#include "scenario/outlook.hpp"
 #include "scenario/prepare.hpp"
 
 namespace clearway::campaign {
@@ -114,19 +114,10 @@ struct RouteCount {
     bool mostly_single() const { return 2 * single > all; }
 };
 
-RouteCount traffic_routes(const std::string& xml) {
-    constexpr std::string_view mark = " edges=\"";
-    RouteCount count;
-    for (std::size_t at = xml.find(mark); at != std::string::npos; at = xml.find(mark, at + 1)) {
-        const std::size_t start = at + mark.size();
-        count.add(xml.substr(start, xml.find('"', start) - start).find(' ') == std::string::npos);
-    }
-    return count;
-}
-
 /// A vehicle with a single edge passes no junction, so it meets no signal and no crossing traffic.
-Finding routes_finding(const std::filesystem::path& demand, const std::vector<detail::EmergencyTrip>& trips) {
-    const RouteCount traffic = traffic_routes(core::read_file(demand / "traffic.rou.xml"));
+Finding routes_finding(const scenario::PlannedRoutes& planned,
+                       const std::vector<detail::EmergencyTrip>& trips) {
+    const RouteCount traffic{planned.vehicles, planned.single};
     RouteCount emergency, called;
     for (const detail::EmergencyTrip& trip : trips) {
         emergency.add(trip.edges.size() == 1);
@@ -167,26 +158,24 @@ Finding jams_finding(const metrics::RunMetrics& run, const RoadUse& use, const C
             : density_advice(checked, use.factor)};
 }
 
-constexpr const char* signals_name = "signals";
-
-Finding signals_finding(const roads::Network& network, const std::vector<detail::EmergencyTrip>& trips) {
-    const std::size_t count = network.signals().size();
+/// `outlook`: scenario::outlook_json.
+Finding signals_finding(const core::Json& outlook) {
+    const auto count = outlook.at("signals").get<std::size_t>();
     if (count == 0)
         return {
-            signals_name, Grade::note,
+            "signals", Grade::note,
             "0 in the network: signal policies have no effect here; only policies that make vehicles give "
-            "way can help"};
-    const detail::Crossings crossings = detail::crossings_of(network);
-    report::SignalsMet met;
-    for (const detail::EmergencyTrip& trip : trips)
-        met.add(detail::passed_by(trip.edges, crossings).size());
-    const bool are_few = 2 * met.trips_with_signals < met.trips;
-    return {signals_name, are_few ? Grade::note : Grade::ok,
-            fmt::format("{} in the network; {} of {} pass one", count, met.trips_with_signals,
-                        core::counted(met.trips, "EV")),
-            are_few ? "studies/parts.toml with --scenario: corridor also clears lanes and holds crossing "
-                      "traffic back where there is no signal, and the study says what each part brings"
-                    : ""};
+            "way can help",
+            "", outlook};
+    const bool is_little = outlook.at("prospect") == core::name(scenario::Prospect::little);
+    return {"signals", is_little ? Grade::note : Grade::ok,
+            fmt::format("{} in the network; {} of {} pass one", count,
+                        outlook.at("trips_passing").get<std::size_t>(),
+                        core::counted(outlook.at("trips").get<std::size_t>(), "EV")),
+            is_little ? "studies/parts.toml with --scenario: corridor also clears lanes and holds crossing "
+                        "traffic back where there is no signal, and the study says what each part brings"
+                      : "",
+            outlook};
 }
 
 double lane_km(const roads::Network& network) {
@@ -199,9 +188,12 @@ double lane_km(const roads::Network& network) {
 }
 
 Printout printout_of(const std::string& scenario, const std::vector<Finding>& findings) {
-    Table table{"", {{"grade", "grade"}, {"finding", "finding"}, {"text", "text"}, {"advice", ""}}, {}};
+    Table table{
+        "",
+        {{"grade", "grade"}, {"finding", "finding"}, {"text", "text"}, {"advice", ""}, {"numbers", ""}},
+        {}};
     for (const Finding& finding : findings) {
-        Row row{{word_of(finding.grade), finding.name, finding.text, finding.advice}};
+        Row row{{word_of(finding.grade), finding.name, finding.text, finding.advice, finding.numbers}};
         if (!finding.advice.empty()) row.below.push_back("try: " + finding.advice);
         table.rows.push_back(std::move(row));
     }
@@ -223,9 +215,8 @@ core::ExitCode verdict_on(const std::vector<Finding>& findings) {
     return has(Grade::falls_short) ? core::ExitCode::fell_short : core::ExitCode::ok;
 }
 
-}  // namespace
-
-std::string conclusion_of(const std::string& scenario, const std::vector<Finding>& findings) {
+/// Whether a scenario is fit for a study, in a sentence.
+std::string fitness_of(const std::string& scenario, const std::vector<Finding>& findings) {
     std::vector<std::string> failed;
     std::vector<std::string> short_of;
     std::vector<std::string> noted;
@@ -243,20 +234,24 @@ std::string conclusion_of(const std::string& scenario, const std::vector<Finding
     if (short_of.empty() && noted.empty()) return scenario + " is fit for a study.";
     if (!short_of.empty())
         return fmt::format("{} is not fit for a study as it is: {}.", scenario, core::listed(short_of));
-    const auto is_noted = [&](const char* name) { return std::ranges::find(noted, name) != noted.end(); };
-    const bool may_lock = is_noted(detail::locks_name) && !has_trials;
-    const char* const is = may_lock ? "may be" : "is";
-    const std::string begin =
-        is_noted(signals_name)
-            ? fmt::format("A study of signals can show little in {}: few EVs pass one. For others it {} fit",
-                          scenario, is)
-            : fmt::format("{} {} fit for a study", scenario, is);
-    if (may_lock)
-        return fmt::format("{}: its one run locks, and others may more; --lock-trials 6 tells. Noted: {}.",
-                           begin, core::listed(noted));
-    return fmt::format("{}, with what is noted: {}.{}", begin, core::listed(noted), first);
+    if (!has_trials && std::ranges::find(noted, detail::locks_name) != noted.end())
+        return fmt::format(
+            "{} may be fit for a study: its one run locks, and others may more; --lock-trials 6 tells. "
+            "Noted: {}.",
+            scenario, core::listed(noted));
+    return fmt::format("{} is fit for a study, with what is noted: {}.{}", scenario, core::listed(noted),
+                       first);
 }
 
+}  // namespace
+
+std::string conclusion_of(const std::string& scenario, const std::vector<Finding>& findings) {
+    for (const Finding& finding : findings)
+        if (finding.numbers.contains("sentence"))
+            return fmt::format("{} {}", finding.numbers.at("sentence").get<std::string>(),
+                               fitness_of(scenario, findings));
+    return fitness_of(scenario, findings);
+}
 const char* word_of(Grade grade) {
     switch (grade) {
         case Grade::ok:
@@ -343,14 +338,15 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
     const std::string less = density_advice(checked, use.factor < 1.0 ? use.factor : 0.8);
     const auto trips = detail::emergency_trips_in(core::read_file(checked.demand / "emergency.csv"));
     const auto queueing = detail::queueing_trips(checked.config, checked.network, of_seeds);
-    std::vector<Finding> findings = {{"loads", Grade::ok, "SUMO loads the network and the demand"},
-                                     insertion_finding(run, less),
-                                     emergency_finding(record, checked, less, queueing),
-                                     detail::sites_finding(checked.config),
-                                     routes_finding(checked.demand, trips),
-                                     jams_finding(run, use, checked),
-                                     detail::locks_finding(record, record.traffic.locks, checked, less),
-                                     signals_finding(checked.network, trips)};
+    std::vector<Finding> findings = {
+        {"loads", Grade::ok, "SUMO loads the network and the demand"},
+        insertion_finding(run, less),
+        emergency_finding(record, checked, less, queueing),
+        detail::sites_finding(checked.config),
+        routes_finding(scenario::planned_routes(checked.demand / "traffic.rou.xml", checked.network), trips),
+        jams_finding(run, use, checked),
+        detail::locks_finding(record, record.traffic.locks, checked, less),
+        signals_finding(checked.outlook)};
     std::ranges::move(detail::way_findings(checked.config, checked.network, trips, of_seeds),
                       std::back_inserter(findings));
     findings.push_back(collisions_finding(run, checked.config.time.step_length_s, less));
@@ -426,10 +422,11 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double a
         const std::filesystem::path& roads = plan.units.front().unit.network_folder;
         const scenario::BuiltNetwork built = scenario::open_network(scenario, roads);
         const std::vector<detail::EmergencyTrip> of_seeds = planned_trips(scenario, built, seed);
-        findings = findings_of(
-            *record,
-            {scenario, built.network, asked_density, store.scenario_folder(scenario.name) / "demand" / "0"},
-            of_seeds);
+        const std::filesystem::path home = store.scenario_folder(scenario.name);
+        findings = findings_of(*record,
+                               {scenario, built.network, asked_density, home / "demand" / "0",
+                                core::parse_object(core::read_file(home / "outlook.json"), "outlook.json")},
+                               of_seeds);
         if (!scenario.incidents.empty())
             findings.push_back(detail::passing_finding(scenario, built.network, of_seeds, planned_seeds));
         findings.push_back({"speed", Grade::ok,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "campaign/study_run.hpp"
+#include "core/json.hpp"
 #include "results/record.hpp"
 #include "roads/network.hpp"
 #include "scenario/config.hpp"
@@ -23,6 +24,7 @@ struct Finding {
     Grade grade = Grade::ok;
     std::string text;
     std::string advice = {};  ///< What to do about it; empty where there is nothing to do.
+    core::Json numbers = {};  ///< What is known besides, for JSON alone.
 };
 
 /// What traffic does on a scenario's roads.
@@ -48,16 +50,14 @@ struct Checked {
     const roads::Network& network;
     double asked_density = 1.0;    ///< `--density` of the check.
     std::filesystem::path demand;  ///< Folder of the run's demand.
+    core::Json outlook = {};       ///< scenario::outlook_json of it.
 };
-
-/// What a baseline run says about the scenario.
-std::vector<Finding> findings_of(const results::RunRecord& record, const Checked& checked);
 
 /// The collisions of a run. `less`: how to get less traffic, where they are more than one to a hundred
 /// vehicles.
 Finding collisions_finding(const metrics::RunMetrics& run, double step_length_s, const std::string& less);
 
-/// What findings come to, in a sentence.
+/// What findings come to: what to expect of preemption, and whether the scenario is fit for a study.
 std::string conclusion_of(const std::string& scenario, const std::vector<Finding>& findings);
 
 /// What a run that failed says about it. Its inputs are kept in `folder`.

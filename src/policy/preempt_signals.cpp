@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "policy/detail/approach.hpp"
-#include "policy/detail/short_loops.hpp"
+#include "roads/short_loops.hpp"
 
 namespace clearway::policy {
 namespace {
@@ -22,7 +22,7 @@ PreemptSignals::PreemptSignals(const PolicyContext& context, PreemptSignalsConfi
                                RequestMemorySettings memory)
     : ConfiguredPolicy(context, config), memory_(memory) {
     if (config_.short_block_m > 0.0)
-        is_careful_ = detail::on_short_loops(context_.network, config_.short_block_m);
+        is_careful_ = roads::on_short_loops(context_.network, config_.short_block_m);
 }
 
 double PreemptSignals::arrival_s(const detail::View& view, const traffic::BelievedVehicle& emergency,

@@ -11,6 +11,7 @@
 #include "policy/detail/room.hpp"
 #include "policy/request_memory.hpp"
 #include "policy/signal_messages.hpp"
+#include "roads/short_loops.hpp"
 
 namespace clearway::policy {
 
@@ -22,7 +23,7 @@ struct PreemptSignalsConfig {
     double slowest_share = 0.5;
     double horizon_m = 600.0;
     double halted_mps = 0.5;
-    double short_block_m = 150.0;
+    double short_block_m = roads::usual_short_block_m;
     double exit_room_m = 0.0;
     int signals_ahead = 3;
     double lease_s = 0.0;

@@ -6,7 +6,7 @@
 
 #include "policy/detail/approach.hpp"
 #include "policy/detail/room.hpp"
-#include "policy/detail/short_loops.hpp"
+#include "roads/short_loops.hpp"
 #include "traffic/signal.hpp"
 
 namespace clearway::policy {
@@ -80,7 +80,7 @@ std::vector<std::uint16_t> most_wanted(const roads::Signal& signal, const std::s
 RecoverSignals::RecoverSignals(const PolicyContext& context, RecoverSignalsConfig config)
     : ConfiguredPolicy(context, config) {
     if (config_.short_block_m > 0.0)
-        keeps_cycle_ = detail::on_short_loops(context_.network, config_.short_block_m);
+        keeps_cycle_ = roads::on_short_loops(context_.network, config_.short_block_m);
 }
 
 void RecoverSignals::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {

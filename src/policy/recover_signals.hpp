@@ -5,6 +5,7 @@
 
 #include "core/fields.hpp"
 #include "policy/configured_policy.hpp"
+#include "roads/short_loops.hpp"
 
 namespace clearway::policy {
 
@@ -17,7 +18,7 @@ struct RecoverSignalsConfig {
     double halted_mps = 0.5;
     double lease_s = 2.0;
     double exit_room_m = 0.0;
-    double short_block_m = 150.0;
+    double short_block_m = roads::usual_short_block_m;
 
     static constexpr void fields(const auto& table) {
         using C = RecoverSignalsConfig;

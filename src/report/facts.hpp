@@ -230,6 +230,8 @@ struct ScenarioFacts {
     std::string attribution;  ///< Credit that the map data requires; may be empty.
     /// What its figures rest on, a sentence: demand, EVs at red lights. Empty if the manifest does not say.
     std::string assumptions;
+    /// What to expect of preemption, a sentence with text from a file; empty without signals.
+    std::string outlook;
     std::string network_svg;  ///< Trusted markup, or empty if the folder has no usable picture.
     std::optional<std::vector<WideEdge>> wide_edges;  ///< By id; nothing if the folder does not list them.
     std::optional<RoadMap> roads;                     ///< Nothing if the folder does not list them.

@@ -221,6 +221,7 @@ void add_files(const results::Store& store, const results::Results& results, Sce
     }
     scenario.wide_edges = detail::wide_edges_in(home / "wide_edges.json");
     scenario.streets = detail::streets_in(home / "streets.json");
+    scenario.outlook = detail::outlook_in(home / "outlook.json");
     scenario.roads = detail::roads_in(home / "roads.json");
     if (!scenario.conditions.empty())
         scenario.flows = detail::flows_in(home / "counts.csv", results, scenario);

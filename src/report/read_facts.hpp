@@ -21,6 +21,7 @@ namespace clearway::report {
 ///     scenarios/SCENARIO/wide_edges.json             edges with three or more lanes for cars; optional
 ///     scenarios/SCENARIO/counts.csv                  counted flows; optional
 ///     scenarios/SCENARIO/roads.json                  roads, signals and stations; optional
+///     scenarios/SCENARIO/outlook.json                what to expect of preemption; optional
 ///     scenarios/SCENARIO/streets.json                street names by edge; optional
 ///     training/NAME/losses.csv, summary.json         trainings, by NAME; optional
 ///     command.txt                                    the command that made the study; optional

@@ -8,6 +8,7 @@
 #include "core/json.hpp"
 #include "metrics/counts.hpp"
 #include "scenario/network.hpp"
+#include "scenario/outlook.hpp"
 #include "scenario/picture.hpp"
 #include "scenario/prepare.hpp"
 #include "study/detail/road_map.hpp"
@@ -53,6 +54,15 @@ void keep_texts(const std::filesystem::path& file, const core::Settings& texts) 
     keep_text(file, texts.empty() ? "" : core::to_text(core::Json(texts)));
 }
 
+core::Json outlook_of(const roads::Network& network, const scenario::Prepared& prepared) {
+    std::vector<std::vector<std::string>> ways;
+    for (const traffic::EmergencyDeparture& departure : prepared.emergency)
+        ways.push_back(departure.edges);
+    return scenario::outlook_json(
+        scenario::outlook(network, ways, scenario::planned_routes(prepared.route_files.front(), network),
+                          prepared.time.window_s));
+}
+
 /// Makes what a scenario needs besides its network: a first demand, which finds unknown edges and unreachable
 /// destinations before any worker starts, its wide edges, street names, a map and a picture for the report.
 void complete_scenario(const scenario::ScenarioConfig& config, const experiment::RunJob& unit,
@@ -62,8 +72,9 @@ void complete_scenario(const scenario::ScenarioConfig& config, const experiment:
     const scenario::BuiltNetwork built = scenario::open_network(config, unit.network_folder);
     const std::filesystem::path demand = folder / "demand" / std::to_string(unit.replication);
     core::make_folder(demand);
-    scenario::prepare(config, built, core::StudySeed{unit.study_seed}, core::Replication{unit.replication},
-                      demand);
+    const scenario::Prepared prepared = scenario::prepare(config, built, core::StudySeed{unit.study_seed},
+                                                          core::Replication{unit.replication}, demand);
+    core::write_atomically(folder / "outlook.json", core::to_text(outlook_of(built.network, prepared)));
     const std::string title = config.title.empty() ? config.name : config.title;
     core::write_atomically(folder / "wide_edges.json", wide_edges_json(built.network));
     write_counts(config, built.network, folder / "counts.csv");

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "policy/detail/short_loops.hpp"
 #include "policy/recover_signals.hpp"
+#include "roads/short_loops.hpp"
 #include "scenario/config.hpp"
 #include "scenario/network.hpp"
 #include "support/temporary_folder.hpp"
@@ -21,8 +21,7 @@ TEST(ShippedScenarios, have_short_loops_only_where_they_are_made_for_it) {
         const support::TemporaryFolder folder;
         const scenario::BuiltNetwork built =
             scenario::build_network(scenario::load(name), folder.path() / "network");
-        EXPECT_EQ(policy::detail::on_short_loops(built.network, policy::RecoverSignalsConfig{}.short_block_m)
-                      .empty(),
+        EXPECT_EQ(roads::on_short_loops(built.network, policy::RecoverSignalsConfig{}.short_block_m).empty(),
                   !name.starts_with("short_"))
             << name;
     }

@@ -100,6 +100,13 @@ std::map<std::string, std::string> streets_in(const std::filesystem::path& file)
     return texts_in(file, "an object of edges and their street names");
 }
 
+std::string outlook_in(const std::filesystem::path& file) {
+    const auto sentence = [](const json& object) {
+        return object.at("signals") > 0 ? object.at("sentence").get<std::string>() : "";
+    };
+    return read_json(file, "an object with signals and a sentence", sentence).value_or("");
+}
+
 std::optional<RoadMap> roads_in(const std::filesystem::path& file) {
     return read_json(file, "an object with edges, signals and stations", roads_from);
 }

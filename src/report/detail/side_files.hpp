@@ -25,6 +25,9 @@ core::Settings titles_in(const std::filesystem::path& file);
 /// `controls.json` of the study (StudyConfig::controls); empty if the file is missing.
 core::Settings controls_in(const std::filesystem::path& file);
 
+/// The sentence of `outlook.json`; empty likewise, and without signals.
+std::string outlook_in(const std::filesystem::path& file);
+
 /// `roads.json`; nothing for folders of versions that did not write it.
 std::optional<RoadMap> roads_in(const std::filesystem::path& file);
 

@@ -47,7 +47,7 @@ void write_words(const StudyFacts& study, const ScenarioFacts& scenario, const C
     const std::string failing = experiment::failure_words(condition.condition);
     write_notes({policies.empty() ? "" : fmt::format("{}: {}.", condition.title, policies),
                  failing.empty() ? "" : fmt::format("What fails: {}.", failing), scenario.assumptions,
-                 kept_requests_sentence(scenario), unsent_messages_sentence(scenario)},
+                 scenario.outlook, kept_requests_sentence(scenario), unsent_messages_sentence(scenario)},
                 writer);
     writer.markup(fmt::format("<p class=\"badge {}\">{}</p>\n",
                               badge.runs == Badge::Runs::enough ? "enough" : "few", escaped(badge.words)));

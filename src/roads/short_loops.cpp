@@ -1,4 +1,4 @@
-#include "policy/detail/short_loops.hpp"
+#include "roads/short_loops.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,25 +6,25 @@
 #include <numeric>
 #include <set>
 
-namespace clearway::policy::detail {
+namespace clearway::roads {
 namespace {
 
 /// By place of signals: the other places that a short block joins to it, in either direction.
 using Neighbours = std::vector<std::set<std::uint32_t>>;
 
 template <class Visit>
-void for_each_way(const roads::Network& network, const Visit& visit) {
+void for_each_way(const Network& network, const Visit& visit) {
     for (std::uint32_t row = 0; row < network.signals().size(); ++row)
         for (const auto& ways : network.signal(core::SignalIndex{row}).links)
-            for (const roads::SignalLink& way : ways)
+            for (const SignalLink& way : ways)
                 visit(row, way);
 }
 
 /// The one edge to which cars go on from `edge` without turning round; none where there are several or none.
-core::EdgeIndex only_way_on(const roads::Network& network, core::EdgeIndex edge) {
+core::EdgeIndex only_way_on(const Network& network, core::EdgeIndex edge) {
     core::EdgeIndex next;
     for (std::uint32_t number = 0; number < network.edge(edge).lane_count; ++number)
-        for (const roads::Connection& way : network.connections_from(network.lane_of(edge, number))) {
+        for (const Connection& way : network.connections_from(network.lane_of(edge, number))) {
             if (!way.allows_cars || way.direction == 't') continue;
             const core::EdgeIndex to = network.lane(way.to).edge;
             if (next.exists() && next != to) return {};
@@ -35,7 +35,7 @@ core::EdgeIndex only_way_on(const roads::Network& network, core::EdgeIndex edge)
 
 /// Visits the places of signals at which the block ends that begins with `edge`.
 template <class Visit>
-void for_each_end(const roads::Network& network, const std::vector<std::set<std::uint32_t>>& ahead,
+void for_each_end(const Network& network, const std::vector<std::set<std::uint32_t>>& ahead,
                   core::EdgeIndex edge, double shorter_than_m, const Visit& visit) {
     std::set<core::EdgeIndex> passed;
     double length_m = 0.0;
@@ -52,12 +52,12 @@ void for_each_end(const roads::Network& network, const std::vector<std::set<std:
 }
 
 /// Where a signal stands: the mean of its stop lines. No number for one without links.
-roads::Point centre_of(const roads::Network& network, std::uint32_t signal) {
-    roads::Point sum;
+Point centre_of(const Network& network, std::uint32_t signal) {
+    Point sum;
     float count = 0.0F;
     for (const auto& ways : network.signal(core::SignalIndex{signal}).links)
-        for (const roads::SignalLink& way : ways) {
-            const roads::Point end = network.lane(way.from).shape.back();
+        for (const SignalLink& way : ways) {
+            const Point end = network.lane(way.from).shape.back();
             sum = {sum.x_m + end.x_m, sum.y_m + end.y_m};
             ++count;
         }
@@ -65,10 +65,10 @@ roads::Point centre_of(const roads::Network& network, std::uint32_t signal) {
 }
 
 /// By signal, the first of those that stand at the same place as it: the carriageways of one street.
-std::vector<std::uint32_t> places_of(const roads::Network& network) {
+std::vector<std::uint32_t> places_of(const Network& network) {
     constexpr float same_place_m = 25.0F;
     const auto count = static_cast<std::uint32_t>(network.signals().size());
-    std::vector<roads::Point> centres;
+    std::vector<Point> centres;
     for (std::uint32_t signal = 0; signal < count; ++signal)
         centres.push_back(centre_of(network, signal));
     std::vector<std::uint32_t> places(count);
@@ -92,11 +92,11 @@ std::vector<std::uint32_t> places_of(const roads::Network& network) {
     return places;
 }
 
-Neighbours short_blocks(const roads::Network& network, double shorter_than_m,
+Neighbours short_blocks(const Network& network, double shorter_than_m,
                         const std::vector<std::uint32_t>& places) {
     std::vector<std::set<std::uint32_t>> ahead(network.edges().size());
     std::vector<std::set<core::EdgeIndex>> behind(network.signals().size());
-    for_each_way(network, [&](std::uint32_t signal, const roads::SignalLink& way) {
+    for_each_way(network, [&](std::uint32_t signal, const SignalLink& way) {
         ahead[network.lane(way.from).edge.value].insert(places[signal]);
         behind[places[signal]].insert(network.lane(way.to).edge);
     });
@@ -113,7 +113,7 @@ Neighbours short_blocks(const roads::Network& network, double shorter_than_m,
 
 }  // namespace
 
-std::vector<bool> on_short_loops(const roads::Network& network, double shorter_than_m) {
+std::vector<bool> on_short_loops(const Network& network, double shorter_than_m) {
     const std::vector<std::uint32_t> places = places_of(network);
     Neighbours neighbours = short_blocks(network, shorter_than_m, places);
     std::vector<std::uint32_t> ends;
@@ -140,4 +140,4 @@ std::vector<bool> on_short_loops(const roads::Network& network, double shorter_t
     return on_loop;
 }
 
-}  // namespace clearway::policy::detail
+}  // namespace clearway::roads

@@ -4,7 +4,10 @@
 
 #include "roads/network.hpp"
 
-namespace clearway::policy::detail {
+namespace clearway::roads {
+
+/// Below this length policies call a block short: docs/findings/short-blocks.md.
+inline constexpr double usual_short_block_m = 150.0;
 
 /// Signals at which a queue can close upon itself: those left when signals joined to fewer than two others by
 /// blocks shorter than `shorter_than_m` are taken away again and again, so those on closed loops of such
@@ -14,6 +17,6 @@ namespace clearway::policy::detail {
 /// loop. Queues that stand around a closed loop let nobody out of it, however green the signals are (C. F.
 /// Daganzo, Urban gridlock, Transportation Research Part B 41 (2007) 49-62); along a chain they end at its
 /// end. By signal; empty if there are none. Allocates.
-std::vector<bool> on_short_loops(const roads::Network& network, double shorter_than_m);
+std::vector<bool> on_short_loops(const Network& network, double shorter_than_m);
 
-}  // namespace clearway::policy::detail
+}  // namespace clearway::roads
