@@ -50,7 +50,7 @@ struct Outlook {
     /// clearance of people on foot is slow.
     std::size_t passed = 0, full = 0, contested = 0, on_short_loops = 0, slow_walks = 0;
     double fullest_degree = 0.0;
-    std::string fullest;  ///< Id of the signal with that degree, of a contested one if there are any.
+    std::string fullest = {};  ///< Id of the signal with that degree, of a contested one if there are any.
 
     double red_share() const { return trip_s > 0.0 ? red_s / trip_s : 0.0; }
     Prospect prospect() const;

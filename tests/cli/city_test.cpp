@@ -182,7 +182,13 @@ TEST_F(CityTest, check_says_how_many_emergency_vehicles_pass_a_signal) {
         clearway({"scenario", "check", "intersection"}).out,
         AllOf(testing::ContainsRegex("ok +signals +1 in the network; ([0-9]+) of [0-9]+ EVs pass one"),
               Not(HasSubstr("parts.toml"))));
-    EXPECT_THAT(clearway({"scenario", "check", "city_v2"}).out, HasSubstr("EVs pass one"));
+    const Ended city = clearway({"scenario", "check", "city_v2", "--json"});
+    const auto findings = nlohmann::json::parse(city.out);
+    const auto signals =
+        std::ranges::find(findings, "signals", [](const auto& each) { return each["finding"]; });
+    ASSERT_NE(signals, findings.end());
+    EXPECT_THAT(signals->at("text").get<std::string>(), HasSubstr("EVs pass one"));
+    EXPECT_EQ(signals->at("numbers").at("prospect"), "helps");
 }
 
 TEST_F(CityTest, check_says_whether_there_are_emergency_vehicles) {
@@ -190,7 +196,7 @@ TEST_F(CityTest, check_says_whether_there_are_emergency_vehicles) {
     const Ended fit = clearway({"scenario", "check", "line"});
     EXPECT_EQ(fit.code, 0) << fit.out << fit.err;
     EXPECT_THAT(fit.err, HasSubstr("clearway: 1 run into"));
-    EXPECT_THAT(fit.out, HasSubstr("\nA study of signals can show little in line: few EVs pass one. "));
+    EXPECT_THAT(fit.out, HasSubstr("\nPreemption has little to gain: the network has no signal. "));
     for (const auto& left : std::filesystem::directory_iterator(folder() / "runs"))
         EXPECT_EQ(left.path().filename(), "run-costs.json");
     EXPECT_THAT(clearway({"run", "line", "--dry-run", "--seeds", "2"}).out, HasSubstr("(from runs of"));

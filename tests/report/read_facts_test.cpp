@@ -321,6 +321,19 @@ TEST_F(RunFolder, tells_which_edges_have_three_or_more_lanes) {
     EXPECT_THROW(static_cast<void>(read_facts(study())), core::InputError);
 }
 
+TEST_F(RunFolder, says_what_to_expect_of_preemption) {
+    write("scenarios/merge/outlook.json", R"({"signals": 4, "sentence": "Preemption may help <b>."})");
+    const StudyFacts facts = read_facts(study());
+    EXPECT_THAT(console_tables(facts), HasSubstr("\nPreemption may help <b>.\n"));
+    std::ostringstream page;
+    write_html(facts, page);
+    EXPECT_THAT(page.str(), HasSubstr("<p class=\"note\">Preemption may help &lt;b&gt;.</p>"));
+    write("scenarios/merge/outlook.json", R"({"signals": 0, "sentence": "No signal."})");
+    EXPECT_THAT(console_tables(read_facts(study())), Not(HasSubstr("No signal.")));
+    write("scenarios/merge/outlook.json", "{}");
+    EXPECT_THROW(static_cast<void>(read_facts(study())), core::InputError);
+}
+
 TEST_F(RunFolder, tells_how_many_signals_the_network_has) {
     EXPECT_FALSE(read_facts(study()).scenarios[0].roads);
     write("scenarios/merge/roads.json", R"({"edges": [], "signals": [], "stations": []})");
