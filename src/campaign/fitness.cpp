@@ -197,7 +197,12 @@ Printout printout_of(const std::string& scenario, const std::vector<Finding>& fi
         if (!finding.advice.empty()) row.below.push_back("try: " + finding.advice);
         table.rows.push_back(std::move(row));
     }
-    return {.tables = {table}, .text = "\n" + core::wrapped(conclusion_of(scenario, findings), 0) + "\n"};
+    std::string text = "\n";
+    for (const Finding& finding : findings)
+        if (finding.numbers.contains("sentence"))
+            text += core::wrapped(finding.numbers.at("sentence").get<std::string>(), 0) + "\n";
+    text += core::wrapped(conclusion_of(scenario, findings), 0) + "\n";
+    return {.tables = {table}, .text = text};
 }
 
 /// Removes the run folder, and the folder of run folders where nothing else is in it.
@@ -215,8 +220,9 @@ core::ExitCode verdict_on(const std::vector<Finding>& findings) {
     return has(Grade::falls_short) ? core::ExitCode::fell_short : core::ExitCode::ok;
 }
 
-/// Whether a scenario is fit for a study, in a sentence.
-std::string fitness_of(const std::string& scenario, const std::vector<Finding>& findings) {
+}  // namespace
+
+std::string conclusion_of(const std::string& scenario, const std::vector<Finding>& findings) {
     std::vector<std::string> failed;
     std::vector<std::string> short_of;
     std::vector<std::string> noted;
@@ -243,15 +249,6 @@ std::string fitness_of(const std::string& scenario, const std::vector<Finding>& 
                        first);
 }
 
-}  // namespace
-
-std::string conclusion_of(const std::string& scenario, const std::vector<Finding>& findings) {
-    for (const Finding& finding : findings)
-        if (finding.numbers.contains("sentence"))
-            return fmt::format("{} {}", finding.numbers.at("sentence").get<std::string>(),
-                               fitness_of(scenario, findings));
-    return fitness_of(scenario, findings);
-}
 const char* word_of(Grade grade) {
     switch (grade) {
         case Grade::ok:

@@ -57,7 +57,7 @@ struct Checked {
 /// vehicles.
 Finding collisions_finding(const metrics::RunMetrics& run, double step_length_s, const std::string& less);
 
-/// What findings come to: what to expect of preemption, and whether the scenario is fit for a study.
+/// What findings come to, in a sentence.
 std::string conclusion_of(const std::string& scenario, const std::vector<Finding>& findings);
 
 /// What a run that failed says about it. Its inputs are kept in `folder`.

@@ -271,7 +271,8 @@ Prospect Outlook::prospect() const {
     // docs/findings/cities.md: up to 0.05 a gain of `corridor` is hardly shown, from 0.1 on it always is.
     constexpr double little_share = 0.07;
     if (red_share() < little_share) return Prospect::little;
-    // Ibid.: where only one turn is full, others mostly gain, since recovery gives it the time of the rest.
+    // Ibid.: where only one turn is full the others lose nothing, since recovery gives it the time of the
+    // rest.
     return contested > 0 ? Prospect::costs_others : Prospect::helps;
 }
 
@@ -290,7 +291,7 @@ std::string outlook_sentence(const Outlook& outlook) {
     if (prospect == Prospect::helps)
         return fmt::format("Preemption is likely to help: {}{}.", signals, obstacles(outlook));
     return fmt::format(
-        "Preemption is likely to help EVs at a cost to the others: {}, and full approaches compete for green "
+        "Preemption is likely to help EVs and may cost the others: {}, and full approaches compete for green "
         "at {} of {} (the fullest, at {:.1f} times its capacity, is at {}){}.",
         signals, outlook.contested, core::counted(outlook.passed, "signal"), outlook.fullest_degree,
         outlook.fullest, obstacles(outlook));

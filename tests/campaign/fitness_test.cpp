@@ -144,15 +144,6 @@ TEST(Conclusion, knows_nothing_of_a_scenario_whose_one_run_locks) {
     EXPECT_EQ(conclusion_of("town", findings), "town is not fit for a study as it is: trials.");
 }
 
-TEST(Conclusion, begins_with_what_to_expect_of_preemption) {
-    EXPECT_EQ(conclusion_of("town", {{"signals",
-                                      Grade::note,
-                                      "4 in the network; 1 of 6 EVs pass one",
-                                      "",
-                                      {{"sentence", "Preemption has little to gain: few."}}}}),
-              "Preemption has little to gain: few. town is fit for a study, with what is noted: signals.");
-}
-
 TEST(CollisionsFinding, tells_many_from_few) {
     metrics::RunMetrics run = busy_run();
     run.collisions = 4;

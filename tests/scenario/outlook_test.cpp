@@ -61,7 +61,7 @@ TEST(Outlook, costs_the_others_where_full_flows_compete_for_green) {
     EXPECT_EQ(across.contested, 1U);
     EXPECT_EQ(across.prospect(), Prospect::costs_others);
     EXPECT_THAT(outlook_sentence(across),
-                HasSubstr("Preemption is likely to help EVs at a cost to the others: EVs pass 2.0 signals a "
+                HasSubstr("Preemption is likely to help EVs and may cost the others: EVs pass 2.0 signals a "
                           "trip, whose red alone costs 27 s of "));
     EXPECT_THAT(outlook_sentence(across),
                 HasSubstr("compete for green at 1 of 2 signals (the fullest, at 1.0 "
