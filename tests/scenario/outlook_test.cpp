@@ -40,6 +40,19 @@ TEST(Outlook, adds_up_the_red_of_the_signals_of_a_trip_and_its_time_at_the_limit
     EXPECT_NEAR(found.trip_s - found.red_s, driven_m / limit_mps / 2.0, 0.5);
 }
 
+TEST(Outlook, waits_once_at_a_signal_with_two_stop_lines_on_the_way) {
+    const support::TemporaryFolder folder;
+    std::string text = core::read_file(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml");
+    const std::size_t program = text.find("<tlLogic id=\"B\"");
+    text.erase(program, text.find("<junction", program) - program);
+    for (std::size_t at = 0; (at = text.find("tl=\"B\"", at)) != std::string::npos;)
+        text[at + 4] = 'A';
+    const roads::Network network = roads::Network::read(folder.write("joined.net.xml", text));
+    const Outlook found = outlook(network, {testing::eastbound}, {}, 3600.0);
+    EXPECT_DOUBLE_EQ(found.signals_a_trip, 1.0);
+    EXPECT_DOUBLE_EQ(found.red_s, 49.0 * 49.0 / 180.0);
+}
+
 TEST(Outlook, knows_the_degree_of_saturation_of_a_flow) {
     const Outlook one = two_crossings_with({{{"north_a_A", "A_south_a"}, 1000.0}});
     EXPECT_DOUBLE_EQ(one.fullest_degree, 1000.0 / (2 * 1800.0 * 41.0 / 90.0));
