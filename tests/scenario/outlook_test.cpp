@@ -61,6 +61,9 @@ TEST(Outlook, knows_the_degree_of_saturation_of_a_flow) {
     const Outlook right = two_crossings_with({{{"north_b_B", "B_A"}, 800.0}});
     EXPECT_DOUBLE_EQ(right.fullest_degree, 800.0 / (1800.0 * 41.0 / 90.0)) << "from one lane";
     EXPECT_EQ(right.fullest, "B");
+    const Outlook shared =
+        two_crossings_with({{{"north_b_B", "B_A"}, 600.0}, {{"north_b_B", "B_south_b"}, 1000.0}});
+    EXPECT_DOUBLE_EQ(shared.fullest_degree, 1600.0 / (2 * 1800.0 * 41.0 / 90.0)) << "of both turns together";
     EXPECT_EQ(right.full, 1U);
 }
 
@@ -70,6 +73,12 @@ TEST(Outlook, costs_the_others_where_full_flows_compete_for_green) {
     EXPECT_EQ(both_ways.full, 1U);
     EXPECT_EQ(both_ways.contested, 0U) << "they have green together";
     EXPECT_EQ(both_ways.prospect(), Prospect::helps);
+    const Outlook left_turn = two_crossings_with({{{"west_A", "A_north_a"}, 800.0}, {west, 1600.0}});
+    EXPECT_EQ(left_turn.contested, 0U) << "it waits for a gap in their common green";
+    const Outlook right_turns =
+        two_crossings_with({{{"west_A", "A_south_a"}, 800.0}, {{"north_a_A", "A_west"}, 800.0}});
+    EXPECT_EQ(right_turns.full, 1U);
+    EXPECT_EQ(right_turns.contested, 0U) << "their ways do not meet";
     const Outlook across = two_crossings_with({{east, 1600.0}, {{"north_a_A", "A_south_a"}, 1500.0}});
     EXPECT_EQ(across.contested, 1U);
     EXPECT_EQ(across.prospect(), Prospect::costs_others);
