@@ -23,6 +23,10 @@ PreemptSignals::PreemptSignals(const PolicyContext& context, PreemptSignalsConfi
     : ConfiguredPolicy(context, config), memory_(memory) {
     if (config_.short_block_m > 0.0)
         is_careful_ = roads::on_short_loops(context_.network, config_.short_block_m);
+    if (config_.timing != HoldTiming::lead)
+        planner_.emplace(detail::HoldPlanner::Settings{
+            config_.emergency_worth, config_.least_gain_s,
+            config_.timing == HoldTiming::queues ? detail::ModelSight::all : detail::ModelSight::none});
 }
 
 double PreemptSignals::arrival_s(const detail::View& view, const traffic::BelievedVehicle& emergency,
@@ -93,17 +97,25 @@ bool PreemptSignals::stands_back(const detail::Arrival& arrival, const detail::R
            leads_into_a_queue(context_.network.signal(signal), arrival.approach, *room, config_.exit_room_m);
 }
 
-bool PreemptSignals::is_early(const detail::View& view, const detail::Arrival& arrival) const {
+double PreemptSignals::early_s(const detail::View& view, const detail::Arrival& arrival) const {
     const double left_m = std::max(0.0, arrival.approach.distance_m - arrival.moved_m);
     const double until_s = arrival.announced_s.value_or(arrival_s(view, arrival.emergency, left_m));
     const auto halted = static_cast<double>(detail::queue_ahead(
         view, arrival.emergency, {arrival.moved_m, arrival.approach.distance_m}, config_.halted_mps));
-    return until_s > std::min(config_.lead_s + config_.lead_per_halted_s * halted, config_.longest_lead_s);
+    return until_s - std::min(config_.lead_s + config_.lead_per_halted_s * halted, config_.longest_lead_s);
+}
+
+bool PreemptSignals::is_due(const detail::View& view, const detail::Arrival& arrival, bool is_asked) {
+    if (is_asked && !planner_) return true;
+    const double early_s = this->early_s(view, arrival);
+    const bool pays = planner_ && planner_->is_due(view, arrival, early_s, is_asked);
+    return is_asked || pays || early_s <= 0.0;
 }
 
 void PreemptSignals::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {
     const detail::View view(context_.network, belief);
     detail::LeaseWriter write("preempt_signals", context_.period, belief.time, leases, config_.lease_s);
+    if (planner_) planner_->begin(view);
     std::set<RequestKey> asked;
     std::optional<detail::Room> room;
     if (!is_careful_.empty() && config_.exit_room_m > 0.0)
@@ -112,7 +124,7 @@ void PreemptSignals::act(const traffic::BelievedGraph& belief, std::vector<traff
         const RequestKey request{arrival.emergency.key, arrival.approach.signal};
         const bool is_asked = asked_.contains(request);
         if (stands_back(arrival, room ? &*room : nullptr, is_asked)) continue;
-        if (!is_asked && is_early(view, arrival)) continue;
+        if (!is_due(view, arrival, is_asked)) continue;
         asked.insert(request);
         write.add(request.second, traffic::HoldGreen{arrival.approach.links, arrival.approach.own_links},
                   "an emergency vehicle arrives", request.first);

@@ -89,9 +89,10 @@ double free_travel_time_s(const View& view, const traffic::BelievedVehicle& vehi
     for (std::size_t row = vehicle.state.route_edge; row < route.size() && left_m > 0.0; ++row) {
         const roads::Edge& edge = view.network().edge(route[row]);
         const bool is_here = row == vehicle.state.route_edge;
+        const roads::Lane& lane = view.network().lane(vehicle.state.lane);
         const double rest_m =
-            is_here ? std::max(0.0F, edge.length_m - vehicle.state.lane_position_m) : edge.length_m;
-        there.state.lane = view.network().lane_of(route[row], 0);
+            is_here ? std::max(0.0F, lane.length_m - vehicle.state.lane_position_m) : edge.length_m;
+        there.state.lane = is_here ? vehicle.state.lane : view.network().lane_of(route[row], 0);
         const double piece_m = row + 1 == route.size() ? left_m : std::min(left_m, rest_m);
         time_s += piece_m / std::max(view.allowed_speed(there).value, slowest_mps);
         left_m -= piece_m;

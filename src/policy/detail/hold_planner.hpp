@@ -1,0 +1,45 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "policy/detail/queue_model.hpp"
+#include "policy/detail/request_table.hpp"
+#include "policy/detail/signal_forecast.hpp"
+#include "policy/detail/view.hpp"
+
+namespace clearway::policy::detail {
+
+/// Decides whether signals are held earlier than a rule would hold them, by a model of what the hold does
+/// (QueueModel): once every later beginning costs more, and not to hold too, and the emergency vehicle gains
+/// enough. The cost is its time, times its worth, plus that of the others. It leaves signals of the
+/// controller NEMA to the rule.
+class HoldPlanner {
+  public:
+    struct Settings {
+        double emergency_worth = 0.0;  ///< How many vehicle-seconds a second of an emergency vehicle counts.
+        double least_gain_s = 0.0;     ///< Less is not worth an early hold.
+        ModelSight sight = ModelSight::all;
+    };
+    explicit HoldPlanner(Settings settings) : settings_(settings) {}
+
+    /// Starts a decision, in which arrivals are asked about in the order in which the vehicles meet them.
+    void begin(const View& view);
+    /// Whether a hold should begin now; true while it `is_held`. `rule_s`: when the rule would begin it, from
+    /// now.
+    bool is_due(const View& view, const Arrival& arrival, double rule_s, bool is_held);
+
+  private:
+    /// Where an emergency vehicle is foretold to pass a stop line.
+    struct Reached {
+        double free_s = 0.0;  ///< On a free road, from now on.
+        double time_s = 0.0;  ///< From now on.
+    };
+
+    Settings settings_;
+    std::vector<ProgramClock> clocks_;             ///< By signal.
+    std::map<core::VehicleKey, Reached> reached_;  ///< The last one of each, in this decision.
+};
+
+}  // namespace clearway::policy::detail

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "core/ids.hpp"
+#include "policy/detail/request_table.hpp"
+#include "policy/detail/signal_forecast.hpp"
+#include "policy/detail/view.hpp"
+#include "roads/network.hpp"
+
+namespace clearway::policy::detail {
+
+/// Which vehicles a model sees.
+enum class ModelSight : std::uint8_t {
+    all,   ///< Those that are believed.
+    none,  ///< None: a control, in which an emergency vehicle meets an empty road.
+};
+
+/// The edge on the way of an emergency vehicle that ends at the first stop line of an approach (joined
+/// junctions have several); nothing where its way no longer passes there.
+std::optional<core::EdgeIndex> edge_before(const View& view, const Arrival& arrival);
+/// Until the emergency vehicle is at the stop line on a free road, s.
+double free_s_to(const View& view, const Arrival& arrival);
+
+/// How long an emergency vehicle and the others take to pass a signal if a hold begins at some time, by point
+/// queues (Vickrey 1969): on each lane vehicles arrive at free speed and pass in order, one every saturation
+/// headway, while their link is green. It knows who is believed to be on the edges that end at the signal and
+/// ahead of the emergency vehicle, and expects as many more behind them.
+class QueueModel {
+  public:
+    /// `edge`: see `edge_before`. `not_before_s`: the emergency vehicle's earliest arrival, by what holds it
+    /// up earlier on its way. `emergency_worth`: how many vehicle-seconds one second of any other emergency
+    /// vehicle counts. Refers to the view's network; the arrival's links must not be empty.
+    QueueModel(const View& view, const Arrival& arrival, core::EdgeIndex edge, SignalForecaster forecaster,
+               double not_before_s, double emergency_worth, ModelSight sight = ModelSight::all);
+
+    /// From now on, s, and vehicle-seconds.
+    struct Outcome {
+        double passing_s = 0.0;  ///< Until the emergency vehicle is over the stop line, at most `horizon_s`.
+        double waited_s = 0.0;   ///< Of the others, until they are or the horizon ends.
+    };
+    /// If a hold begins after so long; nothing: if none does.
+    Outcome outcome(std::optional<double> start_s) const;
+
+    /// How far it looks ahead, s: the longest hold and a cycle or two.
+    static constexpr double horizon_s = 180.0;
+
+  private:
+    struct Vehicle {
+        double earliest_s = 0.0;  ///< At the stop line.
+        double distance_m = 0.0;
+        std::uint16_t link = 0;
+        double weight = 1.0;  ///< Of its waiting.
+        bool is_own = false;
+    };
+    struct Queue {
+        core::LaneIndex lane;
+        std::vector<Vehicle> vehicles;  ///< Nearest first.
+    };
+
+    bool is_near(core::EdgeIndex edge) const;
+    Queue* queue_of(core::LaneIndex lane);
+    void add_near(const View& view, const Arrival& arrival);
+    void add_ahead(const View& view, const Arrival& arrival);
+    void add_own(const Arrival& arrival, double left_m);
+    void add_expected(Queue& queue) const;
+    bool is_ever_green(std::uint16_t link) const;
+    double weight_of(const traffic::BelievedVehicle& vehicle) const;
+    void place(const traffic::BelievedVehicle& vehicle, double earliest_s,
+               std::optional<core::EdgeIndex> next);
+    /// When the own vehicle of a queue passes, if it has it; adds what the others wait.
+    double drain(const Queue& queue, const SignalForecast& forecast, double& waited_s) const;
+
+    const roads::Network& network_;
+    const roads::Signal& signal_;
+    SignalForecaster forecaster_;
+    double emergency_worth_ = 0.0;
+    double arrival_s_ = 0.0;
+    double delay_s_ = 0.0;  ///< Of the emergency vehicle on its way to here.
+    std::vector<Queue> queues_;
+    core::EdgeIndex own_edge_;  ///< On which the emergency vehicle comes.
+    std::size_t own_queue_ = 0;
+};
+
+}  // namespace clearway::policy::detail

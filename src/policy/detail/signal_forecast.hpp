@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/units.hpp"
+#include "roads/network.hpp"
+#include "traffic/signal.hpp"
+
+namespace clearway::policy::detail {
+
+/// Whether a link is green in a state; not if the state has no letter for it.
+inline bool is_green_for(const std::string& state, std::size_t link) {
+    return link < state.size() && traffic::is_green(state[link]);
+}
+
+/// Where the program of a signal stands, from what it shows.
+class ProgramClock {
+  public:
+    /// At each decision; `shown` may be empty (not known).
+    void watch(const std::string& shown, core::Seconds now);
+    /// Since the program's cycle began, s. A fixed program is in step while it shows what it should, another
+    /// one is where the phase that it shows began; while it shows no phase, it counts as in step.
+    double cycle_time_s(const roads::Signal& signal, core::Seconds now) const;
+
+  private:
+    std::string shown_;
+    core::Seconds since_;
+};
+
+/// What a signal shows in a piece of time, s from now. Letters as in traffic::SignalStates.
+struct ShownPiece {
+    double from_s = 0.0;
+    double to_s = 0.0;
+    std::string state;
+};
+/// Piece after piece.
+using SignalForecast = std::vector<ShownPiece>;
+
+/// Foretells what a signal shows, with and without a hold. Coarser than actuation: every transition takes the
+/// same time, phases last as the program says, a hold shows what the program's phase for its links shows, and
+/// after it the program is in step again. Not for the controller NEMA, whose phases run side by side.
+class SignalForecaster {
+  public:
+    /// Keeps a reference to the signal. `held`: links of the hold, ascending. `shown`: what it shows now, or
+    /// nothing where that is not known. `cycle_time_s`: see ProgramClock.
+    SignalForecaster(const roads::Signal& signal, std::vector<std::uint16_t> held, std::string shown,
+                     double cycle_time_s);
+
+    /// Duration of the program's cycle, s; 0 without a program.
+    double cycle_s() const { return cycle_s_; }
+    /// No hold.
+    SignalForecast program(double until_s) const;
+    /// A hold that begins at `start_s`, well before `until_s`, and goes on.
+    SignalForecast hold(double start_s, double until_s) const;
+    /// Ends that hold.
+    void release(SignalForecast& forecast, double at_s, double until_s) const;
+
+  private:
+    void run(double from_s, double to_s, SignalForecast& forecast) const;
+    std::string shown_at(double time_s) const;  ///< By the program.
+    std::string held_state(std::size_t letters) const;
+
+    const roads::Signal& signal_;
+    std::vector<std::uint16_t> held_;
+    std::string shown_;
+    double cycle_time_s_ = 0.0;
+    double cycle_s_ = 0.0;
+};
+
+}  // namespace clearway::policy::detail
