@@ -243,10 +243,11 @@ TEST_F(ContinuedStudyTest, a_condition_that_is_added_to_a_study_keeps_the_runs_o
         EXPECT_EQ(read(std::string("runs/mine/") + table), read(std::string("whole/") + table));
     EXPECT_THAT(clearway({"verify", "runs/mine", "--all"}).out, HasSubstr("6 verified: 6 same"));
     write("my.toml", study(""));
-    EXPECT_THAT(clearway({"study", "my.toml"}).err, HasSubstr("graph_simulation is not asked for"));
+    EXPECT_THAT(clearway({"study", "my.toml"}).err,
+                HasSubstr("Graph made by simulation attributes is not asked for"));
     write("my.toml", study("\"b10_no_repair\", \"b10_dead_reckoning\", \"solo\", "));
     EXPECT_THAT(clearway({"study", "my.toml"}).err,
-                HasSubstr("different conditions (graph_simulation is not asked for)"));
+                HasSubstr("different conditions (Graph made by simulation attributes is not asked for)"));
     write("my.toml", "seed = 2\n" + study("\"graph_simulation\", \"b10_no_repair\", "));
     EXPECT_THAT(clearway({"study", "my.toml"}).err, HasSubstr("holds another study: different seed. Choose"));
 }
