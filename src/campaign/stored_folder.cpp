@@ -23,11 +23,6 @@ std::set<std::string> names_of_parts(const experiment::ConditionSpec& condition)
     return {names.begin(), names.end()};
 }
 
-/// Whether Clearway's worker or SUMO in it wrote a line of a log.
-bool is_of_worker(const std::string& line) {
-    return line.starts_with("clearway-run: ") || line.starts_with("Warning: ") || line.starts_with("Error: ");
-}
-
 }  // namespace
 
 std::optional<results::Manifest> study_in(const std::filesystem::path& folder) {
@@ -89,17 +84,20 @@ void tell_printed(const results::Store& store) {
     const std::filesystem::path folder = store.log_file("").parent_path();
     if (parts.empty() || !std::filesystem::is_directory(folder)) return;
     std::size_t lines = 0;
+    std::set<std::string> printing;
     std::set<std::filesystem::path> logs;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         std::ifstream log(entry.path());
         for (std::string line; std::getline(log, line);) {
-            if (is_of_worker(line)) continue;
+            const std::string part = line.substr(0, line.find("| "));  // as python/clearway/_host.py marks it
+            if (part.size() == line.size() || !parts.contains(part)) continue;
             ++lines;
+            printing.insert(part);
             logs.insert(entry.path());
         }
     }
     if (logs.empty()) return;
-    fmt::print(stderr, "clearway: {} printed {}: {}{}\n", fmt::join(parts, " and "),
+    fmt::print(stderr, "clearway: {} printed {}: {}{}\n", fmt::join(printing, " and "),
                core::counted(lines, "line"), logs.begin()->string(),
                logs.size() == 1 ? "" : fmt::format(" and {} more", logs.size() - 1));
 }

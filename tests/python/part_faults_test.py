@@ -376,10 +376,22 @@ class FaultTest(FolderCase):
     def test_what_a_part_prints_is_in_the_log_of_its_run(self) -> None:
         clearway.run("intersection", [clearway.Condition("Prints", policy="bad.py:Prints")], seeds=1, out="runs")
         (log,) = [file.read_text() for file in Path("runs/logs").glob("*.log")]
-        self.assertIn("seen at 0", log)
-        self.assertIn("warned", log)
+        self.assertIn("Prints| seen at 0\nPrints| warned\n", log)
         ended = subprocess.run([str(PROGRAMS / "clearway"), "report", "runs"], capture_output=True, text=True, check=False)
         self.assertIn(f"clearway: Prints printed {log.count(chr(10)):,} lines: runs/logs/intersection-00000-standard.log\n", ended.stderr)
+
+    def test_lines_that_a_part_did_not_print_do_not_count(self) -> None:
+        with self.assertWarns(RuntimeWarning):
+            clearway.run("intersection", [clearway.Condition(name, policy=f"bad.py:{name}") for name in ("Prints", "Raises")], seeds=1, out="runs")
+        (log,) = Path("runs/logs").glob("*standard.log")
+        lines = log.read_text().splitlines()
+        printed = [line for line in lines if line.startswith("Prints| ")]
+        self.assertIn("Traceback (most recent call last):", lines)
+        said = subprocess.run([str(PROGRAMS / "clearway"), "report", "runs"], capture_output=True, text=True, check=False).stderr
+        self.assertIn(f"clearway: Prints printed {len(printed):,} lines: {log}\n", said)
+        log.write_text("".join(f"{line}\n" for line in lines if line not in printed))
+        said = subprocess.run([str(PROGRAMS / "clearway"), "report", "runs"], capture_output=True, text=True, check=False).stderr
+        self.assertNotIn(" printed ", said)
 
     def test_nothing_is_said_of_a_part_that_prints_nothing(self) -> None:
         ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "bad.py:Gone", "--seeds", "1", "--no-solo"],
