@@ -240,6 +240,7 @@ void StrictTable::finish() {
         if (known_.contains(key)) continue;
         problem(key, "unknown key", listed(valid), did_you_mean(key, valid, "Remove it"));
         reading_.misspelt.insert(path_);
+        if (const std::string near = nearest(key, valid); !near.empty()) reading_.meant.insert(full(near));
     }
 }
 

@@ -23,6 +23,7 @@ struct TomlReading {
     std::map<std::string, std::string>
         origins;                          ///< `time.window_s` -> `merge/scenario.toml:14:1: time.window_s`.
     std::set<std::string> misspelt = {};  ///< Tables with an unknown key, `time`.
+    std::set<std::string> meant = {};     ///< The known keys nearest to unknown ones, `time.window_s`.
 };
 
 /// Reads one table of a TOML file and collects its problems. Every key that is asked for counts as known;

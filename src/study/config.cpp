@@ -1,7 +1,9 @@
 #include "study/config.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
 
@@ -343,6 +345,12 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
     return std::ranges::find(names, name) != names.end();
 }
 
+/// Whether a key is misspelt that makes or names conditions: a title may then name one of those.
+bool misses_conditions(const TomlReading& reading) {
+    return std::ranges::any_of(std::array{"factors", "conditions", "condition", "condition.name"},
+                               [&](const char* key) { return reading.meant.contains(key); });
+}
+
 std::vector<std::string> metric_names() {
     std::vector<std::string> names;
     core::for_each_field<metrics::RunMetrics>([&](const auto& field) { names.emplace_back(field.name); });
@@ -485,19 +493,15 @@ StudyConfig read_study(const std::filesystem::path& name, Extent extent, std::ui
     const std::vector<experiment::ConditionSpec> untouched = config.conditions;
     read_quick(root, extent, scenarios.empty() ? ScenariosOf::file : ScenariosOf::command_line, config);
     vary_conditions(factors, reading.problems, config);
-    detail::read_titles(root, untouched, factors, extent, config);
+    Problems unnamed = detail::read_titles(root, untouched, factors, extent, config);
     detail::read_controls(root, untouched, config);
     resolve_parts(reading, config);
     detail::read_plan(root, extent, config);
-    // A key that is misspelt is the cause of others and comes first, and what names nothing may name what it
-    // should have given.
+    // A key that is misspelt is the cause of others and comes first.
     const auto others = static_cast<std::ptrdiff_t>(reading.problems.size());
     root.finish();
     std::rotate(reading.problems.begin(), reading.problems.begin() + others, reading.problems.end());
-    if (reading.problems.size() > static_cast<std::size_t>(others))
-        std::erase_if(reading.problems, [](const core::Problem& problem) {
-            return problem.what.starts_with(detail::names_nothing);
-        });
+    if (!misses_conditions(reading)) std::ranges::move(unnamed, std::back_inserter(reading.problems));
     if (!reading.problems.empty()) throw core::InputError(reading.problems);
     return config;
 }

@@ -42,6 +42,12 @@ TEST_F(StudyFile, TellsAMisspeltKeyAndNotWhatFollowsFromIt) {
                                testing::Not(HasSubstr("\n"))));
     EXPECT_THAT(problems(begin + "[factors]\n" + titles),
                 HasSubstr("titles.Q50: is no condition, and no text"));
+    const std::string named = begin + "[[condition]]\nnmae = \"corridor\"\npolicy = \"hold_green\"\n";
+    EXPECT_THAT(problems(named + "[titles]\ncorridor = \"ours\"\n"), testing::Not(HasSubstr("titles.")));
+    EXPECT_THAT(problems("replicatons = 3\nseeed = 1\n" + begin + "[titles]\nbaselin = \"old\"\n"),
+                testing::AllOf(HasSubstr("Did you mean 'replications'?"),
+                               HasSubstr("titles.baselin: is no condition, and no text")))
+        << "no condition depends on those keys";
 }
 
 TEST_F(StudyFile, TellsAMissingFileOnceForAllThatFactorsMakeOfACondition) {

@@ -17,11 +17,13 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 }  // namespace
 
 // NOLINTNEXTLINE(readability-function-size): a table, what its keys may name, and what it fills
-void read_titles(core::StrictTable& root, const std::vector<experiment::ConditionSpec>& untouched,
-                 const Factors& factors, Extent extent, StudyConfig& config) {
+std::vector<core::Problem> read_titles(core::StrictTable& root,
+                                       const std::vector<experiment::ConditionSpec>& untouched,
+                                       const Factors& factors, Extent extent, StudyConfig& config) {
     const toml::table* const table = root.table("titles");
     auto reader = root.below("titles");
-    if (!reader) return;
+    if (!reader) return {};
+    std::vector<core::Problem> unnamed;
     std::vector<std::string> known = core::texts_of(config.conditions, &experiment::ConditionSpec::name);
     for (const experiment::ConditionSpec& condition : untouched)
         known.push_back(condition.name);
@@ -38,14 +40,12 @@ void read_titles(core::StrictTable& root, const std::vector<experiment::Conditio
         reader->text(name, config.titles[name]);
         const bool left_out = extent == Extent::quick && name.find('+') != std::string::npos;
         if (left_out || has(known, name)) continue;
-        const core::Problem problem = {reader->where(name),
-                                       fmt::format("{}, and no text that a factor gives one", names_nothing),
-                                       core::listed(known), core::did_you_mean(name, known)};
-        if (has(given, core::nearest(name, known)))
-            config.doubtful_titles.push_back(problem);
-        else
-            reader->problem(name, problem.what, problem.allowed, problem.cure);
+        std::vector<core::Problem>& problems =
+            has(given, core::nearest(name, known)) ? config.doubtful_titles : unnamed;
+        problems.push_back({reader->where(name), "is no condition, and no text that a factor gives one",
+                            core::listed(known), core::did_you_mean(name, known)});
     }
+    return unnamed;
 }
 
 void read_controls(core::StrictTable& root, const std::vector<experiment::ConditionSpec>& untouched,
