@@ -232,12 +232,14 @@ class FileWriter : public detail::Writer {
         if (!is_chosen(table.name)) return;
         Table typeset = table;
         bool has_reference = false;
+        for (std::string& head : typeset.whole.head)
+            head = named(head, short_reference());
         for (std::string& head : typeset.data.head) {
             head = named(head, short_reference());
             has_reference = has_reference || head.find(short_reference()) != std::string::npos ||
                             head.find("difference") != std::string::npos;
         }
-        files_.tables.push_back(write(table.name, ".csv", detail::to_csv(typeset.data)));
+        files_.tables.push_back(write(table.name, ".csv", detail::to_csv(typeset.csv())));
         // A plan compares what it names.
         typeset.caption = has_reference && table.name != "plan" ? caption(table.caption)
                                                                 : named(table.caption, study_.reference);

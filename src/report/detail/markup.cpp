@@ -41,9 +41,10 @@ const char* width_class(const DataTable& table) {
         ->name;
 }
 
-std::string table_element(const DataTable& table, const char* more) {
+/// `kind` is a CSS class, which the page's script reads.
+std::string table_element(const DataTable& table, const char* more, const char* kind = "data") {
     const std::string width = width_class(table);
-    std::string html = fmt::format("<table class=\"data{}{}\"{}><thead><tr>",
+    std::string html = fmt::format("<table class=\"{}{}{}\"{}><thead><tr>", kind,
                                    table.cells == DataTable::Cells::words ? " words" : "",
                                    width.empty() ? "" : " " + width, more);
     for (const std::string& cell : table.head) {
@@ -74,6 +75,7 @@ std::string to_html(const Table& table) {
     std::string html = fmt::format("<div class=\"table\"{}>", id);
     if (!table.caption.empty()) html += fmt::format("<p class=\"caption\">{}</p>\n", escaped(table.caption));
     html += table.markup.empty() ? to_html(table.data) : table.markup + table_element(table.data, " hidden");
+    if (!table.whole.rows.empty()) html += table_element(table.whole, " hidden", "whole");
     return html + "</div>\n";
 }
 

@@ -42,6 +42,10 @@ struct Table {
     DataTable data;
     /// Markup to show instead of `data`, which then serves downloads alone; empty for most tables.
     std::string markup = {};
+    /// What CSV holds instead of `data` where readers are spared a column; without rows for most tables.
+    DataTable whole = {};
+
+    const DataTable& csv() const { return whole.rows.empty() ? data : whole; }
 };
 
 /// A figure: a drawing and the data behind it. Without a drawing there is nothing to show.

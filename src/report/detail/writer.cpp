@@ -67,6 +67,7 @@ void Writer::figures(std::vector<Figure> figures) {
 
 void Writer::table(Table table) {
     drop_unused(table.data);
+    drop_unused(table.whole);
     if (table.data.rows.empty()) return;
     table.name = file_name(table.name);
     put(table);

@@ -178,10 +178,11 @@
   }
   for (const part of document.querySelectorAll('.table[id]')) {
     const data = part.querySelector('table.data');
+    const whole = part.querySelector('table.whole') ?? data;
     const caption = part.querySelector('.caption').textContent;
     const place = document.createElement('div');
     part.append(place);
-    addButtons(place, part.id, [['csv', () => offer(part.id + '.csv', 'text/csv', csv(data))],
+    addButtons(place, part.id, [['csv', () => offer(part.id + '.csv', 'text/csv', csv(whole))],
       ['tex', () => offer(part.id + '.tex', 'application/x-tex', latex(part.id, caption, data))]]);
   }
 

@@ -136,25 +136,28 @@ bool is_repeated(const ScenarioFacts& scenario, Measure measure) {
            });
 }
 
-/// Those with a value under some condition, or without one because it lost EVs, that repeat no other.
+/// Those with a value under some condition, or without one because it lost EVs.
 std::vector<Measure> used(const ScenarioFacts& scenario, std::span<const Measure> columns) {
     std::vector<Measure> measures;
     std::ranges::copy_if(columns, std::back_inserter(measures), [&](Measure measure) {
-        return !is_repeated(scenario, measure) &&
-               std::ranges::any_of(scenario.conditions, [&](const auto& one) {
-                   return one.value(measure) || is_void_for_lost(one, measure);
-               });
+        return std::ranges::any_of(scenario.conditions, [&](const auto& one) {
+            return one.value(measure) || is_void_for_lost(one, measure);
+        });
     });
     return measures;
 }
 
-/// A table as readers see it, and its plain cells for downloads. Without rows if no measure has a value.
+/// A table as readers see it, and its plain cells for downloads: a measure that repeats another is in CSV
+/// alone, whose columns programs rely on. Without rows if no measure has a value.
 Table measures_of(const ScenarioFacts& scenario, std::span<const Measure> wanted, const char* name,
                   const std::string& caption, bool with_published = false) {
-    const std::vector<Measure> columns = used(scenario, wanted);
+    const std::vector<Measure> all = used(scenario, wanted);
+    std::vector<Measure> columns = all;
+    std::erase_if(columns, [&](Measure measure) { return is_repeated(scenario, measure); });
     if (columns.empty()) return {};
     return {fmt::format("{}-{}", name, scenario.name), caption,
-            plain_table(scenario, columns, with_published), measure_table(scenario, columns, with_published)};
+            plain_table(scenario, columns, with_published), measure_table(scenario, columns, with_published),
+            columns == all ? DataTable() : plain_table(scenario, all, with_published)};
 }
 
 /// `; p (Holm): of t, over 6 comparisons`: those whose runs differ. Empty where none does.
