@@ -1,13 +1,13 @@
-#include "roads/detail/permissions.hpp"
+#include "roads/permissions.hpp"
 
 #include "roads/detail/numbers.hpp"
 
-namespace clearway::roads::detail {
+namespace clearway::roads {
 namespace {
 
 Permissions listed(std::string_view classes) {
     Permissions result{false, false, false};
-    for_each_word(classes, ' ', [&](std::string_view word) {
+    detail::for_each_word(classes, ' ', [&](std::string_view word) {
         result.cars |= word == "passenger" || word == "all";
         result.emergency |= word == "emergency" || word == "all";
         result.pedestrians |= word == "pedestrian" || word == "all";
@@ -26,4 +26,4 @@ Permissions permissions_of(const core::XmlAttributes& attributes) {
     return {!forbidden.cars, !forbidden.emergency, !forbidden.pedestrians};
 }
 
-}  // namespace clearway::roads::detail
+}  // namespace clearway::roads

@@ -2,7 +2,7 @@
 
 #include "core/xml_stream.hpp"
 
-namespace clearway::roads::detail {
+namespace clearway::roads {
 
 /// Which of the relevant SUMO classes may use a lane or a connection.
 struct Permissions {
@@ -15,4 +15,4 @@ struct Permissions {
 /// `disallow`.
 Permissions permissions_of(const core::XmlAttributes& attributes);
 
-}  // namespace clearway::roads::detail
+}  // namespace clearway::roads

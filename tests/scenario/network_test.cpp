@@ -128,7 +128,7 @@ TEST_F(BuiltNetworks, limits_read_from_the_sources_are_those_of_the_built_networ
     Options slow;
     slow.set("road_limit_kmh", "70");
     slow.set("road_speed_factor", "0.9");
-    for (const char* const name : {"intersection", "merge", "arterial", "grid_signals"}) {
+    for (const char* const name : {"intersection", "merge", "arterial", "grid_signals", "rural", "spider"}) {
         const std::string words = road_limits(load(name)).words();
         EXPECT_EQ(words, roads::limits_of(built(name).network).words()) << name;
         EXPECT_EQ(road_limits(load(name, slow)).words(), roads::limits_of(built(name, slow).network).words());
@@ -139,6 +139,23 @@ TEST_F(BuiltNetworks, limits_read_from_the_sources_are_those_of_the_built_networ
     ScenarioConfig absent = load("merge");
     absent.network.nodes = "absent.nod.xml";
     EXPECT_EQ(road_limits(absent).words(), "");
+}
+
+TEST_F(BuiltNetworks, limits_read_from_the_sources_are_those_of_lanes_for_cars) {
+    write("line.nod.xml", line_nodes);
+    write("line.edg.xml",
+          "<edges><edge id=\"road\" from=\"a\" to=\"b\" numLanes=\"2\" speed=\"20\">"
+          "<lane index=\"0\" speed=\"10\"/><lane index=\"1\" speed=\"25\"/></edge>"
+          "<edge id=\"bus\" from=\"b\" to=\"c\" numLanes=\"2\" speed=\"25\">"
+          "<lane index=\"0\" speed=\"30\" allow=\"bus\"/></edge>"
+          "<edge id=\"mixed\" from=\"c\" to=\"b\" numLanes=\"2\" speed=\"35\" disallow=\"passenger\">"
+          "<lane index=\"1\" speed=\"5\" disallow=\"truck\"/></edge>"
+          "<edge id=\"foot\" from=\"d\" to=\"b\" speed=\"2\" allow=\"pedestrian\"/>"
+          "<edge id=\"rail\" from=\"b\" to=\"d\" speed=\"50\" disallow=\"all\"/></edges>\n");
+    const ScenarioConfig config = load(write("scenario.toml", line_head).string());
+    EXPECT_EQ(road_limits(config).words(), "roads of 18 to 90 km/h, mostly 90");
+    EXPECT_EQ(road_limits(config).words(),
+              roads::limits_of(build_network(config, folder() / "out").network).words());
 }
 
 TEST_F(BuiltNetworks, rain_slows_all_roads_and_a_stretch_has_a_factor_of_its_own) {

@@ -11,7 +11,7 @@
 
 #include "roads/controllers.hpp"
 #include "roads/detail/numbers.hpp"
-#include "roads/detail/permissions.hpp"
+#include "roads/permissions.hpp"
 
 namespace clearway::roads {
 namespace {
@@ -207,7 +207,7 @@ void NetworkBuilder::read_lane(const core::XmlAttributes& attributes) {
     lane.length_m = static_cast<float>(number(attributes, "length", 0, 1e7));
     lane.speed_limit_mps = static_cast<float>(number(attributes, "speed", 0, 1e3));
     lane.width_m = static_cast<float>(number_or(attributes, "width", 0, 1e3, 3.2));
-    const detail::Permissions allowed = detail::permissions_of(attributes);
+    const Permissions allowed = permissions_of(attributes);
     lane.allows_cars = allowed.cars;
     lane.allows_emergency = allowed.emergency;
     lane.allows_pedestrians = allowed.pedestrians;
@@ -365,7 +365,7 @@ void NetworkBuilder::read_connection(const core::XmlAttributes& attributes) {
     connection.from = connection_end(attributes, "from", "fromLane");
     connection.to = connection_end(attributes, "to", "toLane");
     if (!connection.from.exists() || !connection.to.exists()) return;
-    detail::Permissions allowed = detail::permissions_of(attributes);
+    Permissions allowed = permissions_of(attributes);
     if (const auto via = attributes.find("via")) {
         const auto lane = network_.find_lane(*via);
         if (!lane) {
