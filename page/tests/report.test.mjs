@@ -66,7 +66,7 @@ for (const [width, colorScheme] of [[360, "light"], [360, "dark"], [768, "dark"]
       await settled(page);
       assert.ok(Math.abs((await timeOf(page)) - (low + high) / 2) <= 0.5);
       const captions = await page.locator(".play .caption").allTextContents();
-      assert.match(captions[0], /^baseline: \S+, \d+ km\/h; \d+ vehicles$/);
+      assert.match(captions[0], /^Baseline: \S+, \d+ km\/h; \d+ vehicles$/);
       assert.match(captions[1], /^corridor: \S+, \d+ km\/h; \d+ vehicles$/);
       await expectFollowed(page);
     }

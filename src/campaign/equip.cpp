@@ -156,6 +156,17 @@ analysis::EquipPlan raced(const EquipRequest& request, Search& search, Look& loo
         });
 }
 
+/// Keeps what was known when a search was interrupted, but not over a complete answer, whose files agree.
+/// What cannot be written does not hide that it was interrupted.
+void keep_interim(const std::string& words, const std::filesystem::path& folder) {
+    if (std::filesystem::exists(folder / json_name)) return;
+    try {
+        core::write_output(folder / text_name, words);
+    } catch (const core::Error& error) {
+        core::print_message(fmt::format("clearway: {}\n", error.what()));
+    }
+}
+
 /// What was chosen and what fresh runs make of it. Where they are interrupted, what was known is said first.
 std::pair<analysis::EquipPlan, FreshOutcomes> measured(const EquipRequest& request, Search& search) {
     Look look;
@@ -171,8 +182,8 @@ std::pair<analysis::EquipPlan, FreshOutcomes> measured(const EquipRequest& reque
         if (is_interrupted(error.exit_code())) {
             const std::string words =
                 plan ? chosen_words(*plan, search.signals) : interim_words(look, search.signals);
-            core::write_output(request.run.folder / text_name, words);
             core::print_message(words);
+            if (plan || look.is_complete()) keep_interim(words, request.run.folder);
         }
         throw;
     }

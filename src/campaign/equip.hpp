@@ -33,8 +33,8 @@ struct EquipRequest {
 /// Chooses signals from runs in rounds, estimates their gains from runs on fresh seeds, writes report.html,
 /// equip.csv, candidates.csv, equip.json, curve.svg and map.svg, and prints candidates and ranks. Returns
 /// runs_failed when a run failed. Where it is interrupted it prints the gains of the last look. What it
-/// prints is kept in equip.txt. Throws core::InputError for a condition that asks no signal for green and a
-/// network without signals, and as EquipRounds does.
+/// prints is kept in equip.txt; gains of a look do not replace an answer. Throws core::InputError for a
+/// condition that asks no signal for green and a network without signals, and as EquipRounds does.
 core::ExitCode equip(EquipRequest request);
 
 /// Whether a folder is one of `equip`, which is no run folder.

@@ -34,30 +34,42 @@ bool is_option(const std::string& word, const std::string& name) {
     return word == name || word.starts_with(name + "=");
 }
 
-/// The command as one of `clearway run`: without what only equip takes, where it writes and what was
-/// equipped.
-std::vector<std::string> study_words(const std::vector<std::string>& command) {
+/// `x` of `--option=x`; empty where the value is a word of its own.
+std::string value_behind(const std::string& word) {
+    const std::size_t equals = word.find('=');
+    return equals == std::string::npos ? "" : word.substr(equals + 1);
+}
+
+/// The command as one of `clearway run`: without what only equip takes, where it writes, its name and what
+/// was equipped. The scenario comes first, so that no option of several values takes it.
+std::vector<std::string> study_words(const std::vector<std::string>& command, const std::string& scenario) {
     const std::vector<std::string> with_value = {"--budget",         "--candidates",  "--seeds", "--seed",
-                                                 "--within",         "--out",         "--jobs",  "--set",
+                                                 "--within",         "--out",         "--jobs",  "--name",
                                                  "--run-time-limit", "--memory-limit"};
     const std::vector<std::string> flags = {"--thorough", "--dry-run", "--json", "--retry-failed"};
-    std::vector<std::string> words;
+    const std::string equipped = std::string(experiment::equipped_setting) + "=";
+    std::vector<std::string> words = {command.front(), "run", scenario};
     bool has_condition = false;
-    for (std::size_t at = 0; at < command.size(); ++at) {
+    bool has_scenario = false;
+    bool is_in_settings = false;
+    for (std::size_t at = 2; at < command.size(); ++at) {
         const std::string& word = command[at];
         const auto is_word = [&](const std::string& name) { return is_option(word, name); };
-        if (std::ranges::any_of(flags, is_word)) continue;
-        has_condition = has_condition || is_word("--condition") || is_word("--policy");
-        const bool has_own_value = word.find('=') == std::string::npos && at + 1 < command.size();
-        const std::string value = has_own_value ? command[at + 1] : word.substr(word.find('=') + 1);
-        const bool is_kept_setting =
-            is_word("--set") && !value.starts_with(std::string(experiment::equipped_setting) + "=");
-        if (std::ranges::none_of(with_value, is_word) || is_kept_setting)
+        const bool begins_settings = is_word("--set");
+        is_in_settings = begins_settings || (is_in_settings && !word.starts_with('-'));
+        if (!has_scenario && word == scenario) {
+            has_scenario = true;
+        } else if (std::ranges::any_of(with_value, is_word)) {
+            if (word.find('=') == std::string::npos) ++at;
+        } else if (is_in_settings) {
+            const std::string setting = begins_settings ? value_behind(word) : word;
+            if (!setting.empty() && !setting.starts_with(equipped))
+                words.insert(words.end(), {"--set", setting});
+        } else if (std::ranges::none_of(flags, is_word)) {
+            has_condition = has_condition || is_word("--condition") || is_word("--policy");
             words.push_back(word);
-        else if (has_own_value)
-            ++at;
+        }
     }
-    if (words.size() > 1) words[1] = "run";
     if (!has_condition) words.insert(words.end(), {"--condition", experiment::usual_condition});
     words.insert(words.end(), {"--name", "chosen"});
     return words;
@@ -110,7 +122,7 @@ Action configure_equip(App& app) {
         request.condition = shown_condition(chosen_conditions(arguments->conditions), "equip");
         request.scenario = scenario::load(arguments->scenario, arguments->options);
         request.run.command = invocation.command;
-        request.study = study_words(invocation.words);
+        request.study = study_words(invocation.words, arguments->scenario);
         return arguments->mode == Mode::dry_run ? campaign::equip_dry_run(request) : campaign::equip(request);
     };
 }

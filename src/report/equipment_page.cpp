@@ -33,7 +33,7 @@ std::string disc(const core::Spot& at, const std::string& words, Disc kind) {
         at.y + 0.35 * size, size, words);
 }
 
-/// What the disc of a chosen signal bears: its rank, or its number where there is no order.
+/// What the disc of a chosen signal shows: its rank, or its number where there is no order.
 std::string words_on_disc(const EquipmentFacts& facts, std::size_t rank) {
     return detail::has_order(facts) ? std::to_string(rank + 1)
                                     : fmt::format("#{}", facts.ranked[rank].number);
@@ -120,7 +120,7 @@ std::vector<detail::LegendEntry> map_entries(const EquipmentFacts& facts) {
     return entries;
 }
 
-/// `Discs bear ranks: 1 is #7, 2 is #12.`; where there are none, the answer that says so.
+/// `Discs show ranks: 1 is #7, 2 is #12.`; where there are none, the answer that says so.
 std::string order_words(const EquipmentFacts& facts) {
     constexpr std::size_t most_named = 12;
     if (!detail::has_order(facts))
@@ -130,7 +130,7 @@ std::string order_words(const EquipmentFacts& facts) {
         words.push_back(fmt::format("{} is #{}", words.size() + 1, signal.number));
     if (words.size() > most_named) words.resize(most_named);
     if (words.empty()) return "";
-    return fmt::format("Discs bear ranks: {}{}.", fmt::join(words, ", "),
+    return fmt::format("Discs show ranks: {}{}.", fmt::join(words, ", "),
                        words.size() < facts.ranked.size() ? " and so on, as in the table" : "");
 }
 

@@ -273,20 +273,16 @@ std::string not_shown_sentence(const EquipmentFacts& facts) {
                        !detail::has_order(facts) && tells_seeds ? "" : "; more --seeds tell");
 }
 
-/// `Equip first: 1) #4 Via Po / Via Roma; then, not shown: 2) #9 S5.`, numbered as the map and the table of
+/// `Equip first: 1) #4 Via Po / Via Roma, 2) #9 S5 (not shown).`, numbered as the map and the table of
 /// ranks are; what changed no trip is left out.
 std::string order_headline(const EquipmentFacts& facts) {
     std::string text = "Equip first";
-    bool are_shown = true;
     const char* before = ": ";
     for (std::size_t rank = 0; rank < facts.ranked.size(); ++rank) {
         const EquippedSignal& signal = facts.ranked[rank];
         if (is_chance(facts, signal)) continue;
-        if (are_shown && !is_shown_of(facts, signal)) {
-            are_shown = false;
-            before = "; then, not shown: ";
-        }
-        text += fmt::format("{}{}) {}", before, rank + 1, numbered_name(signal));
+        text += fmt::format("{}{}) {}{}", before, rank + 1, numbered_name(signal),
+                            is_shown_of(facts, signal) ? "" : " (not shown)");
         before = ", ";
     }
     return text + ".";
@@ -326,7 +322,7 @@ std::string chosen_sentence(const EquipmentFacts& facts) {
 std::string gain_sentence(const EquipmentFacts& facts) {
     const EquippedSignal& last = facts.ranked.back();
     if (tells_sum(facts))
-        return fmt::format("That counts from {}; {}.", start_of(facts), others_words(facts));
+        return fmt::format("That is the gain over {}. Meanwhile, {}.", start_of(facts), others_words(facts));
     return fmt::format("Together, an EV needs {} s less a trip than with {} ({}), and {}.",
                        estimate_or_dash(last.so_far),
                        facts.equipped_today.empty() ? "none" : "those of today", shown_word(last.so_far),

@@ -56,7 +56,7 @@ TEST_F(EquipLook, tells_what_was_chosen_where_fresh_seeds_are_interrupted) {
     plan.candidates[1].gain = gain;
     EXPECT_THAT(
         chosen_words(plan, signals_),
-        AllOf(HasSubstr("the search has ended"), HasSubstr("order nothing shows yet"),
+        AllOf(HasSubstr("the search has ended"), HasSubstr("in this order, which no gain confirms yet"),
               HasSubstr("  1) #8 Low Road: 10.0, not shown\n"),
               HasSubstr("together (Bonferroni):\n  #8 Low Road: 10.0"), HasSubstr("  #4 High Street: ")));
     plan.steps.back().gain = less_time({90.0, 92.0, 91.0, 89.0, 93.0}, {80.0, 82.5, 81.0, 79.0, 83.0});

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "core/files.hpp"
@@ -227,28 +228,87 @@ TEST_F(EquipTest, chooses_its_seeds_by_the_time_that_is_given) {
     }
 }
 
-TEST_F(EquipTest, interrupted_it_prints_what_the_last_look_knew) {
-    const core::Child child =
-        start({"equip", "./crossings", "--budget", "1", "--seeds", "100", "--out", "out"});
-    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    const auto is_in_second_look = [&] {
-        for (const std::string& round : folders(folder() / "out", "round-"))
-            if (round != "round-01" && std::filesystem::exists(folder() / "out" / round / "runs"))
-                return true;
-        return false;
-    };
-    while (!(std::filesystem::exists(folder() / "out") && is_in_second_look()) &&
-           std::chrono::steady_clock::now() < patience)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    ::kill(child.pid, SIGINT);
-    const Ended interrupted = finish(child);
-    EXPECT_EQ(interrupted.code, 130);
-    EXPECT_THAT(interrupted.err, AllOf(HasSubstr("no ranking yet; the last complete look, "),
-                                       HasSubstr("  #1"), HasSubstr("  #2"), HasSubstr("To continue:")));
+/// A search of many runs, interrupted once the second look and more runs than before have begun.
+class InterruptedEquipTest : public EquipTest {
+  protected:
+    Ended interrupted() const {
+        const std::size_t before = runs_of_later_looks();
+        const core::Child child =
+            start({"equip", "./crossings", "--budget", "1", "--seeds", "1000", "--out", "out"});
+        const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (runs_of_later_looks() == before && std::chrono::steady_clock::now() < patience)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        ::kill(child.pid, SIGINT);
+        return finish(child);
+    }
+
+  private:
+    std::size_t runs_of_later_looks() const {
+        const std::filesystem::path out = folder() / "out";
+        std::size_t count = 0;
+        if (!std::filesystem::exists(out)) return count;
+        for (const std::string& round : folders(out, "round-")) {
+            if (round == "round-01" || !std::filesystem::exists(out / round / "runs")) continue;
+            for (const auto& scenario : std::filesystem::directory_iterator(out / round / "runs"))
+                for (const auto& condition : std::filesystem::directory_iterator(scenario))
+                    count += folders(condition, "0").size();
+        }
+        return count;
+    }
+};
+
+TEST_F(InterruptedEquipTest, prints_what_the_last_look_knew) {
+    const Ended ended = interrupted();
+    EXPECT_EQ(ended.code, 130);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("no ranking yet; the last complete look, "), HasSubstr("  #1"),
+                                 HasSubstr("  #2"), HasSubstr("To continue:")));
     const Ended report = clearway({"report", "out"});
     EXPECT_EQ(report.code, 0) << report.err;
     EXPECT_THAT(report.out, AllOf(HasSubstr("no ranking yet"), HasSubstr("  #1")));
     EXPECT_EQ(clearway({"report", "out", "--json"}).code, 3) << "there is no answer";
+}
+
+TEST_F(InterruptedEquipTest, keeps_an_answer_and_says_that_it_was_interrupted_where_nothing_can_be_written) {
+    ASSERT_EQ(interrupted().code, 130);
+    write("out/equip.txt", "an answer\n");
+    write("out/equip.json", "{}\n");
+    const Ended over_answer = interrupted();
+    EXPECT_EQ(over_answer.code, 130);
+    EXPECT_THAT(over_answer.err, HasSubstr("no ranking yet"));
+    EXPECT_EQ(read("out/equip.txt"), "an answer\n") << "as equip.json has it";
+    std::filesystem::remove(folder() / "out/equip.json");
+    std::filesystem::remove(folder() / "out/equip.txt");
+    std::filesystem::create_directory(folder() / "out/equip.txt");
+    const Ended unwritable = interrupted();
+    EXPECT_EQ(unwritable.code, 130) << unwritable.err;
+    EXPECT_THAT(unwritable.err,
+                AllOf(HasSubstr("no ranking yet"), HasSubstr("cannot write"), HasSubstr("To continue:")));
+}
+
+TEST_F(EquipTest, prints_a_command_that_runs_whatever_the_order_of_the_words) {
+    const auto study = [&](const std::vector<std::string>& words, const std::string& out) {
+        std::vector<std::string> command = {"equip", "--budget", "1", "--seeds", "2", "--out", out};
+        command.insert(command.end(), words.begin(), words.end());
+        const Ended ended = clearway(command);
+        EXPECT_EQ(ended.code, 0) << ended.err;
+        std::vector<std::string> printed = words_of_last_line(ended.out);
+        const std::string text = fmt::format("{}", fmt::join(printed, " "));
+        printed.insert(printed.end(), {"--seeds", "2", "--out", out + "-study"});
+        const Ended ran = clearway(printed);
+        EXPECT_EQ(ran.code, 0) << text << ran.err;
+        return text.substr(0, text.find(" --seed "));
+    };
+    EXPECT_EQ(study({"./crossings", "--policy", "corridor", "--name", "mine"}, "named"),
+              "run ./crossings --policy corridor --name chosen");
+    const std::string kept = "run ./crossings --policy corridor --set privilege.pass_red=1 --name chosen";
+    EXPECT_EQ(study({"./crossings", "--policy", "corridor", "--set", "actuation.equipped=A",
+                     "privilege.pass_red=1"},
+                    "first"),
+              kept);
+    EXPECT_EQ(study({"--policy", "corridor", "--set=privilege.pass_red=1", "actuation.equipped=A", "--name=m",
+                     "./crossings"},
+                    "last"),
+              kept);
 }
 
 TEST_F(EquipTest, tries_only_the_signals_that_most_emergency_vehicles_pass_where_that_is_wanted) {

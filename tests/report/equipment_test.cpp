@@ -168,8 +168,8 @@ TEST(Equipment, HasPairsThatWereTriedTogether) {
 
 TEST(Equipment, EndsWithTheAnswer) {
     const std::string text = flat_text(two_of_twelve());
-    const std::string answer = text.substr(
-        text.find("Equip first: 1) #4 Gate <Road> / High Street; then, not shown: 2) #9 south of"));
+    const std::string answer =
+        text.substr(text.find("Equip first: 1) #4 Gate <Road> / High Street, 2) #9 south of"));
     EXPECT_THAT(answer, HasSubstr("42.0 [38.0, 46.0]"));
     EXPECT_THAT(text, HasSubstr("Not shown: what #9 adds. Chance could be all of it; more --seeds"));
     EXPECT_EQ(count_of(text, "more --seeds"), 1U);
@@ -178,6 +178,14 @@ TEST(Equipment, EndsWithTheAnswer) {
     EXPECT_THAT(text, HasSubstr("Stopped at 2 of 5"));
     EXPECT_THAT(text, testing::ContainsRegex("- +- +50\\.0 .* all signals")) << "no rank 12";
     EXPECT_LE(answer.size(), 8U * 80U) << "eight lines at the end of a terminal";
+}
+
+TEST(Equipment, MarksEachRankThatIsNotShown) {
+    EquipmentFacts facts = two_of_twelve();
+    facts.ranked.push_back(
+        {2, "first", "", about(9.0, 1.0), about(51.0, 1.0), about(0.0, 1.0), about(9.0, 1.0)});
+    EXPECT_THAT(flat_text(facts), HasSubstr(" High Street, 2) #9 south of the old town's gate (not shown), "
+                                            "3) #2 first."));
 }
 
 TEST(Equipment, SaysWhatItsFreshRunsAreWorthAndHowFewTripsDecided) {
@@ -271,8 +279,9 @@ TEST(Equipment, NamesNoOrderWhereOnlyTheSumIsShown) {
     const std::string headline =
         "No order is shown: together the 2 chosen bring 8.0 [1.0, 15.0] s a trip; which of them first, 10 "
         "pairs cannot tell (about 29 would likely).";
-    EXPECT_THAT(flat_text(facts), AllOf(HasSubstr(headline), Not(HasSubstr("Equip first")),
-                                        HasSubstr("That counts from no signal equipped; the others lose")));
+    EXPECT_THAT(flat_text(facts),
+                AllOf(HasSubstr(headline), Not(HasSubstr("Equip first")),
+                      HasSubstr("That is the gain over no signal equipped. Meanwhile, the others lose")));
     const auto json = nlohmann::json::parse(equipment_json(facts));
     EXPECT_EQ(json.at("headline"), headline);
     EXPECT_FALSE(json.at("order_shown").get<bool>());
@@ -502,7 +511,7 @@ TEST(Equipment, NumbersTheMapAsTheTablesWhereThereIsNoOrder) {
         write_equipment_page(facts, page);
         return page.str();
     };
-    EXPECT_THAT(page_of(), HasSubstr("Discs bear ranks: 1 is #4, 2 is #9."));
+    EXPECT_THAT(page_of(), HasSubstr("Discs show ranks: 1 is #4, 2 is #9."));
     for (analysis::MaybeEstimate* const gain : {&facts.ranked[0].gain, &facts.ranked[0].so_far})
         *gain = about(2.0, 3.0);
     facts.ranked[1].gain = facts.ranked[1].so_far = about(3.0, 6.0);

@@ -5,6 +5,7 @@
 #include <regex>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "core/temporary_folder.hpp"
@@ -181,6 +182,17 @@ TEST(FigureFiles, BareOnesDoNotLetTheConditionOfTheHeadlineStandOut) {
     EXPECT_THAT(drawn("tradeoff-merge.svg"), AllOf(Not(HasSubstr("class=\"ring")), Not(HasSubstr("headline")),
                                                    HasSubstr(">95 % intervals<")));
     EXPECT_THAT(drawn("pairs-merge.svg"), Not(HasSubstr(" lead\"")));
+}
+
+TEST(FigureFiles, HaveTheSameDataWithAndWithoutTheHeadline) {
+    const core::TemporaryFolder folder;
+    const StudyFacts study = tests::study({"merge", "intersection", "city"});
+    write_figures(study, folder.path() / "framed");
+    write_figures(study, folder.path() / "bare", {.only = {}, .words = FigureChoice::Words::bare});
+    for (const char* const scenario : {"merge", "intersection", "city"}) {
+        const std::string name = fmt::format("precision-{}.csv", scenario);
+        EXPECT_EQ(text_of(folder.path() / "framed" / name), text_of(folder.path() / "bare" / name));
+    }
 }
 
 TEST(FigureFiles, OfPairsHaveMarksAtTheEndsOfMeansAlone) {

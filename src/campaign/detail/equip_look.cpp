@@ -48,7 +48,7 @@ constexpr const char* flatters = "Gains, s, of which the largest flatters itself
 }  // namespace
 
 std::string interim_words(const Look& look, const Signals& signals) {
-    if (look.sets.size() < 2) return "clearway: no look is complete: no gain can be told yet\n";
+    if (!look.is_complete()) return "clearway: no look is complete: no gain can be told yet\n";
     std::vector<Gain> gains;
     for (std::size_t set = 1; set < look.sets.size(); ++set)
         if (look.sets[set].size() == look.sets.front().size() + 1)
@@ -67,7 +67,7 @@ std::string interim_words(const Look& look, const Signals& signals) {
 std::string chosen_words(const analysis::EquipPlan& plan, const Signals& signals) {
     std::string text = "clearway: the search has ended, the fresh seeds that tell its gain have not. ";
     text += plan.steps.empty() ? "It chose no signal. "
-                               : "It chose, in steps whose order nothing shows yet, with what each adds. ";
+                               : "It chose, in this order, which no gain confirms yet, with what each adds. ";
     text += flatters;
     for (std::size_t rank = 0; rank < plan.steps.size(); ++rank) {
         const analysis::EquipStep& step = plan.steps[rank];

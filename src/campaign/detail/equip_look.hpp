@@ -19,6 +19,8 @@ struct Look {
     std::vector<analysis::SignalSet> sets;  ///< The first has those that are chosen.
     std::vector<analysis::Values> values;
     std::size_t replications = 0;
+
+    bool is_complete() const { return sets.size() > 1; }
 };
 
 /// The candidates that gained most in a look, a line each, and what those gain that were chosen before.

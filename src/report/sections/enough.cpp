@@ -38,18 +38,19 @@ Figure precision_figure(const ScenarioFacts& scenario, const Looks& looks) {
     if (scenario.least_relevant_s > 0.0) plot.horizontal(scenario.least_relevant_s);
     std::vector<LegendEntry> entries;
     DataTable data{{"Condition, replications", labelled(primary, "half width of the interval")}, {}};
-    for (const std::size_t row : drawing_order(looks)) {
+    std::vector<Points> lines(scenario.conditions.size());
+    for (std::size_t row = 0; row < lines.size(); ++row) {
         const ConditionFacts& condition = scenario.conditions[row];
         if (!condition.precision || condition.precision->points.empty()) continue;
-        Points points;
         for (const PrecisionPoint& point : condition.precision->points) {
-            points.emplace_back(static_cast<double>(point.replications), point.half_width_s);
+            lines[row].emplace_back(static_cast<double>(point.replications), point.half_width_s);
             data.rows.push_back({fmt::format("{}, {}", condition.label(), point.replications),
                                  number(point.half_width_s, typeset(2))});
         }
-        plot.line(points, looks[row]);
         entries.push_back(line_entry(looks[row], condition.label()));
     }
+    for (const std::size_t row : drawing_order(looks))
+        if (!lines[row].empty()) plot.line(lines[row], looks[row]);
     const std::string note = fmt::format("The level line is the smallest difference that counts, {} s.",
                                          number(scenario.least_relevant_s, typeset(1)));
     plot.legend(entries);
