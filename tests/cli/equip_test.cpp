@@ -287,7 +287,7 @@ TEST_F(InterruptedEquipTest, keeps_an_answer_and_says_that_it_was_interrupted_wh
 
 TEST_F(EquipTest, prints_a_command_that_runs_whatever_the_order_of_the_words) {
     const auto study = [&](const std::vector<std::string>& words, const std::string& out) {
-        std::vector<std::string> command = {"equip", "--budget", "1", "--seeds", "2", "--out", out};
+        std::vector<std::string> command = {"equip", "--budget", "1", "--seeds", "5", "--out", out};
         command.insert(command.end(), words.begin(), words.end());
         const Ended ended = clearway(command);
         EXPECT_EQ(ended.code, 0) << ended.err;
@@ -300,12 +300,12 @@ TEST_F(EquipTest, prints_a_command_that_runs_whatever_the_order_of_the_words) {
     };
     EXPECT_EQ(study({"./crossings", "--policy", "corridor", "--name", "mine"}, "named"),
               "run ./crossings --policy corridor --name chosen");
-    const std::string kept = "run ./crossings --policy corridor --set privilege.pass_red=1 --name chosen";
+    const std::string kept = "run ./crossings --policy corridor --set privilege.pass_red=0 --name chosen";
     EXPECT_EQ(study({"./crossings", "--policy", "corridor", "--set", "actuation.equipped=A",
-                     "privilege.pass_red=1"},
+                     "privilege.pass_red=0"},
                     "first"),
               kept);
-    EXPECT_EQ(study({"--policy", "corridor", "--set=privilege.pass_red=1", "actuation.equipped=A", "--name=m",
+    EXPECT_EQ(study({"--policy", "corridor", "--set=privilege.pass_red=0", "actuation.equipped=A", "--name=m",
                      "./crossings"},
                     "last"),
               kept);
