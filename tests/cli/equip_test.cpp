@@ -234,7 +234,7 @@ class InterruptedEquipTest : public EquipTest {
     Ended interrupted() const {
         const std::size_t before = runs_of_later_looks();
         const core::Child child =
-            start({"equip", "./crossings", "--budget", "1", "--seeds", "1000", "--out", "out"});
+            start({"equip", "./crossings", "--budget", "1", "--seeds", "100", "--out", "out"});
         const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
         while (runs_of_later_looks() == before && std::chrono::steady_clock::now() < patience)
             std::this_thread::sleep_for(std::chrono::milliseconds(10));

@@ -184,7 +184,7 @@ TEST(Equipment, MarksEachRankThatIsNotShown) {
     EquipmentFacts facts = two_of_twelve();
     facts.ranked.push_back(
         {2, "first", "", about(9.0, 1.0), about(51.0, 1.0), about(0.0, 1.0), about(9.0, 1.0)});
-    EXPECT_THAT(flat_text(facts), HasSubstr(" High Street, 2) #9 south of the old town's gate (not shown), "
+    EXPECT_THAT(flat_text(facts), HasSubstr(" High Street, 2) #9 south of the old town... (not shown), "
                                             "3) #2 first."));
 }
 
