@@ -105,9 +105,9 @@ report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipReq
     facts.scenario = config.scenarios.front().name;
     facts.title = config.scenarios.front().title;
     facts.attribution = config.scenarios.front().network.attribution;
-    facts.assumptions = report::simulated_sentence(scenario::to_toml(config.scenarios.front()),
-                                                   signals.built.network,
-                                                   experiment::baseline_for(request.condition));
+    facts.assumptions =
+        report::simulated_sentence(scenario::to_toml(config.scenarios.front()), signals.built.network,
+                                   experiment::baseline_for(request.condition));
     facts.condition = request.condition.name;
     facts.command = request.run.command;
     facts.study = request.study;

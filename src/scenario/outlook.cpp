@@ -224,22 +224,26 @@ void judge_signals(const roads::Network& network, const std::map<core::SignalInd
 
 std::string little_reason(const Outlook& outlook, const std::string& signals, const std::string& of_red) {
     if (outlook.signals == 0) return "the network has no signal";
+    if (outlook.trips == 0) return "no trip of an EV is planned";
     if (outlook.trips_passing == 0) return "no EV passes a signal";
     if (2 * outlook.trips_passing >= outlook.trips) return signals;
     return fmt::format("few EVs pass a signal ({} of {}), and {}", outlook.trips_passing, outlook.trips,
                        of_red);
 }
 
-/// What most of the signals have in common that makes them worth less.
+/// What at least half of the signals have in common that makes them worth less.
 std::string obstacles(const Outlook& outlook) {
     std::string words;
-    const auto add = [&](std::size_t count, const char* what) {
+    const auto add = [&](std::size_t count, const char* one, const char* several) {
         if (count > 0 && 2 * count >= outlook.passed)
-            words += fmt::format("; {} of {} {}", count, core::counted(outlook.passed, "signal"), what);
+            words += fmt::format("; {} of the {} on their ways {}", count,
+                                 core::counted(outlook.passed, "signal"), count == 1 ? one : several);
     };
     // docs/findings/cities.md: recovery, by which the others gain elsewhere, is off there.
-    add(outlook.on_short_loops, "on their ways lie on loops of short blocks, where the others hardly gain");
-    add(outlook.slow_walks, "on their ways must let people on foot clear for over 15 s first");
+    add(outlook.on_short_loops, "lies on a loop of short blocks, where the others hardly gain",
+        "lie on loops of short blocks, where the others hardly gain");
+    add(outlook.slow_walks, "first waits over 15 s for people on foot",
+        "first wait over 15 s for people on foot");
     return words;
 }
 
@@ -268,7 +272,8 @@ Outlook outlook(const roads::Network& network, const std::vector<std::vector<std
 }
 
 Prospect Outlook::prospect() const {
-    // docs/findings/cities.md: up to 0.05 a gain of `corridor` is hardly shown, from 0.1 on it always is.
+    // Between the streets and cities of docs/findings/cities.md where no gain of `corridor` is shown, or one
+    // barely (shares up to 0.05), and all others (from 0.10 on).
     constexpr double little_share = 0.07;
     if (red_share() < little_share) return Prospect::little;
     // Ibid.: where only one turn is full the others lose nothing, since recovery gives it the time of the
@@ -278,10 +283,10 @@ Prospect Outlook::prospect() const {
 
 std::string outlook_sentence(const Outlook& outlook) {
     const Prospect prospect = outlook.prospect();
-    const std::string of_red =
-        fmt::format("red alone costs {:.0f} s of {:.0f} s", outlook.red_s, outlook.trip_s);
+    const std::string of_red = fmt::format("red costs {:.0f} s of a trip of {:.0f} s, even without queues",
+                                           outlook.red_s, outlook.trip_s);
     const std::string signals =
-        fmt::format("EVs pass {:.1f} signals a trip, whose {}", outlook.signals_a_trip, of_red);
+        fmt::format("EVs pass {:.1f} signals a trip, and {}", outlook.signals_a_trip, of_red);
     if (prospect == Prospect::little)
         return fmt::format("Preemption has little to gain: {}{}.", little_reason(outlook, signals, of_red),
                            outlook.full == 0

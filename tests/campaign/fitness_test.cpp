@@ -177,6 +177,11 @@ TEST(AbortCure, goes_by_the_assertion) {
     EXPECT_THAT(cure_of_abort(error), HasSubstr("largest_car_component"));
     error.log_tail = "Assertion `myVehicles.size() > 0' failed";
     EXPECT_THAT(cure_of_abort(error), HasSubstr("--time-to-teleport -1"));
+    for (const char* ours : {"/usr/include/c++/12/bits/stl_algo.h:3623: clamp: Assertion failed",
+                             "queue.cpp:9: void clearway::policy::act(): Assertion `is_open' failed"}) {
+        error.log_tail = ours;
+        EXPECT_THAT(cure_of_abort(error), HasSubstr("of Clearway")) << ours;
+    }
     error.signal = SIGKILL;
     EXPECT_EQ(cure_of_abort(error), "") << "somebody else ended it";
     error.signal = SIGABRT;

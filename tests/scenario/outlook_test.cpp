@@ -84,7 +84,7 @@ TEST(Outlook, costs_the_others_where_full_flows_compete_for_green) {
     EXPECT_EQ(across.prospect(), Prospect::costs_others);
     EXPECT_THAT(outlook_sentence(across),
                 HasSubstr("Preemption is likely to help EVs and may cost the others: EVs pass 2.0 signals a "
-                          "trip, whose red alone costs 27 s of "));
+                          "trip, and red costs 27 s of a trip of "));
     EXPECT_THAT(outlook_sentence(across),
                 HasSubstr("compete for green at 1 of 2 signals (the fullest, at 1.0 "
                           "times its capacity, is at A)."));
@@ -111,20 +111,22 @@ TEST(Outlook, tells_signals_that_wait_long_for_people_on_foot) {
 
 TEST(OutlookSentence, says_why_little_can_be_gained) {
     EXPECT_EQ(outlook_sentence({}), "Preemption has little to gain: the network has no signal.");
+    EXPECT_EQ(outlook_sentence({.signals = 3}),
+              "Preemption has little to gain: no trip of an EV is planned.");
     EXPECT_EQ(outlook_sentence({.signals = 3, .trips = 6, .trip_s = 100.0}),
               "Preemption has little to gain: no EV passes a signal.");
     Outlook few{
         .signals = 3, .trips = 6, .trips_passing = 1, .signals_a_trip = 0.2, .red_s = 4.0, .trip_s = 219.0};
-    EXPECT_EQ(
-        outlook_sentence(few),
-        "Preemption has little to gain: few EVs pass a signal (1 of 6), and red alone costs 4 s of 219 s.");
+    EXPECT_EQ(outlook_sentence(few),
+              "Preemption has little to gain: few EVs pass a signal (1 of 6), and red costs 4 s of a trip of "
+              "219 s, even without queues.");
     few.trips_passing = 3;
     few.passed = 2;
     few.full = 1;
-    EXPECT_EQ(
-        outlook_sentence(few),
-        "Preemption has little to gain: EVs pass 0.2 signals a trip, whose red alone costs 4 s of 219 s, but "
-        "queues at full approaches (at 1 of 2 signals) may cost more.");
+    EXPECT_EQ(outlook_sentence(few),
+              "Preemption has little to gain: EVs pass 0.2 signals a trip, and red costs 4 s of a trip of "
+              "219 s, even without queues, but "
+              "queues at full approaches (at 1 of 2 signals) may cost more.");
 }
 
 TEST(OutlookSentence, says_what_helps_and_what_stands_in_the_way) {
@@ -132,16 +134,15 @@ TEST(OutlookSentence, says_what_helps_and_what_stands_in_the_way) {
         .signals = 9, .trips = 6, .trips_passing = 6, .signals_a_trip = 3.2, .red_s = 38.0, .trip_s = 160.0};
     some.passed = 4;
     some.on_short_loops = 1;
-    EXPECT_EQ(
-        outlook_sentence(some),
-        "Preemption is likely to help: EVs pass 3.2 signals a trip, whose red alone costs 38 s of 160 s.");
+    EXPECT_EQ(outlook_sentence(some),
+              "Preemption is likely to help: EVs pass 3.2 signals a trip, and red costs 38 s of a trip of "
+              "160 s, even without queues.");
     some.on_short_loops = 4;
     some.slow_walks = 2;
-    EXPECT_THAT(
-        outlook_sentence(some),
-        HasSubstr(
-            "; 4 of 4 signals on their ways lie on loops of short blocks, where the others hardly gain; 2 of "
-            "4 signals on their ways must let people on foot clear for over 15 s first."));
+    EXPECT_THAT(outlook_sentence(some),
+                HasSubstr("; 4 of the 4 signals on their ways lie on loops of short blocks, where the others "
+                          "hardly gain; 2 of "
+                          "the 4 signals on their ways first wait over 15 s for people on foot."));
     some.red_s = 11.0;
     EXPECT_EQ(some.prospect(), Prospect::little) << "0.069 of the trip";
     EXPECT_EQ(outlook_json(some)["prospect"], "little");

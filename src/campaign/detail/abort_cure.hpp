@@ -6,7 +6,8 @@
 
 namespace clearway::campaign {
 
-/// What helps after SUMO itself aborted a run, by the assertion in its log; empty for other errors.
+/// What helps after SUMO or Clearway itself aborted a run, by the assertion in its log; empty for other
+/// errors.
 std::string cure_of_abort(const results::RunError& error);
 
 }  // namespace clearway::campaign
