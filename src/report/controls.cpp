@@ -22,7 +22,7 @@ const char* words_of(Effect effect) {
         case Effect::worse:
             return "";
         case Effect::negligible:
-            return ", too small to matter";
+            return ", a mean below what counts";
         case Effect::none_shown:
             return ", no difference shown";
         case Effect::too_few:

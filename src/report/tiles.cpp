@@ -37,7 +37,7 @@ const char* words_of(Effect effect, const char* better, const char* worse) {
         case Effect::worse:
             return worse;
         case Effect::negligible:
-            return "too small to matter";
+            return "mean below what counts";
         case Effect::none_shown:
             return "no effect shown";
         case Effect::ruled_out:
@@ -217,8 +217,8 @@ Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, S
                                 pairs, condition.outcome(primary).comparison->held_up_pairs)};
             return {runs, fmt::format("{} runs: {} show the direction{}", quantity, pairs, few)};
         case Effect::negligible:
-            return {runs, fmt::format("{} runs: {} show that the difference is too small to matter{}",
-                                      quantity, pairs, few)};
+            return {runs, fmt::format("{} runs: {} show a mean difference below what counts{}", quantity,
+                                      pairs, few)};
         case Effect::none_shown: {
             if (const std::string unmet = unmet_incident_sentence(scenario, condition); !unmet.empty())
                 return {Badge::Runs::too_few,

@@ -61,7 +61,7 @@ TEST_F(Controls, tell_a_part_that_harms_one_that_never_acts_objections_and_too_f
     scenario_.conditions[3].same_as.clear();
     set(scenario_.conditions[3], {71.0, 73.0});
     EXPECT_THAT(sentence(),
-                testing::EndsWith("deaf (lost EVs): +0.1 [0.0, 0.2], too small to matter, the same EV "
+                testing::EndsWith("deaf (lost EVs): +0.1 [0.0, 0.2], a mean below what counts, the same EV "
                                   "times in 2 of 5 runs; blind: 0.0, no verdict."));
 }
 

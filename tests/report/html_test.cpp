@@ -238,7 +238,12 @@ TEST(Page, draws_one_trip_around_its_signals_where_these_stand_close_together) {
     EXPECT_THAT(page_of(study), HasSubstr("Drawn are metres 2250 to 2610 of 8200, around its signals."));
     for (JourneyFacts& journey : study.scenarios[0].journeys)
         journey.places = {{0.0, 0.0}, {600.0, 8200.0}};
-    EXPECT_THAT(page_of(study), Not(HasSubstr("Drawn are metres"))) << "no place is on that stretch";
+    EXPECT_THAT(page_of(study), HasSubstr("Drawn are metres 2250 to 2610"))
+        << "it passes without a corner there";
+    const std::string page = page_of(study);
+    const std::string red = "class=\"signal-red\" d=\"M";
+    ASSERT_THAT(page, HasSubstr(red));
+    EXPECT_GT(std::stod(page.substr(page.find(red) + red.size())), 0.0) << "bars begin at the frame";
 }
 
 TEST(Page, never_prints_nan_for_what_is_missing) {

@@ -103,7 +103,7 @@ TEST_F(Overview, CallsAShownDifferenceThatIsTooSmallNoDifference) {
     EXPECT_THAT(headline(),
                 StartsWith("corridor makes no relevant difference to ambulances (-0.5 s a trip)"));
     EXPECT_EQ(emergency().tone, Tile::Tone::neutral);
-    EXPECT_THAT(badge().words, HasSubstr("too small to matter"));
+    EXPECT_THAT(badge().words, HasSubstr("below what counts"));
 }
 
 TEST_F(Overview, NeverPraisesAConditionThatLosesEmergencyVehicles) {

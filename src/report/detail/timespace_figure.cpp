@@ -21,9 +21,10 @@ const JourneyFacts* journey_under(const ScenarioFacts& scenario, const Condition
 void draw_signals(Plot& plot, const JourneyFacts& journey, double below) {
     for (const SignalSpan& span : journey.signals) {
         const double y = plot.y().place(span.distance_m) + below;
+        const double begin_s = std::max(span.from_s, plot.x().values.low);
         const double end_s = std::min(span.to_s, plot.x().values.high);
-        if (end_s > span.from_s)
-            plot.path({{plot.x().place(span.from_s), y}, {plot.x().place(end_s), y}}, "signal-" + span.state);
+        if (end_s > begin_s)
+            plot.path({{plot.x().place(begin_s), y}, {plot.x().place(end_s), y}}, "signal-" + span.state);
     }
 }
 
@@ -47,12 +48,20 @@ void add_data(const JourneyFacts& journey, DataTable& table) {
                               number(span.distance_m, typeset(0))});
 }
 
-/// The places of a journey on a stretch.
+/// The journey on a stretch, from and to its ends where it goes beyond.
 JourneyFacts on(const Range& stretch, const JourneyFacts& journey) {
     JourneyFacts cut = journey;
-    std::erase_if(cut.places, [&](const JourneyPlace& place) {
-        return place.distance_m < stretch.low || place.distance_m > stretch.high;
-    });
+    cut.places.clear();
+    const JourneyPlace* before = nullptr;
+    for (const JourneyPlace& place : journey.places) {
+        for (const double end_m : {stretch.low, stretch.high}) {
+            if (before == nullptr || before->distance_m >= end_m || place.distance_m <= end_m) continue;
+            const double share = (end_m - before->distance_m) / (place.distance_m - before->distance_m);
+            cut.places.push_back({before->time_s + share * (place.time_s - before->time_s), end_m});
+        }
+        if (place.distance_m >= stretch.low && place.distance_m <= stretch.high) cut.places.push_back(place);
+        before = &place;
+    }
     return cut;
 }
 
