@@ -230,7 +230,7 @@ std::string conclusion_of(const std::string& scenario, const std::vector<Finding
     bool has_trials = false;
     for (const Finding& finding : findings) {
         if (finding.name == detail::trials_name && finding.grade == Grade::note && !finding.advice.empty())
-            first = fmt::format(" Before that: {}.", finding.advice);
+            first = finding.advice;
         if (finding.grade == Grade::failed) failed.push_back(finding.name);
         if (finding.grade == Grade::falls_short) short_of.push_back(finding.name);
         if (finding.grade == Grade::note) noted.push_back(finding.name);
@@ -245,8 +245,10 @@ std::string conclusion_of(const std::string& scenario, const std::vector<Finding
             "{} may be fit for a study: its one run locks, and others may more; --lock-trials 6 tells. "
             "Noted: {}.",
             scenario, core::listed(noted));
-    return fmt::format("{} is fit for a study, with what is noted: {}.{}", scenario, core::listed(noted),
-                       first);
+    if (!first.empty())
+        return fmt::format("{} is fit for a study only after this: {}. Noted: {}.", scenario, first,
+                           core::listed(noted));
+    return fmt::format("{} is fit for a study, with what is noted: {}.", scenario, core::listed(noted));
 }
 
 const char* word_of(Grade grade) {

@@ -108,12 +108,19 @@ bool is_chance(const EquipmentFacts& facts, const EquippedSignal& signal) {
     return is_exactly_none(signal.gain) && pair_of(facts, signal) == nullptr;
 }
 
-/// How many seeds would likely show the gain of all ranks, if it and its spread are what they look like.
+/// How many seeds would likely show the gain of all ranks, if it and its spread are what they look like; 0
+/// where it is shown, or none.
+std::size_t seeds_to_show(const EquipmentFacts& facts) {
+    const analysis::MaybeEstimate& gain = facts.ranked.back().so_far;
+    if (analysis::shown_interval(gain) == nullptr || is_shown(gain) || gain->mean <= 0.0) return 0;
+    return analysis::replications_to_show(gain->deviation, gain->mean);
+}
+
 std::string seeds_sentence(const EquipmentFacts& facts) {
     const analysis::MaybeEstimate& gain = facts.ranked.back().so_far;
     if (analysis::shown_interval(gain) == nullptr || is_shown(gain)) return "";
     if (gain->mean <= 0.0) return "Their mean is no gain.";
-    const std::size_t seeds = analysis::replications_to_show(gain->deviation, gain->mean);
+    const std::size_t seeds = seeds_to_show(facts);
     if (seeds > analysis::most_equip_replications)
         return fmt::format("It would take more than {} seeds to show so small a gain of all.",
                            analysis::most_equip_replications);
@@ -390,6 +397,9 @@ std::string study_command(const EquipmentFacts& facts) {
     for (const EquippedSignal& signal : facts.ranked)
         if (are_all_chance || !is_chance(facts, signal)) signals.push_back(fmt::format("#{}", signal.number));
     std::vector<std::string> words = facts.study;
+    if (const std::size_t seeds = seeds_to_show(facts);
+        seeds > 0 && seeds <= analysis::most_equip_replications)
+        words.insert(words.end(), {"--seeds", std::to_string(seeds)});
     words.insert(words.end(), {"--set", fmt::format("actuation.equipped={}", fmt::join(signals, ","))});
     return printable(core::shell_text(words));
 }

@@ -283,20 +283,23 @@ Prospect Outlook::prospect() const {
 
 std::string outlook_sentence(const Outlook& outlook) {
     const Prospect prospect = outlook.prospect();
-    const std::string of_red = fmt::format("red costs {:.0f} s of a trip of {:.0f} s, even without queues",
-                                           outlook.red_s, outlook.trip_s);
+    const std::string of_red =
+        fmt::format("red without queues costs {:.0f} s of a trip of {:.0f} s", outlook.red_s, outlook.trip_s);
     const std::string signals =
         fmt::format("EVs pass {:.1f} signals a trip, and {}", outlook.signals_a_trip, of_red);
     if (prospect == Prospect::little)
-        return fmt::format("Preemption has little to gain: {}{}.", little_reason(outlook, signals, of_red),
+        return fmt::format("By programs and trips alone, preemption has little to gain: {}{}.",
+                           little_reason(outlook, signals, of_red),
                            outlook.full == 0
                                ? ""
                                : fmt::format(", but queues at full approaches (at {} of {}) may cost more",
                                              outlook.full, core::counted(outlook.passed, "signal")));
     if (prospect == Prospect::helps)
-        return fmt::format("Preemption is likely to help: {}{}.", signals, obstacles(outlook));
+        return fmt::format("By programs and trips alone, preemption is likely to help: {}{}.", signals,
+                           obstacles(outlook));
     return fmt::format(
-        "Preemption is likely to help EVs and may cost the others: {}, and full approaches compete for green "
+        "By programs and trips alone, preemption is likely to help EVs and may cost the others: {}, and full "
+        "approaches compete for green "
         "at {} of {} (the fullest, at {:.1f} times its capacity, is at {}){}.",
         signals, outlook.contested, core::counted(outlook.passed, "signal"), outlook.fullest_degree,
         outlook.fullest, obstacles(outlook));

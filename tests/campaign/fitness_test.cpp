@@ -138,8 +138,7 @@ TEST(Conclusion, knows_nothing_of_a_scenario_whose_one_run_locks) {
     findings.back() = {detail::trials_name, Grade::note, "5 of 6 runs lock", "less traffic first"};
     EXPECT_EQ(
         conclusion_of("town", findings),
-        "town is fit for a study, with what is noted: locks, collisions, trials. Before that: less traffic "
-        "first.");
+        "town is fit for a study only after this: less traffic first. Noted: locks, collisions, trials.");
     findings.back().grade = Grade::falls_short;
     EXPECT_EQ(conclusion_of("town", findings), "town is not fit for a study as it is: trials.");
 }

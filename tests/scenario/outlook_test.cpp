@@ -83,8 +83,9 @@ TEST(Outlook, costs_the_others_where_full_flows_compete_for_green) {
     EXPECT_EQ(across.contested, 1U);
     EXPECT_EQ(across.prospect(), Prospect::costs_others);
     EXPECT_THAT(outlook_sentence(across),
-                HasSubstr("Preemption is likely to help EVs and may cost the others: EVs pass 2.0 signals a "
-                          "trip, and red costs 27 s of a trip of "));
+                HasSubstr("By programs and trips alone, preemption is likely to help EVs and may cost the "
+                          "others: EVs pass 2.0 signals a "
+                          "trip, and red without queues costs 27 s of a trip of "));
     EXPECT_THAT(outlook_sentence(across),
                 HasSubstr("compete for green at 1 of 2 signals (the fullest, at 1.0 "
                           "times its capacity, is at A)."));
@@ -110,22 +111,25 @@ TEST(Outlook, tells_signals_that_wait_long_for_people_on_foot) {
 }
 
 TEST(OutlookSentence, says_why_little_can_be_gained) {
-    EXPECT_EQ(outlook_sentence({}), "Preemption has little to gain: the network has no signal.");
+    EXPECT_EQ(outlook_sentence({}),
+              "By programs and trips alone, preemption has little to gain: the network has no signal.");
     EXPECT_EQ(outlook_sentence({.signals = 3}),
-              "Preemption has little to gain: no trip of an EV is planned.");
+              "By programs and trips alone, preemption has little to gain: no trip of an EV is planned.");
     EXPECT_EQ(outlook_sentence({.signals = 3, .trips = 6, .trip_s = 100.0}),
-              "Preemption has little to gain: no EV passes a signal.");
+              "By programs and trips alone, preemption has little to gain: no EV passes a signal.");
     Outlook few{
         .signals = 3, .trips = 6, .trips_passing = 1, .signals_a_trip = 0.2, .red_s = 4.0, .trip_s = 219.0};
     EXPECT_EQ(outlook_sentence(few),
-              "Preemption has little to gain: few EVs pass a signal (1 of 6), and red costs 4 s of a trip of "
-              "219 s, even without queues.");
+              "By programs and trips alone, preemption has little to gain: few EVs pass a signal (1 of 6), "
+              "and red without queues costs 4 s of a trip of "
+              "219 s.");
     few.trips_passing = 3;
     few.passed = 2;
     few.full = 1;
     EXPECT_EQ(outlook_sentence(few),
-              "Preemption has little to gain: EVs pass 0.2 signals a trip, and red costs 4 s of a trip of "
-              "219 s, even without queues, but "
+              "By programs and trips alone, preemption has little to gain: EVs pass 0.2 signals a trip, and "
+              "red without queues costs 4 s of a trip of "
+              "219 s, but "
               "queues at full approaches (at 1 of 2 signals) may cost more.");
 }
 
@@ -135,8 +139,9 @@ TEST(OutlookSentence, says_what_helps_and_what_stands_in_the_way) {
     some.passed = 4;
     some.on_short_loops = 1;
     EXPECT_EQ(outlook_sentence(some),
-              "Preemption is likely to help: EVs pass 3.2 signals a trip, and red costs 38 s of a trip of "
-              "160 s, even without queues.");
+              "By programs and trips alone, preemption is likely to help: EVs pass 3.2 signals a trip, and "
+              "red without queues costs 38 s of a trip of "
+              "160 s.");
     some.on_short_loops = 4;
     some.slow_walks = 2;
     EXPECT_THAT(outlook_sentence(some),
