@@ -134,6 +134,23 @@ std::string short_plan(const EquipRounds& rounds, const EquipRequest& request, s
                        candidates > 1 ? " Fewer --candidates take less." : "");
 }
 
+/// How many runs, and what speaks against so few seeds or so large a budget.
+std::string amount_words(const EquipRequest& request, const EquipForecast& runs, std::size_t held,
+                         std::size_t candidates) {
+    std::string words = fmt::format("{} likely, {} at most, into {}", report::counted(runs.likely(), "run"),
+                                    runs.most(), request.run.folder.string());
+    if (held > 0)
+        words +=
+            fmt::format(", which holds {} of earlier calls; those that it needs are not made again", held);
+    words += ".";
+    if (request.budget > candidates)
+        words += fmt::format(" The budget is {}, and {} could gain.", request.budget,
+                             report::counted(candidates, "signal"));
+    if (request.replications < analysis::fewest_for_interval)
+        words += fmt::format(" Nothing can be shown by fewer than {} seeds.", analysis::fewest_for_interval);
+    return words;
+}
+
 }  // namespace
 
 EquipRequest detail::fitted(EquipRequest request, const scenario::BuiltNetwork& built) {
@@ -187,16 +204,6 @@ core::ExitCode equip_dry_run(EquipRequest request) {
     add("fresh seeds: estimate", runs.fresh, runs.fresh);
     const std::size_t held = runs_in_rounds_of(request.run.folder);
     const std::size_t rest = runs.likely() - std::min(held, runs.likely());
-    const std::string size = fmt::format(
-        "{} likely, {} at most, into {}{}.", report::counted(runs.likely(), "run"), runs.most(),
-        request.run.folder.string(),
-        held == 0
-            ? ""
-            : fmt::format(", which holds {} of earlier calls; those that it needs are not made again", held));
-    const std::string vain =
-        request.replications < analysis::fewest_for_interval
-            ? fmt::format(" Nothing can be shown by fewer than {} seeds.", analysis::fewest_for_interval)
-            : "";
     const std::string first_told =
         held < runs.first_look
             ? fmt::format(" Nothing can be told before about {}.", clock(runs.first_look - held))
@@ -209,10 +216,6 @@ core::ExitCode equip_dry_run(EquipRequest request) {
                   cost.basis == CostBasis::measured ? "" : "; loading and warm-up of each seed come on top",
                   first_told)
             : "Time unknown: a run of this scenario beside that folder tells.";
-    const std::string few = request.budget > candidates
-                                ? fmt::format(" The budget is {}, and {} could gain.", request.budget,
-                                              report::counted(candidates, "signal"))
-                                : "";
     // Who gives a time has chosen how long it may take.
     const std::string shorter =
         cost.wall_s && request.within_s <= 0.0 ? short_plan(search.rounds, request, candidates, run_s) : "";
@@ -227,7 +230,8 @@ core::ExitCode equip_dry_run(EquipRequest request) {
             {"estimated_time_s", seconds(runs.likely())},
             {"estimate_measured", cost.basis == CostBasis::measured}},
            {table},
-           core::wrapped(size + few + vain, 0) + "\n" + core::wrapped(time + shorter, 0) + "\n",
+           core::wrapped(amount_words(request, runs, held, candidates), 0) + "\n" +
+               core::wrapped(time + shorter, 0) + "\n",
            core::wrapped(met.words(), 0) + "\n\n"},
           request.run.publish.printing);
     return core::ExitCode::ok;

@@ -154,8 +154,11 @@ std::string few_trips_sentence(const EquipmentFacts& facts) {
             words[*candidate.rank] = fmt::format("#{}: {:.0f}", candidate.number, trips);
     }
     if (words.empty()) return "";
+    std::vector<std::string> by_rank;
+    for (const auto& [rank, text] : words)
+        by_rank.push_back(text);
     return fmt::format("Few of the {} that decided pass them ({}).", counted(facts.met.trips, "trip"),
-                       fmt::join(std::views::values(words), ", "));
+                       fmt::join(by_rank, ", "));
 }
 
 /// `Not chosen: #2, which gains 7.4 s alone, adds 0.4 [-0.5, 1.4] s beside #4.`, of those that gain more

@@ -56,11 +56,8 @@ QueueModel model_of(const View& view, const Arrival& arrival, double cycle_time_
                     const std::string& shown = {}) {
     return {view,
             arrival,
-            policy::detail::edge_before(view, arrival).value(),
             {crossing_a(), arrival.approach.links, shown, cycle_time_s},
-            0.0,
-            emergency_worth,
-            sight};
+            {policy::detail::edge_before(view, arrival).value(), 0.0, emergency_worth, sight}};
 }
 
 QueueModel::Outcome outcome(CrossingScene& scene, double cycle_time_s, std::optional<double> start_s,
@@ -180,8 +177,8 @@ TEST(QueueModel, knows_who_comes_to_a_second_signal_from_the_first) {
         const auto ahead = policy::detail::approaches(view, emergency, core::Metres(600.0));
         const Arrival arrival{emergency, ahead.at(1), 2, 0.0, std::nullopt};
         const roads::Signal& b = two_crossings().signal(arrival.approach.signal);
-        return QueueModel(view, arrival, policy::detail::edge_before(view, arrival).value(),
-                          {b, arrival.approach.links, "", 10.0}, 40.0, 1.0)
+        return QueueModel(view, arrival, {b, arrival.approach.links, "", 10.0},
+                          {policy::detail::edge_before(view, arrival).value(), 40.0})
             .outcome(0.0)
             .passing_s;
     };

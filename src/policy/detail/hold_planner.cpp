@@ -29,10 +29,10 @@ bool HoldPlanner::is_due(const View& view, const Arrival& arrival, double rule_s
     const auto [reached, is_first] = reached_.try_emplace(arrival.emergency.key);
     const double not_before_s = is_first ? 0.0 : reached->second.time_s + free_s - reached->second.free_s;
     const double cycle_time_s = clocks_[signal.value].cycle_time_s(here, view.belief().time);
-    const QueueModel model(view, arrival, *edge,
+    const QueueModel model(view, arrival,
                            SignalForecaster(here, arrival.approach.links,
                                             view.belief().signals.state[signal.value], cycle_time_s),
-                           not_before_s, settings_.emergency_worth, settings_.sight);
+                           {*edge, not_before_s, settings_.emergency_worth, settings_.sight});
     const auto cost = [&](const QueueModel::Outcome& outcome) {
         return settings_.emergency_worth * outcome.passing_s + outcome.waited_s;
     };

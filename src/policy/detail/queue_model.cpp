@@ -83,29 +83,29 @@ double free_s_to(const View& view, const Arrival& arrival) {
     return std::max(0.0, whole_s - travel_s(view, arrival.emergency, arrival.moved_m));
 }
 
-QueueModel::QueueModel(const View& view, const Arrival& arrival, core::EdgeIndex edge,
-                       SignalForecaster forecaster, double not_before_s, double emergency_worth,
-                       ModelSight sight)
+QueueModel::QueueModel(const View& view, const Arrival& arrival, SignalForecaster forecaster,
+                       const Premises& premises)
     : network_(view.network()),
       signal_(view.network().signal(arrival.approach.signal)),
       forecaster_(std::move(forecaster)),
-      emergency_worth_(emergency_worth),
-      own_edge_(edge) {
+      emergency_worth_(premises.emergency_worth),
+      own_edge_(premises.edge) {
     assert(!arrival.approach.own_links.empty());
     for (const auto& link : signal_.links)
         for (const roads::SignalLink& way : link)
             if (queue_of(way.from) == nullptr) queues_.push_back({way.from, {}});
     const double free_s = free_s_to(view, arrival);
-    arrival_s_ = std::max(not_before_s, std::min(free_s, arrival.announced_s.value_or(free_s)));
-    delay_s_ = std::max(0.0, not_before_s - free_s);
-    if (sight == ModelSight::all) {
+    arrival_s_ = std::max(premises.not_before_s, std::min(free_s, arrival.announced_s.value_or(free_s)));
+    delay_s_ = std::max(0.0, premises.not_before_s - free_s);
+    const bool sees = premises.sight == ModelSight::all;
+    if (sees) {
         add_near(view, arrival);
         add_ahead(view, arrival);
     }
     for (Queue& queue : queues_)
         std::ranges::sort(queue.vehicles, {}, &Vehicle::distance_m);
     add_own(arrival, std::max(0.0, arrival.approach.distance_m - arrival.moved_m));
-    if (sight == ModelSight::all) std::ranges::for_each(queues_, [&](Queue& queue) { add_expected(queue); });
+    if (sees) std::ranges::for_each(queues_, [&](Queue& queue) { add_expected(queue); });
 }
 
 /// Whether an edge ends at the signal.
@@ -138,7 +138,8 @@ void QueueModel::place(const traffic::BelievedVehicle& vehicle, double earliest_
     Vehicle placed{earliest_s, std::max(0.0F, here.length_m - vehicle.state.lane_position_m), 0,
                    weight_of(vehicle)};
     Queue* chosen = nullptr;
-    for (std::uint16_t link = 0; link < signal_.links.size(); ++link) {
+    const auto link_count = static_cast<std::uint16_t>(signal_.links.size());
+    for (std::uint16_t link = 0; link < link_count; ++link) {
         if (!is_ever_green(link)) continue;
         for (const roads::SignalLink& way : signal_.links[link]) {
             const roads::Lane& from = network_.lane(way.from);

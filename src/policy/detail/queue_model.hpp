@@ -31,11 +31,15 @@ double free_s_to(const View& view, const Arrival& arrival);
 /// ahead of the emergency vehicle, and expects as many more behind them.
 class QueueModel {
   public:
-    /// `edge`: see `edge_before`. `not_before_s`: the emergency vehicle's earliest arrival, by what holds it
-    /// up earlier on its way. `emergency_worth`: how many vehicle-seconds one second of any other emergency
-    /// vehicle counts. Refers to the view's network; the arrival's links must not be empty.
-    QueueModel(const View& view, const Arrival& arrival, core::EdgeIndex edge, SignalForecaster forecaster,
-               double not_before_s, double emergency_worth, ModelSight sight = ModelSight::all);
+    struct Premises {
+        core::EdgeIndex edge;          ///< See `edge_before`.
+        double not_before_s = 0.0;     ///< Earliest arrival, by what holds the vehicle up earlier on its way.
+        double emergency_worth = 1.0;  ///< Vehicle-seconds that a second of any other one counts.
+        ModelSight sight = ModelSight::all;
+    };
+    /// Refers to the view's network; the arrival's links must not be empty.
+    QueueModel(const View& view, const Arrival& arrival, SignalForecaster forecaster,
+               const Premises& premises);
 
     /// From now on, s, and vehicle-seconds.
     struct Outcome {
