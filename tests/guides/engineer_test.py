@@ -36,7 +36,7 @@ class EngineerTest(FolderCase):
         readme = commands("README.md", "Use it")
         found = type_in(the("scenario import", readme))
         self.assertIn("signals          3", found)
-        self.assertRegex(type_in(the("scenario check", readme)), r"Preemption [\s\S]*monaco\s+is ")
+        self.assertRegex(type_in(the("scenario check", readme)), r"preemption [\s\S]*monaco\s+is ")
         verdict = type_in(the("run ./monaco", readme), ("--seeds 10", "--seeds 2")).splitlines()
         self.assertTrue(any(line.startswith("preempt_signals: ") for line in verdict[-12:]), "the verdict stands last")
         equip = the("equip", commands("docs/guides/your-city.md", "Which signals first?"))
