@@ -87,7 +87,7 @@ struct PreemptSignalsConfig {
                   "trials on twelve sets of streets: 30 to 100 are level, 300 costs others more"},
             Field{"least_gain_s", "s", &C::least_gain_s, 0.0, 60.0,
                   "With `queues`: a hold begins earlier than the lead says only for a gain of so much",
-                  "the model's own error"});
+                  "assumed: about what the model errs by"});
     }
 };
 

@@ -7,10 +7,6 @@
 namespace clearway::roads {
 namespace {
 
-bool gives_green(const Phase& phase, std::size_t link) {
-    return link < phase.state.size() && traffic::is_green(phase.state[link]);
-}
-
 LinkGreen green_of(double green_s, double cycle_s, double squares_s2) {
     if (green_s <= 0.0) return {};
     return {green_s / cycle_s, squares_s2 / (2.0 * cycle_s)};
@@ -30,6 +26,10 @@ LinkGreen green_in_rings(const Signal& signal, std::size_t link) {
 }
 
 }  // namespace
+
+bool gives_green(const Phase& phase, std::size_t link) {
+    return link < phase.state.size() && traffic::is_green(phase.state[link]);
+}
 
 LinkGreen link_green(const Signal& signal, std::size_t link) {
     const std::vector<Phase>& program = signal.program;

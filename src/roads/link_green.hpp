@@ -16,6 +16,9 @@ struct LinkGreen {
     double wait_s = 0.0;
 };
 
+/// Whether a phase gives a link green; not if its state has no letter for it.
+bool gives_green(const Phase& phase, std::size_t link);
+
 /// By the durations of the phases; of a program that vehicles actuate, those that it states. Phases that run
 /// side by side (controller NEMA) are taken for two rings of the same cycle.
 LinkGreen link_green(const Signal& signal, std::size_t link);

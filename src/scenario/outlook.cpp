@@ -16,7 +16,6 @@
 #include "roads/program_times.hpp"
 #include "roads/route_search.hpp"
 #include "roads/short_loops.hpp"
-#include "traffic/signal.hpp"
 
 namespace clearway::scenario {
 namespace {
@@ -169,13 +168,10 @@ std::vector<TurnLoad> loads_at(const roads::Network& network, const roads::Signa
 
 /// Whether some links of two turns conflict and are never green together.
 bool compete(const roads::Signal& signal, const TurnLoad& one, const TurnLoad& other) {
-    const auto is_green = [](const roads::Phase& phase, std::uint16_t link) {
-        return link < phase.state.size() && traffic::is_green(phase.state[link]);
-    };
     for (const std::uint16_t left : one.links)
         for (const std::uint16_t right : other.links)
             if (signal.foes[left][right] && std::ranges::none_of(signal.program, [&](const auto& phase) {
-                    return is_green(phase, left) && is_green(phase, right);
+                    return roads::gives_green(phase, left) && roads::gives_green(phase, right);
                 }))
                 return true;
     return false;

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "core/files.hpp"
 #include "policy/detail/approach.hpp"
 #include "policy/detail/hold_planner.hpp"
 #include "policy/preempt_signals.hpp"
 #include "support/crossing_scene.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace clearway::testing {
 namespace {
@@ -191,6 +193,44 @@ TEST(QueueModel, knows_who_comes_to_a_second_signal_from_the_first) {
     for (const std::uint32_t lane : {0U, 1U})
         add_queue(scene, "on" + std::to_string(lane), eastbound, 5, 0.0, lane);
     EXPECT_GT(passes_b_s(), 45.0) << "five a lane come with it";
+}
+
+TEST(QueueModel, weighs_an_emergency_vehicle_on_an_earlier_edge) {
+    CrossingScene scene = coming_from_the_west(200.0);
+    scene.add({"first", VehicleClass::emergency, eastbound, 1, line_m - 100.0, 16.67});
+    const View view(two_crossings(), scene.belief());
+    const auto emergencies = view.emergency_vehicles();
+    const auto second =
+        std::ranges::find(emergencies, core::vehicle_key("e"), &traffic::BelievedVehicle::key);
+    const auto ahead = policy::detail::approaches(view, *second, core::Metres(600.0));
+    const Arrival arrival{*second, ahead.at(1), 2, 0.0, std::nullopt};
+    const roads::Signal& b = two_crossings().signal(arrival.approach.signal);
+    const auto waited_s = [&](double emergency_worth) {
+        return QueueModel(view, arrival, {b, arrival.approach.links, "", 89.0},
+                          {policy::detail::edge_before(view, arrival).value(), 0.0, emergency_worth})
+            .outcome(std::nullopt)
+            .waited_s;
+    };
+    EXPECT_GT(waited_s(1.0), 0.0) << "red for it when it comes";
+    EXPECT_DOUBLE_EQ(waited_s(100.0), 100.0 * waited_s(1.0));
+}
+
+TEST(HoldPlanner, leaves_phases_that_run_side_by_side_to_the_rule) {
+    const support::TemporaryFolder folder;
+    std::string text = core::read_file(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml");
+    const auto is_due_at_a = [&] {
+        const roads::Network network = roads::Network::read(folder.write("net.net.xml", text));
+        CrossingScene scene(100.0, network);
+        scene.add({"e", VehicleClass::emergency, eastbound, 1, line_m - 100.0, 16.67});
+        const View view(network, scene.belief());
+        HoldPlanner planner({1000.0, 0.0, ModelSight::all});
+        planner.begin(view);
+        return planner.is_due(view, first_arrival(view), 10.0, false);
+    };
+    EXPECT_TRUE(is_due_at_a());
+    const std::string fixed = "<tlLogic id=\"A\" type=\"static\"";
+    text.replace(text.find(fixed), fixed.size(), "<tlLogic id=\"A\" type=\"NEMA\"");
+    EXPECT_FALSE(is_due_at_a());
 }
 
 TEST(QueueModel, has_no_edge_where_the_way_has_changed) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "roads/link_green.hpp"
 #include "traffic/signal.hpp"
 
 namespace clearway::policy::detail {
@@ -18,7 +19,8 @@ constexpr double start_up_s = 2.0;
 /// A vehicle that comes to a green is not slowed down if its way was free for so long, s; otherwise it loses
 /// half of what is missing.
 constexpr double free_before_s = 4.0;
-/// A hold ends so long after the emergency vehicle has passed, s, or at its cap.
+/// A hold ends so long after the emergency vehicle has passed, s, or at its cap: by default that of
+/// actuation, which a policy does not know.
 constexpr double after_s = 1.5;
 constexpr double cap_s = 60.0;
 constexpr double acceleration_mps2 = 2.0;
@@ -91,9 +93,11 @@ QueueModel::QueueModel(const View& view, const Arrival& arrival, SignalForecaste
       emergency_worth_(premises.emergency_worth),
       own_edge_(premises.edge) {
     assert(!arrival.approach.own_links.empty());
-    for (const auto& link : signal_.links)
-        for (const roads::SignalLink& way : link)
+    for (std::size_t link = 0; link < signal_.links.size(); ++link) {
+        green_share_.push_back(roads::link_green(signal_, link).share);
+        for (const roads::SignalLink& way : signal_.links[link])
             if (queue_of(way.from) == nullptr) queues_.push_back({way.from, {}});
+    }
     const double free_s = free_s_to(view, arrival);
     arrival_s_ = std::max(premises.not_before_s, std::min(free_s, arrival.announced_s.value_or(free_s)));
     delay_s_ = std::max(0.0, premises.not_before_s - free_s);
@@ -119,11 +123,6 @@ QueueModel::Queue* QueueModel::queue_of(core::LaneIndex lane) {
     return found == queues_.end() ? nullptr : &*found;
 }
 
-bool QueueModel::is_ever_green(std::uint16_t link) const {
-    return std::ranges::any_of(signal_.program,
-                               [&](const roads::Phase& phase) { return is_green_for(phase.state, link); });
-}
-
 double QueueModel::weight_of(const traffic::BelievedVehicle& vehicle) const {
     return vehicle.vehicle_class == traffic::VehicleClass::emergency ? emergency_worth_ : 1.0;
 }
@@ -140,7 +139,7 @@ void QueueModel::place(const traffic::BelievedVehicle& vehicle, double earliest_
     Queue* chosen = nullptr;
     const auto link_count = static_cast<std::uint16_t>(signal_.links.size());
     for (std::uint16_t link = 0; link < link_count; ++link) {
-        if (!is_ever_green(link)) continue;
+        if (green_share_[link] <= 0.0) continue;
         for (const roads::SignalLink& way : signal_.links[link]) {
             const roads::Lane& from = network_.lane(way.from);
             if (from.edge != here.edge) continue;
@@ -235,9 +234,7 @@ void QueueModel::add_expected(Queue& queue) const {
     const auto here = static_cast<double>(std::count_if(
         queue.vehicles.begin(), near_end, [](const Vehicle& vehicle) { return !vehicle.is_own; }));
     const std::uint16_t link = std::prev(near_end)->link;
-    double green_s = 0.0;
-    for (const roads::Phase& phase : signal_.program)
-        if (is_green_for(phase.state, link)) green_s += phase.duration_s;
+    const double green_s = green_share_[link] * cycle_s;
     const double through_s = lane.length_m / std::max<double>(lane.speed_limit_mps, crawling_mps);
     const double stay_s = through_s + (cycle_s - green_s) / 2.0;
     const double flow_per_s = std::min(here / stay_s, green_s / cycle_s / headway_s);

@@ -71,7 +71,6 @@ class QueueModel {
     void add_ahead(const View& view, const Arrival& arrival);
     void add_own(const Arrival& arrival, double left_m);
     void add_expected(Queue& queue) const;
-    bool is_ever_green(std::uint16_t link) const;
     double weight_of(const traffic::BelievedVehicle& vehicle) const;
     void place(const traffic::BelievedVehicle& vehicle, double earliest_s,
                std::optional<core::EdgeIndex> next);
@@ -83,7 +82,8 @@ class QueueModel {
     SignalForecaster forecaster_;
     double emergency_worth_ = 0.0;
     double arrival_s_ = 0.0;
-    double delay_s_ = 0.0;  ///< Of the emergency vehicle on its way to here.
+    double delay_s_ = 0.0;             ///< Of the emergency vehicle on its way to here.
+    std::vector<double> green_share_;  ///< By link.
     std::vector<Queue> queues_;
     core::EdgeIndex own_edge_;  ///< On which the emergency vehicle comes.
     std::size_t own_queue_ = 0;
