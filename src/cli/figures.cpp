@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "campaign/names.hpp"
 #include "campaign/programs.hpp"
@@ -117,6 +118,9 @@ core::ExitCode write(const FiguresArguments& arguments) {
                "are on index.html\n",
                arguments.output.string(), files.drawings.size(), all ? ", PDF and PNG" : "",
                files.tables.size(), files.typeset.size());
+    for (const auto& [seeds, names] : files.of_other_seeds)
+        fmt::print(stderr, "clearway: left as they were, from {}: {}\n",
+                   seeds.empty() ? "an unknown number of seeds" : seeds, fmt::join(names, ", "));
     const std::size_t ended = store.complete_runs().size() + store.failed_runs().size();
     return campaign::tell_missing(manifest.run_count() - std::min(ended, manifest.run_count()),
                                   manifest.run_count());
@@ -147,7 +151,7 @@ Action configure_figures(App& app) {
     app.add_option("--only", arguments->choice.only,
                    "Figure or table by name, or by what its name begins with: tradeoff, factors, "
                    "differences, travel-time, map, ...; another word lists those of the folder; may be "
-                   "repeated. Others that DIR holds stay")
+                   "repeated. Others that DIR holds stay; those of another number of seeds are named")
         .allow_extra_args(false)
         .option_text("NAME [all]");
     app.add_flag_callback(

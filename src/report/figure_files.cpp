@@ -28,21 +28,29 @@ namespace fs = std::filesystem;
 using detail::Figure;
 using detail::Table;
 
-/// Names of the figures and tables that an export has written, a line each, without endings.
+/// Names of the figures and tables that an export has written, a line each, without endings; behind a tab of
+/// how many seeds they are.
 constexpr const char* list_name = ".clearway-figures";
 
 constexpr std::array drawing_endings = {".svg", ".pdf", ".png"};
 
-/// The names that an earlier export has written. Throws core::InputError for a folder that holds something
-/// else.
-std::vector<std::string> former_names(const fs::path& folder) {
+/// What an export has written, and of how many seeds: `10 seeds`; empty where an older one did not note it.
+struct Written {
+    std::string name, seeds;
+};
+
+/// What earlier exports have written. Throws core::InputError for a folder that holds something else.
+std::vector<Written> former_files(const fs::path& folder) {
     core::require_own(folder, figure_folder());
     core::remove_abandoned_parts(folder);
-    std::vector<std::string> found;
+    std::vector<Written> found;
     if (!fs::exists(folder / list_name)) return found;
-    std::istringstream names(core::read_file(folder / list_name));
-    for (std::string name; std::getline(names, name);)
-        if (name.find_first_of("/.") == std::string::npos) found.push_back(name);
+    std::istringstream lines(core::read_file(folder / list_name));
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t tab = std::min(line.find('\t'), line.size());
+        Written former{line.substr(0, tab), line.substr(std::min(tab + 1, line.size()))};
+        if (former.name.find_first_of("/.") == std::string::npos) found.push_back(std::move(former));
+    }
     return found;
 }
 
@@ -112,7 +120,7 @@ void check_only(const StudyFacts& study, const std::vector<std::string>& only) {
 class FileWriter : public detail::Writer {
   public:
     FileWriter(const std::filesystem::path& folder, const StudyFacts& study, const FigureChoice& choice)
-        : folder_(folder), study_(study), choice_(choice), former_(former_names(folder)) {
+        : folder_(folder), study_(study), choice_(choice), former_(former_files(folder)) {
         core::make_folder(folder_);
         if (choice_.only.empty()) fs::remove(folder_ / "index.html");
     }
@@ -123,26 +131,33 @@ class FileWriter : public detail::Writer {
     void heading(const std::string& text) override { topic_ = text; }
     /// Removes what the earlier export has written and this one would have replaced.
     FigureFiles finish() {
-        std::erase_if(former_, [&](const std::string& name) {
-            const bool is_gone = is_chosen(name) && std::ranges::find(names_, name) == names_.end();
-            if (is_gone) remove_files(folder_, name);
+        std::erase_if(former_, [&](const Written& former) {
+            const bool is_gone = is_chosen(former.name) && !is_written(former.name);
+            if (is_gone) remove_files(folder_, former.name);
             return is_gone;
         });
         write_list();
         files_.title = study_.title;
         files_.keeps_others = !choice_.only.empty();
+        for (const Written& former : former_)
+            if (!is_written(former.name) && former.seeds != sample_of(former.name))
+                files_.of_other_seeds[former.seeds].push_back(former.name);
         return std::move(files_);
     }
 
   private:
     /// Of this and of the earlier export: until it ends, each has files there.
     void write_list() const {
-        std::vector<std::string> all = former_;
-        std::ranges::copy_if(names_, std::back_inserter(all), [&](const std::string& name) {
-            return std::ranges::find(former_, name) == former_.end();
-        });
-        core::write_output(folder_ / list_name, fmt::format("{}\n", fmt::join(all, "\n")));
+        std::string lines;
+        for (const Written& former : former_)
+            lines += fmt::format("{}\t{}\n", former.name,
+                                 is_written(former.name) ? sample_of(former.name) : former.seeds);
+        for (const std::string& name : names_)
+            if (std::ranges::find(former_, name, &Written::name) == former_.end())
+                lines += fmt::format("{}\t{}\n", name, sample_of(name));
+        core::write_output(folder_ / list_name, lines);
     }
+    bool is_written(const std::string& name) const { return std::ranges::find(names_, name) != names_.end(); }
     fs::path write(const std::string& name, const char* ending, const std::string& text) {
         fs::path file = folder_ / (name + ending);
         if (names_.empty() || names_.back() != name) {
@@ -202,18 +217,19 @@ class FileWriter : public detail::Writer {
         return choice_.only.empty() ||
                std::ranges::any_of(choice_.only, [&](const auto& only) { return is_meant(only, name); });
     }
-    /// `; 8 seeds`, where all that a figure shows has as many; by its name.
-    std::string seeds_of(const std::string& name) const {
+    /// `8 seeds`, of what a figure shows, by its name; `5, 8 seeds` where not all of it has as many.
+    std::string sample_of(const std::string& name) const {
         std::set<std::uint64_t> seeds;
         for (const ScenarioFacts& scenario : study_.scenarios) {
             if (name.find("-" + plain_name(scenario.name)) != std::string::npos)
-                return "; " + counted(scenario.replications, "seed");
+                return counted(scenario.replications, "seed");
             seeds.insert(scenario.replications);
         }
-        return seeds.size() == 1 ? "; " + counted(*seeds.begin(), "seed") : "";
+        return seeds.size() == 1 ? counted(*seeds.begin(), "seed")
+                                 : fmt::format("{} seeds", fmt::join(seeds, ", "));
     }
     std::string title_of(const Figure& figure) const {
-        return full(figure.caption, figure.name) + seeds_of(figure.name);
+        return full(figure.caption, figure.name) + "; " + sample_of(figure.name);
     }
     std::string drawing_of(const Figure& figure) const {
         const std::string drawing = named(figure.drawing, escaped(short_reference()));
@@ -245,14 +261,15 @@ class FileWriter : public detail::Writer {
                                                                 : named(table.caption, study_.reference);
         typeset.name = label(table.name);
         files_.typeset.push_back(write(table.name, ".tex", detail::to_latex(typeset)));
-        files_.entries.push_back({section_, table.name, typeset.name, typeset.caption, "", false, true,
+        files_.entries.push_back({section_, table.name, typeset.name,
+                                  typeset.caption + "; " + sample_of(table.name), "", false, true,
                                   detail::to_html(typeset.data)});
     }
 
     std::filesystem::path folder_;
     const StudyFacts& study_;
     const FigureChoice& choice_;
-    std::vector<std::string> former_;
+    std::vector<Written> former_;
     std::string section_;
     std::string topic_;  ///< The latest heading, or the section.
     std::vector<std::string> names_;

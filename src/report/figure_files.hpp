@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct FigureFiles {
     std::vector<std::filesystem::path> typeset;   ///< LaTeX, of tables.
     std::vector<FigureEntry> entries;             ///< In the order of the report.
     bool keeps_others = false;                    ///< Whether the folder has others of an earlier call, too.
+    /// Names of those that are of another number of seeds than this call's would be, by that number: `5
+    /// seeds`, empty where it is not known.
+    std::map<std::string, std::vector<std::string>> of_other_seeds;
 };
 
 /// By what `clearway export figures` knows the folders that it has written.

@@ -18,9 +18,13 @@ namespace clearway::report::detail {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ContainsRegex;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Key;
 using ::testing::Not;
+using ::testing::Pair;
 
 std::string text_of(const std::filesystem::path& file) {
     std::ostringstream text;
@@ -287,6 +291,32 @@ TEST(FigureFiles, ThatWereNotChosenStayWithTheirEntriesAndPictures) {
     EXPECT_EQ(after, before);
     write_figures(study, out);
     EXPECT_FALSE(std::filesystem::exists(out / "pairs-merge.pdf")) << "all were refreshed";
+}
+
+TEST(FigureFiles, ThatStayAreNamedWhereTheyAreOfAnotherNumberOfSeeds) {
+    const core::TemporaryFolder folder;
+    const std::filesystem::path& out = folder.path();
+    StudyFacts study = tests::study({"merge", "city"});
+    study.scenarios[0].replications = 5;
+    study.scenarios[1].replications = 7;
+    EXPECT_TRUE(write_figures(study, out).of_other_seeds.empty());
+    EXPECT_TRUE(write_figures(study, out, {{"tradeoff"}}).of_other_seeds.empty());
+    study.scenarios[0].replications = 10;
+    const FigureFiles files = write_figures(study, out, {{"tradeoff"}});
+    write_index(files, out);
+    ASSERT_TRUE(files.of_other_seeds.contains("5 seeds"));
+    const std::vector<std::string>& left = files.of_other_seeds.at("5 seeds");
+    EXPECT_THAT(left,
+                AllOf(Contains("pairs-merge"), Not(Contains("pairs-city")), Not(Contains("tradeoff-merge"))));
+    EXPECT_THAT(files.of_other_seeds, Contains(Key("5, 7 seeds"))) << "what shows both";
+    EXPECT_THAT(text_of(out / "tradeoff-merge.svg"), HasSubstr("10 seeds"));
+    write_figures(study, out, {{"pairs"}});
+    EXPECT_THAT(write_figures(study, out, {{"tradeoff"}}).of_other_seeds.at("5 seeds"),
+                AllOf(Contains("times-merge"), Not(Contains("pairs-merge"))));
+    EXPECT_TRUE(write_figures(study, out).of_other_seeds.empty()) << "all are refreshed";
+    std::ofstream(out / ".clearway-figures") << "pairs-merge\n";  // an older export's
+    EXPECT_THAT(write_figures(study, out, {{"tradeoff"}}).of_other_seeds,
+                ElementsAre(Pair("", ElementsAre("pairs-merge"))));
 }
 
 /// Texts of the SVG files of a study with a CSS class.
