@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <numeric>
+#include <span>
 
 namespace clearway::analysis {
 namespace {
@@ -73,17 +74,57 @@ ApproachCost cost_of(const std::string& edge, const Series& series, double level
     return cost;
 }
 
-std::optional<double> recovered_after(const std::vector<RecoveryPoint>& points) {
-    std::optional<double> since;
-    for (const RecoveryPoint& point : points) {
-        if (point.offset_s < 0.0) continue;
-        const Interval* const interval = shown_interval(point.difference);
-        const bool above = interval == nullptr || interval->low > 0.0;  // without one it may be anywhere
-        if (above) since.reset();
-        if (!above && !since) since = point.offset_s;
-        if (since && point.offset_s >= *since + recovered_for_s) return since;
+using Stretch = std::span<const RecoveryPoint>;
+
+/// The stretches of `recovered_for_s` after the EV.
+std::vector<Stretch> stretches_of(const std::vector<RecoveryPoint>& points) {
+    std::vector<Stretch> stretches;
+    for (auto first = points.begin(); first != points.end(); ++first) {
+        const auto last = std::find_if(first, points.end(), [&](const RecoveryPoint& point) {
+            return point.offset_s >= first->offset_s + recovered_for_s;
+        });
+        if (first->offset_s >= 0.0 && last != points.end()) stretches.emplace_back(first, last + 1);
     }
-    return std::nullopt;
+    return stretches;
+}
+
+bool is_recovered(const RecoveryPoint& point) {
+    const Interval* const interval = shown_interval(point.difference);
+    return interval != nullptr && interval->high < recovered_within_vehicles;
+}
+
+bool is_longer(const RecoveryPoint& point) {
+    const Interval* const interval = shown_interval(point.difference);
+    return interval != nullptr && interval->low > recovered_within_vehicles;
+}
+
+/// Nothing where a mean is not below the limit, or there is no interval.
+std::optional<std::size_t> pairs_to_tell(Stretch stretch, double level) {
+    std::size_t pairs = 0;
+    for (const RecoveryPoint& point : stretch) {
+        const double room = recovered_within_vehicles - mean_of(point.difference).value_or(0.0);
+        if (room <= 0.0 || shown_interval(point.difference) == nullptr) return std::nullopt;
+        pairs = std::max(pairs, required_replications(point.difference->deviation, room, level));
+    }
+    return pairs;
+}
+
+/// Fills in what the points tell.
+void judge(Recovery& recovery, double level) {
+    const std::vector<Stretch> stretches = stretches_of(recovery.points);
+    const auto recovered = std::ranges::find_if(
+        stretches, [](Stretch stretch) { return std::ranges::all_of(stretch, is_recovered); });
+    if (recovered != stretches.end()) {
+        recovery.recovered_by_s = recovered->front().offset_s;
+        return;
+    }
+    recovery.stays_longer = !stretches.empty() && std::ranges::all_of(stretches, [](Stretch stretch) {
+        return std::ranges::any_of(stretch, is_longer);
+    });
+    for (const Stretch stretch : stretches) {
+        const auto pairs = pairs_to_tell(stretch, level);
+        if (pairs) recovery.pairs_to_tell = std::min(*pairs, recovery.pairs_to_tell.value_or(*pairs));
+    }
 }
 
 }  // namespace
@@ -118,7 +159,7 @@ std::optional<Recovery> recovery_after(const Runs& condition, const Runs& baseli
     Recovery recovery;
     for (const auto& [offset_s, values] : at_offset)
         recovery.points.push_back({offset_s, estimate_difference(values.condition, values.baseline, level)});
-    recovery.recovered_after_s = recovered_after(recovery.points);
+    judge(recovery, level);
     return recovery;
 }
 

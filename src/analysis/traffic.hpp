@@ -32,12 +32,22 @@ struct RecoveryPoint {
 /// How long queues must stay back at the baseline's level to count as recovered, s. Assumed: a third of a
 /// usual cycle.
 inline constexpr double recovered_for_s = 30.0;
+/// Fewer halted vehicles more than in the baseline count as its level. Assumed: one more vehicle is the least
+/// that a queue can be longer by.
+inline constexpr double recovered_within_vehicles = 1.0;
+/// Whether queues recovered is told by what intervals exclude, so that fewer pairs never tell more.
 struct Recovery {
     std::vector<RecoveryPoint> points;  ///< Ascending.
-    /// The first offset >= 0 after which no interval lies above 0 for `recovered_for_s`: the queues are as
-    /// after an EV of the baseline. Nothing if that is not reached within the points, and where points have
-    /// no interval.
-    std::optional<double> recovered_after_s;
+    /// The first offset >= 0 from which intervals stay below `recovered_within_vehicles` for
+    /// `recovered_for_s`. Nothing if that is not reached within the points, and where points have no
+    /// interval.
+    std::optional<double> recovered_by_s;
+    /// Whether an interval lies above `recovered_within_vehicles` in every such stretch of time: queues are
+    /// shown not to recover.
+    bool stays_longer = false;
+    /// Pairs with which some stretch would be told to be recovered, at its means and deviations. Nothing
+    /// where it is told, and where means stay above in every stretch.
+    std::optional<std::size_t> pairs_to_tell;
 };
 
 /// One entry per edge, the largest absolute mean difference first. Empty if no pair of runs has approaches.

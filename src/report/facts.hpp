@@ -131,12 +131,20 @@ struct WorstTrip {
     std::string end = {};
 };
 
+/// The seconds by which a trip is faster than that of the same EV in the baseline.
+struct TripGain {
+    std::uint32_t replication = 0;
+    std::string vehicle;
+    double gain_s = 0.0;
+};
+
 /// How the trips of a condition differ from the same EVs' in its baseline, of those that arrived in both.
 struct TripChanges {
     std::uint64_t trips = 0;
     std::uint64_t faster = 0;    ///< By more than `felt_s`.
     std::uint64_t slower = 0;    ///< Likewise.
     double mean_faster_s = 0.0;  ///< Of those that are faster; positive.
+    std::vector<TripGain> gains = {};
 };
 inline constexpr double felt_s = 5.0;
 
@@ -243,7 +251,7 @@ struct ScenarioFacts {
     double least_relevant_s = usual_least_relevant_s;
     double response_threshold_s = 0.0;       ///< Of an EV trip that is in time; 0 if no EV arrived.
     std::vector<FlowFacts> flows;            ///< In the order of the counts; empty without counts.
-    std::vector<JourneyFacts> journeys;      ///< Of one EV under some of the conditions.
+    std::vector<JourneyFacts> journeys;      ///< Of one EV: baseline, headline's, some others.
     std::optional<ScenarioMap> map;          ///< Nothing where the files of the runs do not hold it.
     std::vector<ConditionFacts> conditions;  ///< The baseline first.
 

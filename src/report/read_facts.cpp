@@ -302,7 +302,7 @@ StudyFacts facts_of(const results::Store& store, const results::Results& results
     for (ScenarioFacts& scenario : study.scenarios) {
         add_files(store, results, scenario);
         detail::RunTraffic traffic(store);
-        scenario.journeys = detail::journeys_in(traffic, scenario);
+        scenario.journeys = detail::journeys_in(traffic, study, scenario);
         scenario.map = detail::map_in(traffic, study, scenario);
     }
     study.curves = curves_in(store.folder() / "training");

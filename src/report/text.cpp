@@ -33,6 +33,10 @@ std::string replications_words(std::uint64_t replications) {
                                                   : grouped(replications);
 }
 
+std::string asked_words(std::uint64_t replications) {
+    return (replications > most_replications_asked ? "" : "about ") + replications_words(replications);
+}
+
 std::string missing(Script script) {
     return script == Script::plain ? "-" : "\u2013";
 }

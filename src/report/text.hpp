@@ -63,6 +63,8 @@ std::string missing(Script script);
 
 /// `32`, or `more than 200` where the number asks for too much (most_replications_asked).
 std::string replications_words(std::uint64_t replications);
+/// `about 24`, or `more than 200`.
+std::string asked_words(std::uint64_t replications);
 
 /// Decimals that suit a measure in one scenario: 0 for %, 2 if all of its means are below 10, else 1.
 int decimals_of(const ScenarioFacts& scenario, Measure measure);

@@ -74,10 +74,6 @@ Tile time_tile(const TileWords& words, const ConditionFacts& condition, Measure 
     return tile;
 }
 
-std::string asked_words(std::size_t replications) {
-    return (replications > most_replications_asked ? "" : "about ") + replications_words(replications);
-}
-
 /// `. Likely (80 %), about 24 show the 5.2 s seen`; empty where these are less than what counts.
 std::string what_shows_the_seen(const analysis::Estimate& difference, double counts_s, Script script) {
     const double seen_s = std::abs(difference.mean);

@@ -64,32 +64,32 @@ TEST_F(Traffic, AnApproachThatNobodyEnteredCountsNothing) {
     EXPECT_FALSE(found[0].per_vehicle_s);
 }
 
-TEST_F(Traffic, RecoveryIsOverOnceNoIntervalLiesAboveZeroForAWhile) {
+TEST_F(Traffic, RecoveryIsOverOnceIntervalsStayBelowOneMoreVehicleForAWhile) {
     for (auto* const runs : {&condition_, &baseline_}) {  // twice as many, enough for intervals
         const std::vector<RunRecord> again = *runs;
         runs->insert(runs->end(), again.begin(), again.end());
     }
-    const auto recovered_after = [&] {
-        return recovery_after(pointers(condition_), pointers(baseline_), 0.95)->recovered_after_s;
+    const auto recovered_by = [&] {
+        return recovery_after(pointers(condition_), pointers(baseline_), 0.95)->recovered_by_s;
     };
     const auto recovery = recovery_after(pointers(condition_), pointers(baseline_), 0.95);
     ASSERT_TRUE(recovery);
     ASSERT_EQ(recovery->points.size(), 4U);
     EXPECT_DOUBLE_EQ(recovery->points[1].difference->mean, 2.15);
-    EXPECT_FALSE(recovered_after()) << "back at 10 s, but not seen for long enough";
+    EXPECT_FALSE(recovered_by()) << "back at 10 s, but not seen for long enough";
     for (auto* const runs : {&condition_, &baseline_}) {
         for (RunRecord& run : *runs) {
             for (double offset_s = 15.0; offset_s <= 60.0; offset_s += 5.0)
                 run.traffic.recovery.push_back({offset_s, 2, 1.0});
         }
     }
-    EXPECT_EQ(recovered_after(), 10.0);
+    EXPECT_EQ(recovered_by(), 10.0);
     for (RunRecord& run : condition_)
         run.traffic.recovery.back().halted_vehicles = 5.0 + run.traffic.recovery[1].halted_vehicles;
-    EXPECT_EQ(recovered_after(), 10.0) << "what comes later is another EV";
+    EXPECT_EQ(recovered_by(), 10.0) << "what comes later is another EV";
     for (RunRecord& run : condition_)
         run.traffic.recovery[6].halted_vehicles = 5.0 + run.traffic.recovery[1].halted_vehicles;
-    EXPECT_EQ(recovered_after(), std::nullopt);
+    EXPECT_EQ(recovered_by(), std::nullopt);
 }
 
 TEST_F(Traffic, RecoveryIsNotClaimedOverFewerPairsThanAnIntervalNeeds) {
@@ -101,7 +101,32 @@ TEST_F(Traffic, RecoveryIsNotClaimedOverFewerPairsThanAnIntervalNeeds) {
         }
     }
     const auto recovery = recovery_after(pointers(condition_), pointers(baseline_), 0.95);
-    EXPECT_EQ(recovery->recovered_after_s, std::nullopt);
+    EXPECT_EQ(recovery->recovered_by_s, std::nullopt);
+    EXPECT_EQ(recovery->pairs_to_tell, std::nullopt);
+}
+
+TEST_F(Traffic, RecoveryIsToldByMorePairsAndNeverByFewer) {
+    // From the passage on, `mean` more vehicles stand, with as much more and less in turn.
+    const auto recovery_of = [](int pairs, double mean, double deviation) {
+        std::vector<RunRecord> with, without;
+        for (int pair = 0; pair < pairs; ++pair) {
+            const std::vector<double> halted(9, 4.0 + mean + (pair % 2 == 0 ? deviation : -deviation));
+            with.push_back(run_with(1.0, 1.0, halted));
+            without.push_back(run_with(1.0, 1.0, std::vector<double>(9, 4.0)));
+        }
+        return *recovery_after(pointers(with), pointers(without), 0.95);
+    };
+    const Recovery few = recovery_of(8, 0.25, 1.5);
+    EXPECT_EQ(few.recovered_by_s, std::nullopt) << "0 lies within the interval, but 1 does, too";
+    EXPECT_FALSE(few.stays_longer);
+    ASSERT_TRUE(few.pairs_to_tell);
+    const int enough = static_cast<int>(*few.pairs_to_tell + *few.pairs_to_tell % 2);  // as many more as less
+    EXPECT_EQ(recovery_of(enough, 0.25, 1.5).recovered_by_s, 0.0);
+    EXPECT_GT(*few.pairs_to_tell, 16U);  // t of 16 pairs: 2.13 * 1.5 / 4 > 0.75
+    const Recovery none = recovery_of(8, 2.0, 1.5);
+    EXPECT_FALSE(none.stays_longer) << "1 lies within the interval";
+    EXPECT_EQ(none.pairs_to_tell, std::nullopt) << "the mean is above it";
+    EXPECT_TRUE(recovery_of(40, 2.0, 1.5).stays_longer);
 }
 
 TEST_F(Traffic, OfRunsThatWereNotWatchedSaysNothing) {

@@ -2,8 +2,11 @@
 
 #include <map>
 #include <regex>
+#include <tuple>
 
 #include <gmock/gmock.h>
+
+#include "report/detail/figures.hpp"
 
 namespace clearway::report::detail {
 namespace {
@@ -66,6 +69,26 @@ TEST(Plot, escapes_its_texts) {
     EXPECT_THAT(svg,
                 ::testing::Not(::testing::AnyOf(::testing::HasSubstr("<script"), ::testing::HasSubstr("<i>"),
                                                 ::testing::HasSubstr("<b>"))));
+}
+
+TEST(BarPlaces, give_signals_that_stand_close_one_bar_with_what_the_strictest_shows) {
+    JourneyFacts journey;
+    journey.signals = {{"A", "red", 100.0, 0.0, 20.0},   {"A", "green", 100.0, 20.0, 60.0},
+                       {"B", "green", 115.0, 0.0, 30.0}, {"B", "yellow", 115.0, 30.0, 33.0},
+                       {"B", "red", 115.0, 33.0, 60.0},  {"C", "green", 140.0, 0.0, 60.0}};
+    const BarPlaces close({&journey}, 20.0);
+    std::vector<std::tuple<double, std::string, double, double>> bars;
+    for (const SignalSpan& bar : close.bars_of(journey))
+        bars.emplace_back(bar.distance_m, bar.state, bar.from_s, bar.to_s);
+    using Bar = decltype(bars)::value_type;
+    EXPECT_THAT(bars, ::testing::ElementsAre(Bar(100.0, "red", 0.0, 20.0), Bar(100.0, "green", 20.0, 30.0),
+                                             Bar(100.0, "yellow", 30.0, 33.0), Bar(100.0, "red", 33.0, 60.0),
+                                             Bar(140.0, "green", 0.0, 60.0)));
+    EXPECT_EQ(close.note(),
+              " Signals less than 20 m behind another share its bar, which shows the strictest of them.");
+    const BarPlaces apart({&journey}, 15.0);
+    EXPECT_EQ(apart.bars_of(journey).size(), 6u);
+    EXPECT_EQ(apart.note(), "");
 }
 
 /// The words of a legend, by line, each with its place from the left.

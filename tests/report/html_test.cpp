@@ -228,6 +228,18 @@ TEST(Page, explains_colours_of_signals_only_where_they_are) {
                       Not(HasSubstr(">red</text>")), Not(HasSubstr("drawn twice"))));
 }
 
+TEST(Page, tells_how_the_trip_that_it_shows_stands_among_all) {
+    StudyFacts study = tests::study({"merge"});
+    EXPECT_THAT(page_of(study), Not(HasSubstr("arrived in both,")));
+    std::vector<TripGain>& gains = study.scenarios[0].conditions[1].trip_changes.gains;
+    gains = {
+        {0, "emergency1", 30.0}, {0, "emergency0", 8.0}, {1, "emergency0", -2.0}, {1, "emergency1", 6.0}};
+    EXPECT_THAT(page_of(study),
+                HasSubstr("Of all 4 trips that arrived in both, 1 gain more; the median gain is 7 s."));
+    gains.erase(gains.begin() + 1);
+    EXPECT_THAT(page_of(study), Not(HasSubstr("arrived in both,"))) << "that trip did not";
+}
+
 TEST(Page, draws_one_trip_around_its_signals_where_these_stand_close_together) {
     StudyFacts study = tests::study({"merge"});
     EXPECT_THAT(page_of(study), Not(HasSubstr("Drawn are metres")));
@@ -283,15 +295,32 @@ TEST(Page, draws_what_is_reached_only_where_a_difference_is_shown) {
 
 TEST(Page, claims_no_recovery_where_no_interval_is_known) {
     StudyFacts study = tests::study({"merge"});
-    EXPECT_THAT(page_of(study), HasSubstr("recovered after 75 s"));
+    EXPECT_THAT(page_of(study), HasSubstr("recovered by 75 s"));
     for (ConditionFacts& condition : study.scenarios[0].conditions) {
         if (!condition.recovery) continue;
-        condition.recovery->recovered_after_s.reset();
+        condition.recovery->recovered_by_s.reset();
         for (analysis::RecoveryPoint& point : condition.recovery->points)
             point.difference->n = analysis::fewest_for_interval - 1;
     }
-    EXPECT_THAT(page_of(study), AllOf(HasSubstr("too few passages to tell"),
-                                      Not(HasSubstr("recovered after")), Not(HasSubstr("not recovered in"))));
+    EXPECT_THAT(page_of(study), AllOf(HasSubstr("too few passages to tell"), Not(HasSubstr("recovered by")),
+                                      Not(HasSubstr("not recovered in"))));
+}
+
+TEST(Page, tells_recovery_that_is_open_from_one_that_is_shown_not_to_come) {
+    StudyFacts study = tests::study({"merge"});
+    const auto drawn = [&](std::optional<std::size_t> pairs_to_tell, bool stays_longer) {
+        for (ConditionFacts& condition : study.scenarios[0].conditions) {
+            if (!condition.recovery) continue;
+            condition.recovery->recovered_by_s.reset();
+            condition.recovery->pairs_to_tell = pairs_to_tell;
+            condition.recovery->stays_longer = stays_longer;
+        }
+        return page_of(study);
+    };
+    EXPECT_THAT(drawn(24, false), AllOf(HasSubstr(">open: about 24 seeds<"), Not(HasSubstr("recovered by"))));
+    EXPECT_THAT(drawn(900, false), HasSubstr(">open: more than 200 seeds<"));
+    EXPECT_THAT(drawn({}, false), HasSubstr(">open<"));
+    EXPECT_THAT(drawn({}, true), HasSubstr(">not recovered in this time<"));
 }
 
 TEST(Page, draws_at_most_six_recoveries_in_a_figure) {
@@ -302,7 +331,7 @@ TEST(Page, draws_at_most_six_recoveries_in_a_figure) {
     const std::string page = page_of(study);
     EXPECT_THAT(page, AllOf(HasSubstr("id=\"recovery-merge-1\""), HasSubstr("merge (2 of 2)")));
     EXPECT_THAT(page, Not(HasSubstr("id=\"recovery-merge\"")));
-    EXPECT_EQ(count_of(page, "recovered after 75 s"), 7u);
+    EXPECT_EQ(count_of(page, "recovered by 75 s"), 7u);
 }
 
 TEST(Page, lists_at_most_fifty_failures_of_a_condition_and_counts_the_rest) {

@@ -341,6 +341,22 @@ TEST(Looks, of_policies_under_failures_are_the_same_in_all_figures) {
     }
 }
 
+TEST(LineFigures, of_policies_under_failures_have_a_panel_for_each_failure_and_one_legend) {
+    const std::string page = tests::page_of(crossed(5, 3));
+    for (const char* const id : {"travel-time-merge", "precision-merge", "pairs-merge"}) {
+        const std::string figure = figure_of(page, id);
+        for (const char* const failure : {">loss 0<", ">loss 1<", ">loss 2<"})
+            EXPECT_EQ(count_of(figure, failure), 1u) << id;
+        for (const char* const policy : {">Policy 0<", ">Policy 4<"})
+            EXPECT_EQ(count_of(figure, policy), 1u) << id << ": the legend tells policies alone";
+        EXPECT_EQ(count_of(figure, "<polyline class=\"line s1 d0"), 3u) << id;
+    }
+    const std::string times = figure_of(page, "travel-time-merge");
+    EXPECT_EQ(count_of(times, "<polyline class=\"line s0\""), 3u) << "the baseline is in each";
+    EXPECT_EQ(count_of(times, ">0.2</text>"), 3u) << "one axis, in each";
+    EXPECT_EQ(count_of(figure_of(tests::page_of(crowd(5)), "travel-time-merge"), ">0.2</text>"), 1u);
+}
+
 TEST(DataTables, become_lists_where_their_cells_need_more_room_than_there_is) {
     const DataTable narrow{{"Name", "a", "b"}, {{"one", "1.0", "2.0"}}};
     EXPECT_THAT(to_html(narrow), Not(HasSubstr("data-label")));

@@ -105,7 +105,7 @@ inline void add_pairs(ConditionFacts& facts, const analysis::Estimate& travel_ti
         facts.approaches.push_back(
             {"edge" + std::to_string(approach), 1200.0, cost, cost, around(3.0, 5.0), cost, 35.5, 1.25});
     }
-    facts.recovery.emplace().recovered_after_s = 75.0;
+    facts.recovery.emplace().recovered_by_s = 75.0;
     for (int offset = -60; offset <= 240; offset += 5)
         facts.recovery->points.push_back(
             {static_cast<double>(offset), around(3.0 * std::exp(-std::pow((offset - 30) / 40.0, 2.0)), 0.8)});

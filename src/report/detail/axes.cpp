@@ -77,7 +77,8 @@ void Plot::turn_to(Axis x, Axis y) {
 }
 
 void Plot::grid_x() {
-    const Ticks ticks = nice_ticks(x_.values, 5, x_.scale == Scale::whole ? 1.0 : 0.0);
+    Ticks ticks;
+    if (x_.scale != Scale::slots) ticks = nice_ticks(x_.values, 5, x_.scale == Scale::whole ? 1.0 : 0.0);
     const double bottom = std::max(y_.from, y_.to);
     const double top = std::min(y_.from, y_.to);
     for (const double value : ticks.values) {
@@ -86,7 +87,10 @@ void Plot::grid_x() {
         text(x_.place(value), bottom + 16.0, number(value, {ticks.decimals, Script::typeset}), Anchor::middle,
              "tick");
     }
-    if (!x_.label.empty()) text((x_.from + x_.to) / 2.0, bottom + 34.0, x_.label, Anchor::middle, "axis");
+    if (x_.label.empty()) return;
+    const bool has_ticks = !ticks.values.empty();
+    text((x_.from + x_.to) / 2.0, bottom + (has_ticks ? 34.0 : 22.0), x_.label, Anchor::middle,
+         has_ticks ? "axis" : "tick");
 }
 
 void Plot::grid_y() {
@@ -222,23 +226,25 @@ Chart::Chart(const std::string& title, double height, Axis x, Axis y)
     grid_y();
 }
 
-std::string panels(const PanelWords& words, std::size_t count, const Range& x, const Range& y,
+std::string panels(const PanelWords& words, std::size_t count, const Axis& x, const Axis& y,
                    const std::function<void(Plot&, std::size_t)>& draw) {
     constexpr std::size_t columns = 2;
     constexpr double panel_width = 150.0;
     constexpr double panel_height = 104.0;
-    constexpr double first_top = 58.0;   // room for the label and the first titles
+    constexpr double first_top = 62.0;   // room for the labels and the first titles
     constexpr double below = 168.0;      // from one panel's top to the next one's
     constexpr double first_left = 44.0;  // room for the labels of y
     constexpr double beside = 194.0;     // from one panel's left edge to the next one's
     const double rows = std::ceil(static_cast<double>(count) / columns);
     Plot plot(words.title, first_top + rows * below, {}, {});
     plot.text(2.0, 14.0, words.label, Plot::Anchor::start, "axis");
+    plot.text(2.0, 30.0, "across: " + words.across, Plot::Anchor::start, "axis");
     for (std::size_t panel = 0; panel < count; ++panel) {
         const double left = first_left + beside * static_cast<double>(panel % columns);
         const std::size_t row = panel / columns;
         const double top = first_top + below * static_cast<double>(row);
-        plot.turn_to({x, "", left, left + panel_width}, {y, "", top + panel_height, top});
+        plot.turn_to({x.values, "", left, left + panel_width, x.scale},
+                     {y.values, "", top + panel_height, top, y.scale});
         plot.grid_x();
         plot.grid_y();
         draw(plot, panel);

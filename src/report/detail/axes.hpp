@@ -46,9 +46,9 @@ Ticks decade_ticks(Range exponents);
 /// The range with a margin on both sides, wide enough to be drawn when all of its values are equal.
 Range padded(Range range, double share);
 
-/// How an axis spaces its values: evenly, evenly with marks at whole numbers alone, or with the same width
-/// for each decade.
-enum class Scale { linear, whole, logarithmic };
+/// How an axis spaces its values: evenly, evenly with marks at whole numbers alone, evenly without marks as
+/// they count what stands beside each other, or with the same width for each decade.
+enum class Scale { linear, whole, slots, logarithmic };
 
 /// An axis of a figure: what it shows and where.
 struct Axis {
@@ -65,6 +65,8 @@ struct Axis {
                                                       : values.low;
         return from + (at - values.low) / (values.high - values.low) * (to - from);
     }
+    /// How much of an even axis a unit of the figure is.
+    double value_of_unit() const { return (values.high - values.low) / std::abs(to - from); }
 };
 
 inline constexpr double right_edge = 388.0;  ///< Of the drawing area; the rest keeps the last label inside.
@@ -133,12 +135,13 @@ struct Chart : Plot {
 /// What small multiples have in common: their title, what their axes measure, and a legend if they need one.
 struct PanelWords {
     std::string title;
-    std::string label;
+    std::string label;   ///< Of y.
+    std::string across;  ///< Of x.
     std::vector<LegendEntry> legend = {};
 };
 /// Small multiples: panels of one scale, two beside each other in one drawing. `draw` is called with the plot
-/// turned to each panel, and its number.
-std::string panels(const PanelWords& words, std::size_t count, const Range& x, const Range& y,
+/// turned to each panel, and its number. Labels of the axes are not drawn.
+std::string panels(const PanelWords& words, std::size_t count, const Axis& x, const Axis& y,
                    const std::function<void(Plot&, std::size_t)>& draw);
 
 }  // namespace clearway::report::detail

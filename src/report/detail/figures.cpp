@@ -165,9 +165,10 @@ std::string standalone(const std::string& drawing, const std::string& title, con
 Looks looks_of(const StudyFacts& study, const ScenarioFacts& scenario) {
     const ConditionFacts* const featured =
         study.headline_leads ? featured_condition(study, scenario) : nullptr;
-    const std::optional<Crossing> crossing = crossing_of(study, scenario);
     std::size_t beside = 0;  // what is not compared, in the colour of the text with the marks left over
     Looks looks;
+    looks.crossing = crossing_of(study, scenario);
+    const std::optional<Crossing>& crossing = looks.crossing;
     for (const ConditionFacts& condition : scenario.conditions) {
         Series& series = looks.emplace_back();
         series.number = looks.size() - 1;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,22 @@ std::string standalone(const std::string& drawing, const std::string& title, con
 void include(const JourneyFacts& journey, Range& times, Range& distances);
 /// Distance over time.
 Points way_of(const JourneyFacts& journey);
+
+/// Where the bars of the signals on a route are drawn, so that they do not lie on each other: at stop lines;
+/// one that is less than `least_m` behind another shares its bar.
+class BarPlaces {
+  public:
+    BarPlaces(std::initializer_list<const JourneyFacts*> journeys, double least_m);
+    /// What a shared bar shows is the strictest of its signals. `journey` is one of those.
+    std::vector<SignalSpan> bars_of(const JourneyFacts& journey) const;
+    /// Says so, where a bar is shared; else empty.
+    std::string note() const;
+
+  private:
+    double least_m_;
+    std::vector<double> places_m_;  // ascending
+    bool are_shared_ = false;
+};
 
 /// Map of the roads with the ways of the emergency vehicles in the colour and width of the seconds gained on
 /// each edge, the ways that some took instead of others, the signals held, and the approaches on which others
@@ -72,10 +89,26 @@ std::optional<Crossing> crossing_of(const StudyFacts& study, const ScenarioFacts
 
 /// How each condition of a scenario looks, by its place: numbers are places, the condition that the headline
 /// speaks of leads, and a crossing gives colours and marks.
-using Looks = std::vector<Series>;
+struct Looks : std::vector<Series> {
+    std::optional<Crossing> crossing = {};  ///< What gives colours and marks, if anything does.
+};
 Looks looks_of(const StudyFacts& study, const ScenarioFacts& scenario);
 /// The places of conditions in the order in which they are drawn: what leads comes last, on top.
 std::vector<std::size_t> drawing_order(const Looks& looks);
+
+/// A figure with a line for each condition.
+struct LineFigure {
+    std::string title;
+    double height = 0.0;               ///< Of one without panels.
+    Axis x, y;                         ///< Places on the drawing are chosen for it, and the values of slots.
+    std::optional<double> level = {};  ///< A horizontal line here.
+};
+/// Draws the condition of a place; its slot counts those of its panel.
+using DrawLine = std::function<void(Plot&, std::size_t place, std::size_t slot, const Series&)>;
+/// Draws the conditions of the places `drawn`: in one chart, or, where a crossing gives looks, in a panel for
+/// each of its marks, all of one scale, with what is not crossed in each.
+std::string line_figure(const LineFigure& figure, const ScenarioFacts& scenario, const Looks& looks,
+                        const std::vector<std::size_t>& drawn, const DrawLine& draw);
 
 /// Time and distance of one emergency vehicle of one replication, with and without a condition in one
 /// drawing, and what the signals on its route showed in both.

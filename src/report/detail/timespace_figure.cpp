@@ -10,7 +10,8 @@
 namespace clearway::report::detail {
 namespace {
 
-constexpr double offset = 2.6;  // of a run's signals from the stop line, so that both runs are seen
+constexpr double offset = 2.6;     // of a run's signals from the stop line, so that both runs are seen
+constexpr double two_bars = 11.0;  // the height of both with a gap
 
 const JourneyFacts* journey_under(const ScenarioFacts& scenario, const ConditionFacts& condition) {
     const auto found = std::ranges::find(scenario.journeys, condition.label(), &JourneyFacts::condition);
@@ -18,8 +19,8 @@ const JourneyFacts* journey_under(const ScenarioFacts& scenario, const Condition
 }
 
 /// What the signals showed in one run, beside their stop lines.
-void draw_signals(Plot& plot, const JourneyFacts& journey, double below) {
-    for (const SignalSpan& span : journey.signals) {
+void draw_signals(Plot& plot, const std::vector<SignalSpan>& bars, double below) {
+    for (const SignalSpan& span : bars) {
         const double y = plot.y().place(span.distance_m) + below;
         const double begin_s = std::max(span.from_s, plot.x().values.low);
         const double end_s = std::min(span.to_s, plot.x().values.high);
@@ -108,6 +109,49 @@ DrawnTrip drawn(JourneyFacts without, JourneyFacts with) {
     return cut;
 }
 
+/// ` Of 20 trips that arrived in both, 7 gain more; the median gain is 11 s.`: how a trip stands among all.
+/// Empty if it did not arrive.
+std::string standing_words(const std::vector<TripGain>& gains, const JourneyFacts& journey) {
+    const auto own = std::ranges::find_if(gains, [&](const TripGain& one) {
+        return one.replication == journey.replication && one.vehicle == journey.vehicle;
+    });
+    if (own == gains.end()) return {};
+    std::vector<double> seconds;
+    for (const TripGain& one : gains)
+        seconds.push_back(one.gain_s);
+    const auto more = std::ranges::count_if(seconds, [&](double gain_s) { return gain_s > own->gain_s; });
+    return fmt::format(" Of all {} that arrived in both, {} gain more; the median gain is {} s.",
+                       counted(gains.size(), "trip"), more, number(analysis::median(seconds), typeset(0)));
+}
+
+/// What is drawn and which trip it is.
+std::string note_of(const ScenarioFacts& scenario, const ConditionFacts& condition,
+                    const JourneyFacts& without, const JourneyFacts& with,
+                    const std::optional<Range>& stretch) {
+    const bool has_two_ways = scenario.of_map() == &condition &&
+                              std::ranges::any_of(scenario.map->changed_ways, [&](const ChangedWay& change) {
+                                  return is_shown_trip(scenario, change);
+                              });
+    const double length_m = std::max(without.places.back().distance_m, with.places.back().distance_m);
+    const double saved_s = without.places.back().time_s - with.places.back().time_s;
+    return fmt::format(
+        "Vehicle {}, replication {}: {} s {}.{}{}{} A level piece is a stop. {} the first {}, its gain is "
+        "nearest to the mean of all (and at least half of it, if that of any is).",
+        with.vehicle, with.replication, number(std::abs(saved_s), typeset(0)),
+        saved_s >= 0.0 ? "sooner" : "later", standing_words(condition.trip_changes.gains, with),
+        has_two_ways ? " It took another way with the condition: each line follows its own." : "",
+        stretch ? fmt::format(" Drawn are metres {} to {} of {}, around its signals.",
+                              number(stretch->low, typeset(0)), number(stretch->high, typeset(0)),
+                              number(length_m, typeset(0)))
+                : "",
+        without.signals.empty() && with.signals.empty()
+            ? "No signal stands on its route. Of the trips of"
+            : "Signals on its route are drawn twice: without the condition above the stop "
+              "line, with it below; a vehicle may stand at green behind one whose turn has red. "
+              "Of the trips that pass signals in",
+        counted(std::min<std::uint64_t>(metrics::journeys_kept, scenario.replications), "replication"));
+}
+
 }  // namespace
 
 void include(const JourneyFacts& journey, Range& times, Range& distances) {
@@ -134,8 +178,9 @@ Figure timespace_figure(const ScenarioFacts& scenario, const Looks& looks, const
     if (trip.times.high <= trip.times.low || trip.distances.high <= trip.distances.low) return {};
     Chart plot(fmt::format("{}: one trip with and without {}", scenario.name, condition.label()), 330.0,
                trip.times, "time since departure, s", trip.distances, "distance along the route, m");
-    draw_signals(plot, *without, -offset);
-    draw_signals(plot, *with, offset);
+    const BarPlaces places({without, with}, two_bars * plot.y().value_of_unit());
+    draw_signals(plot, places.bars_of(*without), -offset);
+    draw_signals(plot, places.bars_of(*with), offset);
     const Series& baseline_series = looks[scenario.place_of(condition.baseline)];
     const Series& series = looks[scenario.place_of(condition.name())];
     plot.line(way_of(trip.without), baseline_series);
@@ -147,32 +192,8 @@ Figure timespace_figure(const ScenarioFacts& scenario, const Looks& looks, const
     DataTable data{{"Condition", "what", "state", "from, s", "to, s", "distance, m"}, {}};
     add_data(*without, data);
     add_data(*with, data);
-    const bool has_two_ways = scenario.of_map() == &condition &&
-                              std::ranges::any_of(scenario.map->changed_ways, [&](const ChangedWay& change) {
-                                  return is_shown_trip(scenario, change);
-                              });
-    const double length_m = std::max(without->places.back().distance_m, with->places.back().distance_m);
-    const double saved_s = without->places.back().time_s - with->places.back().time_s;
-    const char* const ways =
-        has_two_ways ? " It took another way with the condition: each line follows its own." : "";
-    return {
-        "trip-" + scenario.name, "One trip with and without", plot.finish(),
-        fmt::format(
-            "Vehicle {}, replication {}: {} s {}.{}{} A level piece is a stop. {} the first {}, its gain is "
-            "nearest to the mean gain of all trips.",
-            with->vehicle, with->replication, number(std::abs(saved_s), typeset(0)),
-            saved_s >= 0.0 ? "sooner" : "later", ways,
-            trip.stretch ? fmt::format(" Drawn are metres {} to {} of {}, around its signals.",
-                                       number(trip.stretch->low, typeset(0)),
-                                       number(trip.stretch->high, typeset(0)), number(length_m, typeset(0)))
-                         : "",
-            without->signals.empty() && with->signals.empty()
-                ? "No signal stands on its route. Of the trips of"
-                : "Signals on its route are drawn twice: without the condition above the stop "
-                  "line, with it below; a vehicle may stand at green behind one whose turn has red. "
-                  "Of the trips that pass signals in",
-            counted(std::min<std::uint64_t>(metrics::journeys_kept, scenario.replications), "replication")),
-        std::move(data)};
+    return {"trip-" + scenario.name, "One trip with and without", plot.finish(),
+            note_of(scenario, condition, *without, *with, trip.stretch) + places.note(), std::move(data)};
 }
 
 }  // namespace clearway::report::detail

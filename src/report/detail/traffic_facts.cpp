@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "report/overview.hpp"
+
 namespace clearway::report::detail {
 namespace {
 
@@ -43,15 +45,19 @@ double mean_difference_s(const ConditionFacts* condition) {
     return analysis::mean_of(condition->difference(primary)).value_or(0.0);
 }
 
-/// Conditions that are shown: the baseline and those that help the EVs most.
-std::vector<const ConditionFacts*> shown_conditions(const ScenarioFacts& scenario) {
+/// Conditions that are shown: the baseline, the headline's and those that help the EVs most.
+std::vector<const ConditionFacts*> shown_conditions(const ScenarioFacts& scenario,
+                                                    const ConditionFacts* featured) {
     std::vector<const ConditionFacts*> compared;
     for (const ConditionFacts& condition : scenario.conditions) {
-        if (condition.is_compared()) compared.push_back(&condition);
+        if (condition.is_compared() && &condition != featured) compared.push_back(&condition);
     }
     std::ranges::stable_sort(compared, {}, mean_difference_s);
+    if (featured != nullptr) compared.insert(compared.begin(), featured);
+    const ConditionFacts* const baseline = featured == nullptr ? nullptr : scenario.baseline_of(*featured);
     std::vector<const ConditionFacts*> shown;
-    if (!scenario.conditions.empty()) shown.push_back(&scenario.conditions.front());
+    if (!scenario.conditions.empty())
+        shown.push_back(baseline == nullptr ? &scenario.conditions.front() : baseline);
     for (const ConditionFacts* condition : compared) {
         if (shown.size() == drawn_journeys) break;
         shown.push_back(condition);
@@ -65,28 +71,38 @@ using Journeys = std::map<std::string, JourneyFacts>;  // of one run, by vehicle
 struct Candidate {
     std::uint32_t replication = 0;
     std::string vehicle;
-    double gain_s = 0.0;  ///< From the baseline to the condition that helps most.
+    double gain_s = 0.0;  ///< From the baseline to the headline's condition.
     bool passes_signals = false;
+    bool arrived = false;
 };
 
-/// Adds the vehicles that occur in the runs of all conditions.
+/// Adds the vehicles that occur in the runs of all conditions. `gains` are of those that arrived.
 void add_candidates(std::uint32_t replication, const std::vector<Journeys>& runs,
-                    std::vector<Candidate>& candidates) {
+                    const std::vector<TripGain>& gains, std::vector<Candidate>& candidates) {
     for (const auto& [vehicle, journey] : runs.front()) {
         const bool everywhere =
             std::ranges::all_of(runs, [&, &name = vehicle](const auto& run) { return run.contains(name); });
         if (!everywhere) continue;
         const JourneyFacts& with = runs[std::min<std::size_t>(1, runs.size() - 1)].at(vehicle);
+        const bool arrived = std::ranges::any_of(gains, [&, &name = vehicle](const TripGain& gain) {
+            return gain.replication == replication && gain.vehicle == name;
+        });
         candidates.push_back({replication, vehicle, journey.places.back().time_s - with.places.back().time_s,
-                              !with.signals.empty()});
+                              !with.signals.empty(), arrived});
     }
 }
 
-/// The one whose gain is nearest to the mean of all, as most gains may be 0; of trips that pass signals, if
-/// there are any: the others tell nothing of what was asked of signals. Candidates may not be empty.
+/// The one whose gain is nearest to the mean of all; of trips that arrived and pass signals, if there are
+/// any: the others tell nothing of what was asked of signals. Most gains may be 0, which would not show what
+/// the mean tells: of those that gain half of it, if any does. Candidates may not be empty.
 Candidate typical_of(std::vector<Candidate> candidates, double mean_gain_s) {
-    const auto passes = [](const Candidate& one) { return one.passes_signals; };
-    if (std::ranges::any_of(candidates, passes)) std::erase_if(candidates, std::not_fn(passes));
+    const auto prefer = [&](const auto& is_preferred) {
+        if (std::ranges::any_of(candidates, is_preferred))
+            std::erase_if(candidates, std::not_fn(is_preferred));
+    };
+    prefer([](const Candidate& one) { return one.arrived; });
+    prefer([](const Candidate& one) { return one.passes_signals; });
+    prefer([&](const Candidate& one) { return one.gain_s * mean_gain_s >= 0.5 * mean_gain_s * mean_gain_s; });
     return *std::ranges::min_element(
         candidates, {}, [&](const Candidate& one) { return std::abs(one.gain_s - mean_gain_s); });
 }
@@ -99,17 +115,21 @@ const metrics::TrafficTables& RunTraffic::of(const experiment::RunKey& key) {
     return place->second;
 }
 
-std::vector<JourneyFacts> journeys_in(RunTraffic& traffic, const ScenarioFacts& scenario) {
-    const std::vector<const ConditionFacts*> conditions = shown_conditions(scenario);
+std::vector<JourneyFacts> journeys_in(RunTraffic& traffic, const StudyFacts& study,
+                                      const ScenarioFacts& scenario) {
+    const std::vector<const ConditionFacts*> conditions =
+        shown_conditions(scenario, featured_condition(study, scenario));
     if (conditions.empty()) return {};
     std::vector<std::vector<Journeys>> runs(
         std::min<std::uint64_t>(metrics::journeys_kept, scenario.replications));
+    static const std::vector<TripGain> none;
+    const auto& gains = conditions.size() < 2 ? none : conditions[1]->trip_changes.gains;
     std::vector<Candidate> candidates;
     for (std::uint32_t replication = 0; replication < runs.size(); ++replication) {
         for (const ConditionFacts* condition : conditions)
             runs[replication].push_back(
                 journeys_of(traffic.of({scenario.name, condition->name(), replication}).journeys));
-        add_candidates(replication, runs[replication], candidates);
+        add_candidates(replication, runs[replication], gains, candidates);
     }
     if (candidates.empty()) return {};
     const double mean_gain_s = conditions.size() < 2 ? 0.0 : -mean_difference_s(conditions[1]);

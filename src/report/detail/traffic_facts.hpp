@@ -20,9 +20,10 @@ class RunTraffic {
     std::map<experiment::RunKey, metrics::TrafficTables> tables_;
 };
 
-/// One emergency vehicle's journey under the baseline and the conditions that help most: of those that were
-/// kept, or of those of them that pass signals, if any does, the one whose gain is nearest to the mean of
-/// all trips. Empty if none was kept.
-std::vector<JourneyFacts> journeys_in(RunTraffic& traffic, const ScenarioFacts& scenario);
+/// One emergency vehicle's journey under the baseline, the condition of the headline and those that help
+/// most: of those that were kept, or of those of them that arrived, pass signals and gain at least half of
+/// the headline's mean, if any does, the one whose gain is nearest to that mean. Empty if none was kept.
+std::vector<JourneyFacts> journeys_in(RunTraffic& traffic, const StudyFacts& study,
+                                      const ScenarioFacts& scenario);
 
 }  // namespace clearway::report::detail

@@ -65,6 +65,7 @@ TripChanges changes_of(const Arrived& baseline, const Arrived& with) {
         if (before == baseline.end()) continue;
         ++changes.trips;
         const double gain_s = before->second - seconds;
+        changes.gains.push_back({trip.first, trip.second, gain_s});
         if (gain_s > felt_s) {
             ++changes.faster;
             gained_s += gain_s;

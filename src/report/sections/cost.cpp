@@ -101,8 +101,16 @@ Figure approach_figure(const ScenarioFacts& scenario, const Looks& looks) {
     return {"cost-" + scenario.name, scenario.name, canvas.finish(), note, approach_data(scenario)};
 }
 
+std::string recovery_words(const analysis::Recovery& recovery) {
+    if (recovery.recovered_by_s)
+        return fmt::format("recovered by {} s", number(*recovery.recovered_by_s, typeset(0)));
+    if (recovery.stays_longer) return "not recovered in this time";
+    return recovery.pairs_to_tell ? "open: " + asked_words(*recovery.pairs_to_tell) + " seeds" : "open";
+}
+
 void draw_recovery(Plot& plot, const ConditionFacts& condition, const Series& series) {
     plot.horizontal(0.0);
+    plot.horizontal(analysis::recovered_within_vehicles);
     plot.vertical(0.0);
     Points means;
     std::vector<std::array<double, 3>> bounds;
@@ -113,13 +121,10 @@ void draw_recovery(Plot& plot, const ConditionFacts& condition, const Series& se
     }
     plot.band(bounds, series);
     plot.line(means, series);
-    const auto& recovered_s = condition.recovery->recovered_after_s;
     plot.add(fmt::format("<g transform=\"translate({:.1f} {:.1f})\">{}</g>", plot.x().from - 12.0,
                          plot.y().to - 16.0, number_entry(series, {}).mark));
     plot.text(plot.x().from + 22.0, plot.y().to - 7.0,
-              recovered_s      ? fmt::format("recovered after {} s", number(*recovered_s, typeset(0)))
-              : bounds.empty() ? "too few passages to tell"
-                               : "not recovered in this time",
+              bounds.empty() ? "too few passages to tell" : recovery_words(*condition.recovery),
               Plot::Anchor::start, "label");
 }
 
@@ -137,14 +142,15 @@ Figure recovery_figure(const ScenarioFacts& scenario, const Looks& looks,
     }
     return {"recovery-" + scenario.name, scenario.name,
             panels({fmt::format("{}: halted vehicles on the other approaches after an EV", scenario.name),
-                    "more halted vehicles, number; across: time after an EV, s", std::move(entries)},
-                   numbers.size(), offsets, padded(halted, 0.06),
+                    "more halted vehicles, number", "time after an EV, s", std::move(entries)},
+                   numbers.size(), {offsets, ""}, {padded(halted, 0.06), ""},
                    [&](Plot& plot, std::size_t panel) {
                        draw_recovery(plot, scenario.conditions[numbers[panel]], looks[numbers[panel]]);
                    }),
             "Halted vehicles on the signal's other approaches around each passage of an EV, compared with "
-            "the passages of the baseline, with 95 % intervals. Recovered: from then on no interval lies "
-            "above 0 for 30 s.",
+            "the passages of the baseline, with 95 % intervals. Recovered: from then on intervals stay below "
+            "one more vehicle, the upper level line, for 30 s. Not recovered: in every 30 s one lies above "
+            "it. Open: neither is shown; so many seeds would show recovery if means and deviations stayed.",
             std::move(data)};
 }
 
@@ -152,6 +158,7 @@ void add_recovery_figures(const ScenarioFacts& scenario, const Looks& looks, std
     Range offsets;
     Range halted;
     halted.include(0.0);
+    halted.include(analysis::recovered_within_vehicles);
     std::vector<std::size_t> numbers;
     for (std::size_t number = 0; number < scenario.conditions.size(); ++number) {
         if (!scenario.conditions[number].recovery) continue;

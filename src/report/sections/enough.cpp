@@ -31,13 +31,9 @@ Figure precision_figure(const ScenarioFacts& scenario, const Looks& looks) {
     if (replications.empty()) return {};
     constexpr double least_width = 5.0;  // so that the ticks are whole numbers
     replications.high = std::max(replications.high, replications.low + least_width);
-    constexpr double height = 270.0;
     widths.high *= 1.05;
-    Chart plot(fmt::format("{}: width of the interval over replications", scenario.name), height,
-               replications, "replications, number", widths, labelled(primary, "half width of the interval"));
-    if (scenario.least_relevant_s > 0.0) plot.horizontal(scenario.least_relevant_s);
-    std::vector<LegendEntry> entries;
     DataTable data{{"Condition, replications", labelled(primary, "half width of the interval")}, {}};
+    std::vector<std::size_t> drawn;
     std::vector<Points> lines(scenario.conditions.size());
     for (std::size_t row = 0; row < lines.size(); ++row) {
         const ConditionFacts& condition = scenario.conditions[row];
@@ -47,14 +43,22 @@ Figure precision_figure(const ScenarioFacts& scenario, const Looks& looks) {
             data.rows.push_back({fmt::format("{}, {}", condition.label(), point.replications),
                                  number(point.half_width_s, typeset(2))});
         }
-        entries.push_back(line_entry(looks[row], condition.label()));
+        drawn.push_back(row);
     }
-    for (const std::size_t row : drawing_order(looks))
-        if (!lines[row].empty()) plot.line(lines[row], looks[row]);
     const std::string note = fmt::format("The level line is the smallest difference that counts, {} s.",
                                          number(scenario.least_relevant_s, typeset(1)));
-    plot.legend(entries);
-    return {"precision-" + scenario.name, scenario.name, plot.finish(), note, std::move(data)};
+    return {"precision-" + scenario.name, scenario.name,
+            line_figure(
+                {fmt::format("{}: width of the interval over replications", scenario.name),
+                 270.0,
+                 {replications, "replications, number"},
+                 {widths, labelled(primary, "half width of the interval")},
+                 scenario.least_relevant_s > 0.0 ? std::optional(scenario.least_relevant_s) : std::nullopt},
+                scenario, looks, drawn,
+                [&](Plot& plot, std::size_t place, std::size_t /*slot*/, const Series& series) {
+                    plot.line(lines[place], series);
+                }),
+            note, std::move(data)};
 }
 
 DataTable precision_table(const ScenarioFacts& scenario) {

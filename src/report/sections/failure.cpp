@@ -66,8 +66,8 @@ Figure curve_figure(const FailureCurve& curve, Member member, const char* name, 
     const std::string title = fmt::format("{}, policy {}: {}", curve.scenario, curve.policy, label);
     return {
         fmt::format("{}-{}-{}", name, curve.scenario, curve.policy), title,
-        panels({title, label + "; across: time dark, %"}, curve.lines.size(), padded(shares, 0.08),
-               padded(values, 0.06),
+        panels({title, label, "time dark, %"}, curve.lines.size(), {padded(shares, 0.08), ""},
+               {padded(values, 0.06), ""},
                [&](Plot& plot, std::size_t panel) { draw_panel(plot, curve, curve.lines[panel], member); }),
         curve.failure.empty() ? "" : "Failure: " + curve.failure + ".", data_of(curve)};
 }

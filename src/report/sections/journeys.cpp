@@ -30,13 +30,15 @@ Figure journey_figure(const ScenarioFacts& scenario, const JourneyFacts& journey
     Chart plot(
         fmt::format("{}: time and distance of {} with the signals on its route", title, journey.vehicle),
         340.0, times, "time since departure, s", distances, "distance along the route, m");
-    for (const SignalSpan& span : journey.signals)
+    constexpr double bar = 6.5;  // its height with a gap
+    const BarPlaces places({&journey}, bar * plot.y().value_of_unit());
+    for (const SignalSpan& span : places.bars_of(journey))
         plot.stripe({span.from_s, span.to_s}, span.distance_m, ("signal-" + span.state).c_str());
     plot.line(way_of(journey), series);
     const std::string note = fmt::format(
         "Replication {}, vehicle {}. Level lines are the stop lines on its route, in the state that is "
-        "shown to it.",
-        journey.replication, journey.vehicle);
+        "shown to it.{}",
+        journey.replication, journey.vehicle, places.note());
     std::vector<LegendEntry> entries = {line_entry(series, "emergency vehicle")};
     for (const char* const state : signal_states)
         if (std::ranges::find(journey.signals, state, &SignalSpan::state) != journey.signals.end())

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -123,60 +124,61 @@ Figure distribution_figure(const ScenarioFacts& scenario, const Looks& looks) {
         }
     }
     if (range.empty()) return {};
-    Chart plot(fmt::format("{}: distribution of EV travel time", scenario.name), 300.0, padded(range, 0.04),
-               "EV travel time, s", Range(0.0, 1.0), "share of EVs that arrived within, 0 to 1");
-    std::vector<LegendEntry> entries;
-    for (std::size_t row = 0; row < scenario.conditions.size(); ++row)
-        entries.push_back(line_entry(looks[row], scenario.conditions[row].label()));
-    for (const std::size_t row : drawing_order(looks)) {
-        const Distribution& distribution = scenario.conditions[row].distribution;
-        if (!distribution.points.empty()) plot.line(steps(distribution, plot.x().values.high), looks[row]);
-    }
-    plot.legend(entries);
-    return {"travel-time-" + scenario.name, scenario.name, plot.finish(), distribution_note(scenario),
-            distribution_data(scenario)};
+    std::vector<std::size_t> all(scenario.conditions.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const auto draw = [&](Plot& plot, std::size_t place, std::size_t /*slot*/, const Series& series) {
+        const Distribution& distribution = scenario.conditions[place].distribution;
+        if (!distribution.points.empty()) plot.line(steps(distribution, plot.x().values.high), series);
+    };
+    return {"travel-time-" + scenario.name, scenario.name,
+            line_figure({fmt::format("{}: distribution of EV travel time", scenario.name),
+                         300.0,
+                         {padded(range, 0.04), "EV travel time, s"},
+                         {Range(0.0, 1.0), "share of EVs that arrived within, 0 to 1"}},
+                        scenario, looks, all, draw),
+            distribution_note(scenario), distribution_data(scenario)};
+}
+
+void draw_slopes(Plot& plot, const std::vector<Pair>& pairs, std::size_t slot, const Series& series) {
+    constexpr double share = 0.62;  // of the slot; the rest keeps neighbours apart
+    const double from = static_cast<double>(slot) + 0.5 * (1.0 - share);
+    for (const Pair& pair : thinned(pairs))
+        plot.hair({{from, pair.baseline_s}, {from + share, pair.condition_s}}, series);
+    const Pair mean = mean_pair(pairs);
+    plot.joined({{from, mean.baseline_s}, {from + share, mean.condition_s}}, series);
 }
 
 Figure slopes_figure(const ScenarioFacts& scenario, const Looks& looks) {
     Range seconds;
     std::size_t most = 0;
-    std::vector<std::pair<std::size_t, std::vector<Pair>>> drawn;  // Place of the condition, its pairs.
+    std::vector<std::size_t> drawn;
     for (std::size_t row = 0; row < scenario.conditions.size(); ++row) {
-        std::vector<Pair> pairs = pairs_of(scenario.conditions[row]);
+        const std::vector<Pair> pairs = pairs_of(scenario.conditions[row]);
         if (pairs.empty()) continue;
         most = std::max(most, pairs.size());
         for (const Pair& pair : thinned(pairs)) {
             seconds.include(pair.baseline_s);
             seconds.include(pair.condition_s);
         }
-        drawn.emplace_back(row, std::move(pairs));
+        drawn.push_back(row);
     }
     if (drawn.empty()) return {};
-    constexpr double height = 316.0;
-    constexpr double panel = 0.62;  // of a condition's share of the width; the rest keeps panels apart
-    Plot plot(fmt::format("{}: EV travel time of each replication, baseline and condition", scenario.name),
-              height, {Range(0.0, static_cast<double>(drawn.size())), "", left_edge, right_edge},
-              {padded(seconds, 0.04), labelled(primary), height - 32.0, top_edge});
-    plot.grid_y();
-    plot.text(0.5 * (left_edge + right_edge), height - 10.0,
-              "each from the baseline (left) to a condition (right)", Plot::Anchor::middle, "tick");
-    std::vector<LegendEntry> entries;
-    double from = 0.5 * (1.0 - panel);
-    for (const auto& [row, pairs] : drawn) {
-        for (const Pair& pair : thinned(pairs))
-            plot.hair({{from, pair.baseline_s}, {from + panel, pair.condition_s}}, looks[row]);
-        const Pair mean = mean_pair(pairs);
-        plot.joined({{from, mean.baseline_s}, {from + panel, mean.condition_s}}, looks[row]);
-        entries.push_back(line_entry(looks[row], scenario.conditions[row].label()));
-        from += 1.0;
-    }
     std::string note =
         "Each thin line is one replication, from the baseline (left) to the condition (right); the "
         "thick one is the mean. Means over all EVs; one that did not arrive counts with the horizon.";
     if (most > drawn_pairs)
         note += fmt::format(" Of {} pairs about {} are drawn.", grouped(most), drawn_pairs);
-    plot.legend(entries);
-    return {"pairs-" + scenario.name, scenario.name, plot.finish(), note, slopes_data(scenario)};
+    return {"pairs-" + scenario.name, scenario.name,
+            line_figure(
+                {fmt::format("{}: EV travel time of each replication, baseline and condition", scenario.name),
+                 328.0,
+                 {{}, "each from the baseline (left) to a condition (right)", 0.0, 0.0, Scale::slots},
+                 {padded(seconds, 0.04), labelled(primary)}},
+                scenario, looks, drawn,
+                [&](Plot& plot, std::size_t place, std::size_t slot, const Series& series) {
+                    draw_slopes(plot, pairs_of(scenario.conditions[place]), slot, series);
+                }),
+            note, slopes_data(scenario)};
 }
 
 DataTable response_data(const ScenarioFacts& scenario) {
