@@ -179,6 +179,13 @@ TEST_F(MapFacts, AndTheTripThatIsShownGainsWhereTheHeadlineSpeaksOfAGain) {
     EXPECT_EQ(std::ranges::count_if(gains, [](const TripGain& one) { return one.replication == 4; }), 1);
 }
 
+TEST_F(MapFacts, AndTheTripThatIsShownIsOfTheConditionOfTheHeadline) {
+    EXPECT_EQ(crossing().journeys.at(1).condition, "helps");
+    std::ofstream(folder_.path() / "study" / "controls.json") << R"({"helps": "hardly"})";
+    const ScenarioFacts scenario = crossing();  // no headline is about a control, however much it gains
+    EXPECT_EQ(scenario.journeys.at(1).condition, scenario.conditions[scenario.place_of("hardly")].label());
+}
+
 TEST_F(MapFacts, StandBesideTheTripsThatChangedAndTheWorstOnes) {
     const std::vector<ConditionFacts> conditions = crossing().conditions;
     EXPECT_EQ(conditions[0].trip_changes.trips, 0u) << "compared with nothing";
