@@ -47,7 +47,9 @@ def refusal(place: Any, reason: int | None, cure: str = CURE) -> ClearwayError:
 
 def path_of(what: str, value: Any) -> Path:
     if not isinstance(value, (str, os.PathLike)) or "\0" in str(value):
-        raise InputError(f"{what} is {value!r} (allowed: a path, which has no character U+0000)")
+        shown = repr(value)
+        shown = f"a {type(value).__name__}" if "\n" in shown else shown
+        raise InputError(f"{what} is {shown} (allowed: a path without the character U+0000, or results or a recording, which have one)")
     return Path(value)
 
 

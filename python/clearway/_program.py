@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import collections
+import contextlib
 import difflib
 import functools
 import inspect
@@ -13,6 +14,7 @@ import shutil
 import subprocess
 import sys
 import threading
+import warnings
 from pathlib import Path
 from typing import IO, Any, Callable, Iterable, Sequence, TypeVar
 
@@ -78,6 +80,14 @@ def without_null(text: str) -> str:
     if "\0" in text:
         raise InputError(f"{text!r} has the character U+0000 (allowed: names and paths without it)")
     return text
+
+
+def warn(message: str) -> None:
+    """Warns, with the line of the user's that called this package."""
+    level, frame = 2, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
+        level, frame = level + 1, frame.f_back
+    warnings.warn(message, RuntimeWarning, stacklevel=level - 1)
 
 
 def counted(count: int, noun: str) -> str:
@@ -247,11 +257,27 @@ def _owned() -> list[str]:
     return [setpriv, "--pdeathsig", "TERM", "--"]
 
 
+#: What a program says first when it was interrupted; how it continues on a command line follows.
+_INTERRUPTED = "clearway: interrupted"
+
+
 def _listen(stream: IO[str], said: collections.deque[str], progress: bool) -> None:
-    for line in stream:
-        said.append(line)
-        if progress:
-            sys.stderr.write(line)
+    with contextlib.suppress(ValueError):  # a second Ctrl-C closes the stream
+        for line in stream:
+            said.append(line)
+            progress = progress and not line.startswith(_INTERRUPTED)  # what follows is told by what is raised
+            if progress:
+                sys.stderr.write(line)
+
+
+def _interruption(said: Iterable[str], kept: str | Path | None) -> KeyboardInterrupt:
+    """What a program said of its interruption, with how to go on in Python in place of its command."""
+    told = next((line for line in said if line.startswith(_INTERRUPTED)), "")
+    told = told.removeprefix("clearway: ").partition(" To continue:")[0] or "interrupted."
+    if kept is None:
+        return KeyboardInterrupt(f"{told} The same call starts again")
+    there = "" if str(kept) in told else f" What is complete is kept in {kept}."
+    return KeyboardInterrupt(f"{told}{there} The same call continues")
 
 
 def command(arguments: Iterable[str]) -> list[str]:
@@ -259,7 +285,8 @@ def command(arguments: Iterable[str]) -> list[str]:
     return [str(programs() / "clearway"), *map(without_null, arguments)]
 
 
-def call(arguments: Sequence[str], *, progress: bool | None = False, accept: Sequence[int] = ()) -> tuple[int, str]:
+def call(arguments: Sequence[str], *, progress: bool | None = False, accept: Sequence[int] = (),
+         kept: str | Path | None = None) -> tuple[int, str]:
     """Calls ``clearway ARGUMENTS``; returns exit code and standard output.
 
     ``progress`` passes its progress on to this process's standard error; None: if that is a terminal. Exit codes other than 0 that
@@ -276,8 +303,11 @@ def call(arguments: Sequence[str], *, progress: bool | None = False, accept: Seq
         listener.start()
         try:
             output = process.stdout.read()
-        except BaseException:
+        except BaseException as error:
             process.terminate()
+            listener.join()  # before its stream is closed
+            if isinstance(error, KeyboardInterrupt):
+                raise _interruption(said, kept) from None
             raise
         listener.join()
         code = process.wait()

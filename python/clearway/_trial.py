@@ -8,9 +8,10 @@ import socket
 import struct
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 
@@ -66,7 +67,11 @@ def scenes_of(kind: str) -> list[Scene]:
 
 
 class Nursery:
-    """A Python of which the processes of parts are copies, as a study has one: the other end of _nursery.py."""
+    """A Python of which the processes of parts are copies, as a study has one: the other end of _nursery.py. ``printed`` is where they
+    may print."""
+
+    def __init__(self, printed: IO[Any]) -> None:
+        self._printed = printed
 
     def __enter__(self) -> "Nursery":
         listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
@@ -88,7 +93,7 @@ class Nursery:
         """A new process; the connection says at last how it ended."""
         connection = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         connection.connect(self._address)
-        socket.send_fds(connection, [os.fsencode(os.getcwd())], [*descriptors, sys.__stderr__.fileno()])
+        socket.send_fds(connection, [os.fsencode(os.getcwd())], [*descriptors, self._printed.fileno()])
         return connection
 
 
@@ -186,9 +191,9 @@ def shown_to(nursery: Nursery, part: dict[str, Any], scene: Scene) -> Told:
 def require_loadable(part: dict[str, Any]) -> None:
     """Raises InputError for what no run takes either."""
     greeting = {**part, "question": [], "answer": [], "network": None, "period_s": 0.0, "link_radius_m": 0.0}
-    with Nursery() as nursery, Process(nursery, greeting) as process:
+    with tempfile.TemporaryFile() as printed, Nursery(printed) as nursery, Process(nursery, greeting) as process:
         if process.failure:
-            end = "" if process.failure.endswith("?") else "."
+            end = "\n " if "\n" in process.failure else "" if process.failure.endswith("?") else "."
             cure = ", or say --predictor" if "has no method act()" in process.failure else ""
             raise _program.InputError(f"{part['kind']}: {part['object'] or 'module'} of {part['file']}: {process.failure}{end} Correct the file "
                                       f"or the settings{cure}")

@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import sys
+import tempfile
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -120,6 +121,7 @@ class Judgement:
     scenes: list[Scene]
     first: list[Told]
     second: list[Told]
+    printed: list[str]  #: Lines that it printed the first time.
 
     def decisions(self) -> Iterator[tuple[Scene, list[dict[str, np.ndarray]], Any]]:
         """Each answer, with what was shown up to it."""
@@ -285,16 +287,19 @@ RULES = {
 def judge(part: dict[str, Any]) -> Judgement:
     scenes = scenes_of(part["kind"])
 
-    def told(_: int) -> list[Told]:
+    def told(nursery: Nursery) -> list[Told]:
         all_told: list[Told] = []
-        with Nursery() as nursery:  # each time another, so that its objects lie elsewhere
-            for scene in scenes:
-                all_told.append(shown_to(nursery, part, scene))
-                if all_told[-1].is_late:
-                    break  # it would be waited for in each
+        for scene in scenes:
+            all_told.append(shown_to(nursery, part, scene))
+            if all_told[-1].is_late:
+                break  # it would be waited for in each
         return all_told
-    with ThreadPoolExecutor(2) as pool:
-        return Judgement(scenes, *pool.map(told, range(2)))
+    # Two, so that its objects lie elsewhere each time. They end first, also when interrupted: by that the threads do.
+    with tempfile.TemporaryFile() as printed, tempfile.TemporaryFile() as again, \
+            ThreadPoolExecutor(2) as pool, Nursery(printed) as first, Nursery(again) as second:
+        answers = list(pool.map(told, (first, second)))
+        printed.seek(0)
+        return Judgement(scenes, *answers, printed.read().decode("utf-8", "replace").splitlines())
 
 
 def report(part: dict[str, Any], judgement: Judgement, left_out: list[str], most_told: int | None) -> bool:
@@ -318,6 +323,10 @@ def report(part: dict[str, Any], judgement: Judgement, left_out: list[str], most
         longest_s, scene = max(times, key=lambda one: one[0])
         print(f"  time a decision: {1e3 * float(np.median([one for one, _ in times])):.2f} ms, at most {1e3 * longest_s:.1f} ms "
               f"({scene.name})")
+    if judgement.printed:
+        print(f"  printed: {_program.counted(len(judgement.printed), 'line')}{'; --all shows them' if most_told is not None else ''}")
+    for line in judgement.printed if most_told is None else []:
+        print("    " + line)
     print(f"{broken} of {len(RULES[part['kind']])} rules broken" if broken else "all rules kept")
     return broken == 0
 
@@ -348,7 +357,7 @@ def main(words: list[str] | None = None) -> int:
     parser.add_argument("part", metavar="FILE.py:CLASS")
     parser.add_argument("--predictor", action="store_true", help="it is a predictor [a policy]")
     parser.add_argument("--set", metavar="CLASS.NAME=VALUE", nargs="+", default=[], help="its settings [defaults]")
-    parser.add_argument("--all", action="store_true", help=f"tell all problems of each rule [{MOST_TOLD}]")
+    parser.add_argument("--all", action="store_true", help=f"tell all problems of each rule [{MOST_TOLD}], and what the part prints")
     parser.add_argument("--leave-out", metavar="RULE", nargs="+", default=[], help="rules that it breaks on purpose [none]")
     arguments = parser.parse_args(words)
     kind = "predictor" if arguments.predictor else "policy"
@@ -363,6 +372,9 @@ def main(words: list[str] | None = None) -> int:
     except _program.ClearwayError as error:
         print(f"clearway: {error}", file=sys.stderr)
         return 4 if isinstance(error, _program.EnvironmentFault) else 3
+    except KeyboardInterrupt:
+        print("clearway: interrupted; nothing was judged", file=sys.stderr)
+        return 130
 
 
 if __name__ == "__main__":

@@ -41,6 +41,10 @@ class LinkScores(_program.Told):
         self.gains: Table = table_of(measured["gains"])
         self.comparisons: Table = table_of(measured.get("comparisons", []))
 
+    def __fspath__(self) -> str:
+        """Wherever a path is taken, they stand for their folder."""
+        return str(self.folder)
+
     def __repr__(self) -> str:
         return f"{self.results[['scenario', 'failure', 'exits', 'predictor', 'ap', 'f1']]!r}\n<LinkScores in {self.folder}: {self.seeds}>"
 
@@ -60,6 +64,7 @@ def evaluate(scenarios: str | Path | Sequence[str | Path] = (), predictors: Part
     that of ``clearway.run``.
     """
     _program.require_first_load("clearway.links.evaluate")
+    benchmark = None if benchmark is None else _files.path_of("benchmark", benchmark)
     given = dict(benchmark=benchmark, exits=exits, against=None if against is None else part_name(against), split=split, seed=seed,
                  link_radius_m=link_radius_m, jobs=jobs or None)
     words = ["links", "evaluate", *(_scenario(one) for one in _several(scenarios))]
@@ -67,12 +72,12 @@ def evaluate(scenarios: str | Path | Sequence[str | Path] = (), predictors: Part
     words += _seeds("seeds", "seed", seeds) + _seeds("validation_seeds", "validation-seed", validation_seeds)
     words += _listed("--predictor", map(part_name, _several(predictors))) + _listed("--failure", map(str, _several(failures)))
     words += _listed("--set", (f"{name}={value}" for name, value in (set or {}).items()))
-    words += _listed("--model", (f"{name}={Path(file).resolve()}" for name, file in (models or {}).items()))
+    words += _listed("--model", (f"{name}={_files.path_of('models', file).resolve()}" for name, file in (models or {}).items()))
     words += _listed("--override", (f"{name}={value}" for name, value in overrides.items()))
     words += ["--quick"] * quick + ["--automated-links"] * automated_links
-    out = _files.path_of("out", out or Path("runs") / (Path(benchmark).stem if benchmark else "links"))
+    out = _files.path_of("out", out or Path("runs") / (benchmark.stem if benchmark else "links"))
     try:
-        _, said = _program.call([*words, "--out", str(out), "--json"], progress=progress)
+        _, said = _program.call([*words, "--out", str(out), "--json"], progress=progress, kept=out)
     except _program.ClearwayError as error:
         error = _program.in_python(error, _program.keywords_of(evaluate))
         raise _program.unknown_override("clearway.links.evaluate", error, overrides, _program.keywords_of(evaluate)) from None

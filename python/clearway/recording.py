@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import errno
+import os
 import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -171,6 +172,10 @@ class Recording(_program.Told):
                    "deceleration_mps2": columns["kind"] == "emergency_braking"}
         return Table({name: _only_where(belongs[name], values) if name in belongs else values for name, values in columns.items()})
 
+    def __fspath__(self) -> str:
+        """Wherever a path is taken, it stands for its file."""
+        return str(self.file)
+
     def __len__(self) -> int:
         return len(self._steps["time_s"])
 
@@ -237,15 +242,18 @@ def file_of(folder: Path, scenario: str, condition: str, replication: int) -> Pa
     return folder / "recordings" / scenario / condition / f"{replication:05d}.h5"
 
 
-def trace(file: str | Path) -> Recording:
-    """Opens a recording: ``for step in clearway.trace(file): step.x_m``. A run is taken as other programs name it, too:
+def trace(file: str | os.PathLike[str]) -> Recording:
+    """Opens a recording: ``for step in clearway.trace(file): step.x_m``. Of one that is open, this opens its file again. A run is taken as other programs name it, too:
     ``"runs/mine/intersection/corridor/0"``.
 
     Its arrays are numpy; columns are read when they are first asked for, and kept. ``len(recording)`` is the number of steps,
     ``recording.events`` what happened. Raises InputError for what is no recording, or not as Clearway wrote it: the whole file is
     read once for its hash.
     """
-    run = Path(file)
+    run = _files.path_of("file", file)
+    if run.is_dir():
+        raise _program.InputError(f"{run} is a folder (allowed: the file of a recording, or a run: FOLDER/SCENARIO/CONDITION/REPLICATION). "
+                                  "clearway.open(FOLDER).recording(SCENARIO, CONDITION) opens one of a run folder")
     if run.suffix != ".h5" and run.name.isdigit() and len(run.parts) > 3:
         file = file_of(run.parents[2], *run.parts[-3:-1], int(run.name))
     return Recording(file)

@@ -233,6 +233,10 @@ class Results(_program.Told):
                                           compared_title=titles[row["compared_with"]], **pairs, **numbers))
         return differences
 
+    def __fspath__(self) -> str:
+        """Wherever a path is taken, they stand for their folder."""
+        return str(self.folder)
+
     def __repr__(self) -> str:
         return f"<Results in {self.folder}: {', '.join(self.tables)}>"
 

@@ -7,7 +7,7 @@ import json
 import os
 import re
 import tempfile
-import warnings
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Union
@@ -167,13 +167,23 @@ def study(file: str | Path, *, out: str | Path | None = None, jobs: int = 0, rec
     words += [] if run_time_limit is None else ["--run-time-limit", str(run_time_limit)]
     words += [] if memory_limit is None else ["--memory-limit", str(memory_limit)]
     try:
-        code, _ = _program.call(words, progress=progress, accept=(_program.RUNS_FAILED,))
+        code, _ = _program.call(words, progress=progress, accept=(_program.RUNS_FAILED,), kept=out)
     except _program.ClearwayError as error:
         raise _program.in_python(error, _STUDY_KEYWORDS) from None
     results = Results(out)
     if code == _program.RUNS_FAILED:
-        warnings.warn(f"{_program.counted(results.errors.row_count, 'run')} failed; see `errors` of these results", RuntimeWarning, stacklevel=2)
+        _program.warn(_failures_of(results))
     return results
+
+
+def _failures_of(results: Results) -> str:
+    """How many runs failed, and by what most of them did."""
+    errors = results.errors
+    causes = zip(errors["condition"].tolist(), (message.partition("\n")[0] for message in errors["message"].tolist()))
+    (condition, message), count = Counter(causes).most_common(1)[0]
+    of_all = sum(int((table["condition"] == condition).sum()) for table in (errors, results.runs))
+    return (f"{_program.counted(errors.row_count, 'run')} failed; {condition} in {count} of {of_all} runs: {message}; see `errors` of these "
+            "results")
 
 
 _STUDY_KEYWORDS = _program.keywords_of(study)

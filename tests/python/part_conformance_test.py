@@ -1,7 +1,10 @@
 """`python3 -m clearway.conformance` judges parts: what keeps the rules passes, and each rule is broken by a part made for it."""
+import os
 import re
+import signal
 import subprocess
 import sys
+import time
 import unittest
 
 from clearway.conformance import RULES
@@ -11,6 +14,7 @@ GALLERY = SOURCE / "examples" / "python"
 
 # The policies of docs/guides/python.md, and those that break rules.
 POLICIES = """
+import time
 import numpy as np
 import clearway
 from clearway import Lease
@@ -65,6 +69,17 @@ class Endless(clearway.Policy):
     def act(self, belief):
         while belief.emergency_vehicles:
             pass
+        return []
+
+class Prints(clearway.Policy):
+    def act(self, belief):
+        print("seen", len(belief.vehicles))
+        return Green().act(belief)
+
+class Slow(clearway.Policy):
+    def act(self, belief):
+        open("begun", "w").close()
+        time.sleep(0.5)
         return []
 
 class Refuses(clearway.Policy):
@@ -126,6 +141,34 @@ class ConformanceTest(FolderCase):
         self.assertEqual(set.union(*found), {rule.name for rule in RULES["policy"]})
         self.assertIn("it asked for nothing in any scene", self.said)
         self.assertRegex(self.said, r"- +lost +serves an EV whose reports are lost \(not judged\)")
+
+    def test_what_a_part_prints_is_counted_and_shown_on_request(self) -> None:
+        self.assertEqual(self.broken("parts.py:Prints"), set())
+        decisions = re.search(r"(\d+) decisions", self.said)[1]
+        self.assertIn(f"\n  printed: {decisions} lines; --all shows them\n", self.said)
+        self.assertNotIn("seen", self.said)
+        self.assertEqual(self.broken("parts.py:Prints", "--all"), set())
+        self.assertEqual(self.said.count("\n    Prints| seen "), int(decisions))
+        self.assertEqual(self.broken("parts.py:Green"), set())
+        self.assertNotIn("printed:", self.said)
+
+    def test_ctrl_c_ends_it_at_once(self) -> None:
+        with subprocess.Popen([sys.executable, "-m", "clearway.conformance", "parts.py:Slow"], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True, start_new_session=True) as process:
+            while process.poll() is None and not (self.folder / "begun").exists():
+                time.sleep(0.01)
+            os.killpg(process.pid, signal.SIGINT)
+            said = process.communicate(timeout=20)  # all scenes take a minute
+        self.assertEqual((process.returncode, said), (130, ("", "clearway: interrupted; nothing was judged\n")))
+
+    def test_an_error_of_several_lines_stands_before_the_advice(self) -> None:
+        self.write("bad.py", "class Green:\n    def act(self, belief)\n        return []\n")
+        ended = self.judged("bad.py:Green")
+        self.assertEqual((ended.returncode, ended.stdout), (3, ""))
+        first, *lines = ended.stderr.splitlines()
+        self.assertTrue(first.endswith("SyntaxError: expected ':' (bad.py, line 2)"), ended.stderr)
+        self.assertIn("    def act(self, belief)", lines)
+        self.assertEqual(lines[-1], "  Correct the file or the settings")
 
     def test_own_lanes_may_be_asked_for_beside_others(self) -> None:
         self.assertEqual(self.broken("parts.py:Stays"), {"lanes"})

@@ -515,8 +515,10 @@ class FaultTest(FolderCase):
     def test_whatever_is_drawn_without_a_seed_is_drawn_again(self) -> None:
         drawn = set()
         for folder in ("one", "two"):
-            with self.assertWarnsRegex(RuntimeWarning, "2 runs failed"):
+            says = r"2 runs failed; Draws in 2 of 2 runs: Draws of .*bad\.py, line \d+\); see `errors` of these results"
+            with self.assertWarnsRegex(RuntimeWarning, says) as warned:
                 results = clearway.run("intersection", [clearway.Condition("Draws", policy="bad.py:Draws")], seeds=2, out=folder)
+            self.assertEqual(warned.filename, __file__, "the line that called it, not one of the package")
             drawn |= {message.splitlines()[0].rpartition("drawn")[2] for message in results.errors["message"]}
         self.assertEqual(len(drawn), 1)
         self.assertIn("0.844", drawn.pop())  # random.seed(0)

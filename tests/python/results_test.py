@@ -7,15 +7,19 @@ import json
 import math
 import os
 import shutil
+import signal
 import sqlite3
+import subprocess
+import sys
 import tempfile
+import time
 import unittest
 from unittest import mock
 
 import clearway
 import clearway.recording as recording_module
 import numpy as np
-from support import FolderCase, Terminal, program, told_when
+from support import PROGRAMS, FolderCase, Terminal, program, told_when
 
 T_975_4 = 2.7764451051977987  # Student's t, 4 degrees of freedom
 
@@ -394,6 +398,51 @@ class ResultsTest(FolderCase):
             self.assertEqual(recording.file.name, "00000.h5")
         self.assertIn("recordings/intersection/corridor/00099.h5: cannot be read", self.message_of(
             clearway.InputError, lambda: clearway.trace(f"{self.results.folder}/intersection/corridor/99")))
+
+    def test_what_the_package_hands_out_stands_for_its_path(self) -> None:
+        with self.results.recording("intersection", "corridor") as recording, clearway.trace(recording) as again:
+            self.assertEqual((again.file, len(again)), (recording.file, len(recording)))
+            for call in (clearway.trace, clearway.open, clearway.dataset, clearway.study):
+                self.assertIn("file is a Table (allowed: a path" if call in (clearway.trace, clearway.study) else "folder is a Table (allowed",
+                              self.message_of(clearway.InputError, lambda: call(self.results.runs)))
+            self.assertIn(f"file is {recording[0]!r} (allowed: a path", self.message_of(clearway.InputError, lambda: clearway.trace(recording[0])))
+        self.assertEqual(clearway.open(self.results).folder, self.results.folder)
+        self.assertIn("is a folder (allowed: the file of a recording, or a run: FOLDER/SCENARIO/CONDITION/REPLICATION). "
+                      "clearway.open(FOLDER).recording(", self.message_of(clearway.InputError, lambda: clearway.trace(self.results)))
+        self.assertIn("holds neither *.samples nor", self.message_of(clearway.InputError, lambda: clearway.dataset(self.results)))
+        self.assertIn(f"{self.results.folder}: cannot be read: Is a directory",
+                      self.message_of(clearway.InputError, lambda: clearway.study(self.results)))
+        for keyword, given in (("benchmark", 3), ("models", {"net": 3})):
+            self.assertIn(f"{keyword} is 3 (allowed: a path",
+                          self.message_of(clearway.InputError, lambda: clearway.links.evaluate("intersection", **{keyword: given})))
+
+    def interrupted(self, program_folder: str, begun: str) -> str:
+        """What Python says at Ctrl-C, which reaches the program, too, once there is a file of this pattern."""
+        code = "import clearway\nclearway.run('intersection', ['corridor'], seeds=20, out='runs/c', jobs=1, progress=True)\n"
+        with subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True, start_new_session=True,
+                              env={**os.environ, "CLEARWAY_PROGRAMS": program_folder}) as process:
+            while process.poll() is None and not list(self.folder.glob(begun)):
+                time.sleep(0.01)
+            os.killpg(process.pid, signal.SIGINT)
+            said = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, -signal.SIGINT, said)
+        self.assertNotIn("Exception in thread", said)
+        self.assertNotIn("To continue", said, "its command is not the user's")
+        self.assertEqual(said.count("Traceback"), 1, said)
+        return said.splitlines()[-1]
+
+    def test_ctrl_c_says_how_to_go_on_and_the_same_call_does(self) -> None:
+        said = self.interrupted(str(PROGRAMS), "runs/c/runs/intersection/*/*")
+        self.assertRegex(said, r"^KeyboardInterrupt: interrupted with \d+ of 40 runs complete; they are kept in runs/c\. The same call continues$")
+        done = int(said.split()[3])
+        with mock.patch("sys.stderr", Terminal()) as told:
+            self.assertEqual(clearway.run("intersection", ["corridor"], seeds=20, out="runs/c").runs.row_count, 40)
+        self.assertIn("40/40", told.getvalue())
+        self.assertLess(done, 40)
+        self.write("clearway", f"#!/bin/sh\ntouch '{self.folder}/begun'\nexec sleep 60\n").chmod(0o755)  # silent
+        self.write("clearway-run", "").chmod(0o755)
+        self.assertEqual(self.interrupted(str(self.folder), "begun"),
+                         "KeyboardInterrupt: interrupted. What is complete is kept in runs/c. The same call continues")
 
     def test_damaged_and_closed_recordings_are_told(self) -> None:
         with self.results.recording("intersection", "corridor") as recording:
