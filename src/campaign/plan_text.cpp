@@ -291,7 +291,7 @@ core::ExitCode print_plan(study::StudyConfig config, const study::Shard& shard, 
     check_places(config);
     std::optional<core::InputError> refusal;
     try {
-        results::Store::require_fits(options.folder, plan.manifest);
+        results::Store::require_fits(options.folder, plan.manifest, plan.titles);
     } catch (const core::InputError& error) {
         refusal = error;  // the plan is wanted all the same
     }

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <string>
 
@@ -14,7 +13,7 @@
 #include "analysis/headline.hpp"
 #include "analysis/replications.hpp"
 #include "analysis/summary.hpp"
-#include "campaign/detail/abort_cure.hpp"
+#include "campaign/detail/failures.hpp"
 #include "campaign/detail/run_cost.hpp"
 #include "campaign/names.hpp"
 #include "campaign/plan_text.hpp"
@@ -42,9 +41,6 @@
 
 namespace clearway::campaign {
 namespace {
-
-/// Failed runs that are named one by one; more are in runs.csv.
-constexpr std::size_t named_errors = 10;
 
 /// What a study has more of than its folder had, `from 2 to 4 replications`; empty for the same study.
 std::string growth_of(const results::Manifest& before, const results::Manifest& now) {
@@ -122,43 +118,6 @@ void write_report(const report::StudyFacts& facts, const ReportReplays& replays,
     std::ostringstream page;
     report::write_html(facts, page, {replays.markup, replays.script_source});
     core::write_output(file, page.str());
-}
-
-/// `: the last line of a log`, or nothing, as where the message holds it, or where what failed is not SUMO's:
-/// its warnings say nothing of a part in Python.
-std::string last_words(const results::RunError& error) {
-    if (error.cause == results::ErrorCause::python) return "";
-    std::string log = error.log_tail;
-    while (log.ends_with('\n')) {
-        log.pop_back();
-    }
-    const std::size_t line = log.rfind('\n');
-    if (line != std::string::npos) log.erase(0, line + 1);
-    return log.empty() || error.message.find(log) != std::string::npos ? "" : ": " + log;
-}
-
-void name_errors(const results::Store& store, const results::Results& results) {
-    const std::size_t count = results.errors.size();
-    if (count == 0) return;
-    fmt::print(stderr, "clearway: {} of {} failed; their logs are in {}\n", count,
-               core::counted(results.manifest.runs().size(), "run"), (store.folder() / "logs").string());
-    std::set<std::string> cures;
-    for (std::size_t i = 0; i < std::min(count, named_errors); ++i) {
-        const results::RunError& error = results.errors[i];
-        fmt::print(stderr, "  {}: {}{}\n", results::run_name(store.folder(), error.key), error.message,
-                   last_words(error));
-        if (const std::string cure = cure_of_abort(error); !cure.empty()) cures.insert(cure);
-    }
-    for (const std::string& cure : cures)
-        fmt::print(stderr, "  {}\n", cure);
-    if (count > named_errors) {
-        fmt::print(stderr, "  and {} more, in {}\n", count - named_errors, store.runs_csv().string());
-    }
-    const auto passing = std::ranges::count_if(results.errors, results::may_pass, &results::RunError::cause);
-    fmt::print(stderr,
-               "  The command of the study tries again those that a signal, a limit or the machine ended "
-               "({}); with --retry-failed all of them\n",
-               passing);
 }
 
 enum class Outcome : std::uint8_t { reached, capped, unknown, more };
@@ -335,6 +294,11 @@ StudyResult run_missing(const study::Plan& plan, const results::Store& store, co
     return result;
 }
 
+std::string interrupted_between_runs(const std::string& command) {
+    return fmt::format(
+        "clearway: interrupted while no run was under way; nothing is lost. To continue:\n  {}\n", command);
+}
+
 bool is_interrupted(core::ExitCode code) {
     return code == core::ExitCode::interrupted || code == core::ExitCode::terminated;
 }
@@ -410,9 +374,10 @@ core::ExitCode publish(const results::Store& store, const PublishOptions& option
     if (!results::tables_are_current(store)) results::write_tables(store);
     write_report(facts, replays_of(store, results, facts, options.replays), store.folder() / "report.html");
     fmt::print(stderr, "clearway: written: {}\n", (store.folder() / "report.html").string());
-    const core::ExitCode code = tell_missing(results.missing.size(), results.manifest.run_count());
-    if (code != core::ExitCode::ok) return code;
-    return results.errors.empty() ? core::ExitCode::ok : core::ExitCode::runs_failed;
+    core::ExitCode code = tell_missing(results.missing.size(), results.manifest.run_count());
+    if (code == core::ExitCode::ok && !results.errors.empty()) code = core::ExitCode::runs_failed;
+    tell_failed(results, facts, code);
+    return code;
 }
 
 }  // namespace clearway::campaign

@@ -68,6 +68,10 @@ StudyResult run_part(const study::Plan& plan, const results::Store& store, const
                      const std::function<void(const StudyProgress&)>& on_progress);
 
 /// Whether this is how a command ends that a signal interrupts.
+/// What is told where a study is interrupted while it has no workers: before the first, or while its tables
+/// are written.
+std::string interrupted_between_runs(const std::string& command);
+
 bool is_interrupted(core::ExitCode code);
 
 /// Replications that a study with a precision target has reached in a folder; those of the first round if it

@@ -8,11 +8,13 @@
 #include <fmt/format.h>
 
 #include "analysis/equipment.hpp"
+#include "campaign/study_run.hpp"
 #include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
+#include "core/interruption.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/equipped_signals.hpp"
 
@@ -118,6 +120,7 @@ Action configure_equip(App& app) {
     add_own_condition_options(app, arguments->conditions.own);
     add_scenario_options(app, arguments->options);
     return [arguments](const Invocation& invocation) {
+        const core::InterruptionNotice notice(campaign::interrupted_between_runs(invocation.command));
         campaign::EquipRequest& request = arguments->request;
         request.condition = shown_condition(chosen_conditions(arguments->conditions), "equip");
         request.scenario = scenario::load(arguments->scenario, arguments->options);

@@ -5,11 +5,13 @@
 #include <fmt/format.h>
 
 #include "campaign/link_evaluation.hpp"
+#include "campaign/study_run.hpp"
 #include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
+#include "core/interruption.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -97,6 +99,7 @@ Action configure_evaluate(App& app) {
         "  clearway links evaluate --benchmark eval_v1 --split validation --failure B10 --set "
         "link_threshold=0.4");
     return [arguments](const Invocation& invocation) {
+        const core::InterruptionNotice notice(campaign::interrupted_between_runs(invocation.command));
         campaign::LinkRequest& request = arguments->request;
         request.command = invocation.command;
         for (const std::string& words : arguments->settings)

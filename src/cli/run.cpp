@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "cli/detail/condition_options.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
+#include "core/interruption.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/related_conditions.hpp"
 
@@ -88,6 +90,8 @@ std::filesystem::path window_settings(const std::string& file) {
 }
 
 core::ExitCode run(const RunArguments& arguments, const Invocation& invocation) {
+    std::optional<core::InterruptionNotice> notice;
+    if (!arguments.is_shown) notice.emplace(campaign::interrupted_between_runs(invocation.command));
     campaign::RunOptions options = arguments.run;
     options.command = invocation.command;
     const auto study_of = [&](std::vector<experiment::ConditionSpec> conditions) {

@@ -8,6 +8,7 @@
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
 #include "cli/verb.hpp"
+#include "core/interruption.hpp"
 #include "study/shard.hpp"
 
 namespace clearway::cli {
@@ -25,6 +26,7 @@ struct StudyArguments {
 };
 
 core::ExitCode run_study(const StudyArguments& arguments, const Invocation& invocation) {
+    const core::InterruptionNotice notice(campaign::interrupted_between_runs(invocation.command));
     study::Shard shard;
     if (!arguments.shard.empty()) shard = study::shard_from(arguments.shard, "--shard");
     study::StudyConfig config =

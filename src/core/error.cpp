@@ -40,12 +40,14 @@ std::string visible(const std::string& text) {
     return shown;
 }
 
-/// `where: what (allowed: ...). cure`.
+/// `where: what (allowed: ...). cure`; behind several lines, as of a syntax error, the cure has its own.
 std::string text_of(const Problem& problem) {
     std::string text = fmt::format("{}: {}", problem.where, problem.what);
     if (!problem.allowed.empty()) text += fmt::format(" (allowed: {})", problem.allowed);
     if (problem.cure.empty()) return text;
-    text += text.back() == '?' ? " " : ". ";  // another's message may end with its own question
+    const bool has_lines = problem.what.find('\n') != std::string::npos;
+    // Another's message may end with its own question.
+    text += has_lines ? "\n  " : text.back() == '?' ? " " : ". ";
     const std::string word = problem.cure.substr(0, problem.cure.find(' '));
     const bool is_name = word == "clearway" || word.find_first_of("_.=/") != std::string::npos;
     const std::size_t begin = text.size();

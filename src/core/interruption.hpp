@@ -2,6 +2,7 @@
 
 #include <array>
 #include <csignal>
+#include <string>
 
 #include "core/error.hpp"
 
@@ -24,6 +25,16 @@ class InterruptionWatch {
 
   private:
     std::array<struct sigaction, 2> before_{};
+};
+
+/// While this object lives and no InterruptionWatch does, SIGINT and SIGTERM end the process as they do
+/// otherwise, but after a text on standard error. For one thread; only one may exist at a time.
+class InterruptionNotice {
+  public:
+    explicit InterruptionNotice(const std::string& text);
+    ~InterruptionNotice();
+    InterruptionNotice(const InterruptionNotice&) = delete;
+    InterruptionNotice& operator=(const InterruptionNotice&) = delete;
 };
 
 }  // namespace clearway::core

@@ -47,18 +47,21 @@ const std::string& title_of(const ConditionTitleMap& titles, const ScenarioSumma
     return title == titles.end() ? condition : title->second;
 }
 
-/// The first column of a scenario's tables. A label that does not fit before the numbers gets lines of its
-/// own.
-std::string cell(const std::string& label) {
-    const std::size_t size = core::characters_in(label);
-    if (size < comparison_label_width) return label + std::string(comparison_label_width - size, ' ');
-    return core::wrapped(label, 4) + "\n" + std::string(comparison_label_width, ' ');
+std::string row_of(const std::string& label, const std::string& figures) {
+    return table_row(label, comparison_label_width, figures);
 }
 
 std::string label_of(const ConditionTitleMap& titles, const ScenarioSummary& scenario,
                      const ConditionSummary& condition) {
-    return cell(printable(title_of(titles, scenario, condition.condition.name)) +
-                (is_unsafe(condition) ? " (!)" : ""));
+    return printable(title_of(titles, scenario, condition.condition.name)) +
+           (is_unsafe(condition) ? " (!)" : "");
+}
+
+/// Whether it is compared and has anything to show: what has not is told as not paired.
+bool has_rows(const ConditionSummary& condition) {
+    return std::ranges::any_of(condition.metrics, [](const analysis::MetricSummary& metric) {
+        return metric.comparison && metric.comparison->complete_pairs > 0;
+    });
 }
 
 /// As wide as its column: a d of 10 is as good as infinite.
@@ -148,26 +151,26 @@ std::string response_text(const ScenarioSummary& scenario, const ConditionTitleM
     double threshold_s = 0.0;
     for (const ConditionSummary& condition : scenario.conditions) {
         const analysis::ResponseTime& response = condition.response;
-        if (condition.baseline.empty() || response.threshold_s <= 0.0) continue;
+        if (!has_rows(condition) || response.threshold_s <= 0.0) continue;
         threshold_s = response.threshold_s;
         const auto cell = [](const MaybeEstimate& trips, double factor) {
             return trips ? number(factor * trips->mean, {}) : missing(Script::plain);
         };
-        rows += label_of(titles, scenario, condition) +
-                fmt::format(fmt::runtime(format), cell(response.percentile_90_s, 1.0),
-                            estimate(response.percentile_90_difference_s, {.sign = Sign::always}),
-                            cell(response.in_time, 100.0),
-                            estimate(response.in_time_difference, {.sign = Sign::always}, 100.0));
+        rows += row_of(label_of(titles, scenario, condition),
+                       fmt::format(fmt::runtime(format), cell(response.percentile_90_s, 1.0),
+                                   estimate(response.percentile_90_difference_s, {.sign = Sign::always}),
+                                   cell(response.in_time, 100.0),
+                                   estimate(response.in_time_difference, {.sign = Sign::always}, 100.0)));
     }
     if (rows.empty()) return rows;
     return fmt::format(
-        "{}\n{}{}{:-<{}}\n{}\n",
+        "{}\n{}{:-<{}}\n{}\n",
         core::wrapped(fmt::format("{}: EV response time, 90th percentile, s, and trips within {:g} s, %",
                                   printable(scenario.scenario), threshold_s),
                       4),
-        cell("Condition"),
-        fmt::format(fmt::runtime(format), "90th pc.", "diff. [95 %]", "in time", "diff. [95 %]"), "",
-        comparison_width, rows);
+        row_of("Condition",
+               fmt::format(fmt::runtime(format), "90th pc.", "diff. [95 %]", "in time", "diff. [95 %]")),
+        "", comparison_width, rows);
 }
 
 Json trips_json(const MaybeEstimate& trips) {
@@ -274,16 +277,17 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
     std::uint64_t fewest_pairs = fewest_to_trust;
     for (const ScenarioSummary& scenario : summary.scenarios) {
         text += objections_text(scenario, titles);
+        std::string primary_rows;
         for (const std::string& name : metrics) {
             std::string rows;
             const analysis::MetricInfo* metric = nullptr;
             for (const ConditionSummary& condition : scenario.conditions) {
-                if (condition.baseline.empty()) continue;
+                if (!has_rows(condition)) continue;
                 metric = &condition.metric(name).metric;
                 any_unsafe = any_unsafe || is_unsafe(condition);
                 const Comparison& comparison = *condition.metric(name).comparison;
                 fewest_pairs = std::min<std::uint64_t>(fewest_pairs, comparison.complete_pairs);
-                rows += label_of(titles, scenario, condition) + numbers_of(comparison);
+                rows += row_of(label_of(titles, scenario, condition), numbers_of(comparison));
                 if (const std::string words =
                         locked_pairs_words(comparison, usual_least_relevant_s, Script::plain);
                     !words.empty())
@@ -292,9 +296,14 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
             if (metric == nullptr) continue;
             const std::string title = fmt::format("{}: {}{}", printable(scenario.scenario), metric->doc,
                                                   metric->unit == "1" ? "" : ", " + metric->unit);
-            fmt::format_to(out, "{}\n{}", core::wrapped(title, 4), cell("Condition"));
-            fmt::format_to(out, fmt::runtime(numbers_format), "pairs", "diff.", "95 % interval", "%", "d",
-                           "p Holm", "Wilcoxon");
+            if (name == "emergency_travel_time_s" && rows == primary_rows) {
+                text += core::wrapped(title + ": the same as of all", 4) + "\n\n";
+                continue;
+            }
+            if (name == analysis::primary_metric) primary_rows = rows;
+            text += core::wrapped(title, 4) + "\n" +
+                    row_of("Condition", fmt::format(fmt::runtime(numbers_format), "pairs", "diff.",
+                                                    "95 % interval", "%", "d", "p Holm", "Wilcoxon"));
             fmt::format_to(out, "{:-<{}}\n{}\n", "", comparison_width, rows);
         }
         const auto is_travel_time = [](const std::string& name) { return name.ends_with("travel_time_s"); };

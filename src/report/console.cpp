@@ -36,16 +36,8 @@ std::string label(const ConditionFacts& condition) {
     return printable(condition.label());
 }
 
-/// The name of a row, padded to where its numbers start; a long name has a line of its own.
-std::string row_start(const ConditionFacts& condition) {
-    const std::string name = "  " + label(condition);
-    if (name.size() < label_width) return fmt::format("{:<{}}", name, label_width);
-    return fmt::format("{}\n{:<{}}", name, "", label_width);
-}
-
-void append_row(std::string line, std::string& text) {
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + '\n';
+void append_row(const ConditionFacts& condition, const std::string& cells, std::string& text) {
+    text += table_row("  " + label(condition), label_width, cells);
 }
 
 std::string published_text(const ScenarioFacts& scenario, const ConditionFacts& condition, Measure measure) {
@@ -91,13 +83,13 @@ void append_published_table(const ScenarioFacts& scenario, std::string& text) {
         fmt::format_to(out, "{:>{}}{:>{}}", "here, s", here_width - 4, "published", published_width + 4);
     fmt::format_to(out, "\n{:-<{}}\n", "", page_width);
     for (const ConditionFacts& condition : scenario.conditions) {
-        std::string line = row_start(condition);
+        std::string line;
         for (const Measure measure : columns) {
             const NumberStyle style{.decimals = decimals_of(scenario, measure)};
             line += fmt::format("{:>{}}{:>{}}", mean_and_half_width(condition.value(measure), style),
                                 here_width, published_text(scenario, condition, measure), published_width);
         }
-        append_row(std::move(line), text);
+        append_row(condition, line, text);
     }
 }
 
@@ -134,18 +126,12 @@ std::string response_word(const MaybeEstimate& difference, Better better) {
     return effect == Effect::none_shown ? "none shown" : std::string(core::name(effect));
 }
 
-void append_measure(const ScenarioFacts& scenario, const MeasureInfo& measure, std::string& text) {
-    if (std::ranges::none_of(scenario.conditions, [&](const ConditionFacts& condition) {
-            return condition.value(measure.measure) || condition.difference(measure.measure) ||
-                   is_void_for_lost(condition, measure.measure);
-        }))
-        return;  // dashes alone
-    auto out = std::back_inserter(text);
-    fmt::format_to(out, "\n{}, {}\n", measure.title, measure.unit);
+std::string measure_rows(const ScenarioFacts& scenario, const MeasureInfo& measure) {
+    std::string text;
     const int decimals = decimals_of(scenario, measure.measure);
     for (const ConditionFacts& condition : scenario.conditions) {
-        std::string line = row_start(condition) + split_cell(condition.value(measure.measure),
-                                                             {.decimals = decimals}, measure.printed_factor);
+        std::string line =
+            split_cell(condition.value(measure.measure), {.decimals = decimals}, measure.printed_factor);
         if (is_void_for_lost(condition, measure.measure)) {
             line += std::string(split_cell({}, {}).size(), ' ') + "lost EVs";
         } else if (condition.is_compared()) {
@@ -153,8 +139,22 @@ void append_measure(const ScenarioFacts& scenario, const MeasureInfo& measure, s
                                {.decimals = decimals, .sign = Sign::always}, measure.printed_factor) +
                     effect_word(condition, measure.measure);
         }
-        append_row(std::move(line), text);
+        append_row(condition, line, text);
     }
+    return text;
+}
+
+void append_measure(const ScenarioFacts& scenario, const MeasureInfo& measure, std::string& text) {
+    if (std::ranges::none_of(scenario.conditions, [&](const ConditionFacts& condition) {
+            return condition.value(measure.measure) || condition.difference(measure.measure) ||
+                   is_void_for_lost(condition, measure.measure);
+        }))
+        return;  // dashes alone
+    const std::string rows = measure_rows(scenario, measure);
+    const bool is_told = measure.measure == Measure::emergency_travel_time &&
+                         rows == measure_rows(scenario, info(Measure::emergency_restricted_time));
+    text += fmt::format("\n{}, {}{}\n", measure.title, measure.unit, is_told ? ": the same as of all" : "");
+    if (!is_told) text += rows;
 }
 
 /// Wraps at spaces; lines after the first are indented.
@@ -175,22 +175,15 @@ void append_wrapped(const std::string& paragraph, std::string& text) {
     }
 }
 
-/// First and last line: the last of a Python traceback is the cause. A line of code is none.
-std::string ends_of(const std::string& lines) {
-    const std::string text = lines.substr(0, lines.find_last_not_of("\n ") + 1);
-    const std::string first = text.substr(0, text.find('\n'));
-    const std::string last = text.substr(text.rfind('\n') + 1);
-    return first == text || last.starts_with(' ') ? first : first + " ... " + last;
-}
-
+/// Of what kind they are; their messages are told on standard error.
 void append_failed(const ScenarioFacts& scenario, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions) {
         if (condition.failed.empty()) continue;
-        append_wrapped(fmt::format("Failed: {}: {} of {}; first: replication {}: {}", label(condition),
+        const FailedRun& first = condition.failed.front();
+        append_wrapped(fmt::format("Failed: {}: {} of {}; first: replication {}, {}", label(condition),
                                    counted(condition.failed.size(), "run"),
-                                   condition.failed.size() + condition.complete_runs,
-                                   condition.failed.front().replication,
-                                   printable(ends_of(condition.failed.front().cause))),
+                                   condition.failed.size() + condition.complete_runs, first.replication,
+                                   printable(first.cause.substr(0, first.cause.find(':')))),
                        text);
     }
 }
@@ -201,7 +194,8 @@ void append_tails(const ScenarioFacts& scenario, std::string& text) {
     fmt::format_to(out, "\nEV travel time over all EVs, s\n{:<{}}{:>7}  {:<14}{:>8}  {}\n{:-<{}}\n", "",
                    label_width, "median", "95 % interval", "95th pc.", "95 % interval", "", page_width);
     for (const ConditionFacts& condition : scenario.conditions) {
-        append_row(row_start(condition) + split_cell(condition.travel_time.median, {}) +
+        append_row(condition,
+                   split_cell(condition.travel_time.median, {}) +
                        split_cell(condition.travel_time.percentile_95, {}),
                    text);
     }
@@ -224,12 +218,12 @@ void append_trips(const ScenarioFacts& scenario, const TripRows& rows, std::stri
     text += fmt::format("\n{}\n", rows.title);
     for (const ConditionFacts& condition : scenario.conditions) {
         const analysis::ResponseTime& response = condition.response;
-        std::string line = row_start(condition) + split_cell(response.*rows.value, {}, rows.factor);
+        std::string line = split_cell(response.*rows.value, {}, rows.factor);
         if (condition.is_compared())
             line +=
                 split_cell(response.*rows.difference, {.sign = Sign::always}, rows.factor) +
                 response_word(response.*rows.difference, rows.factor > 1.0 ? Better::higher : Better::lower);
-        append_row(std::move(line), text);
+        append_row(condition, line, text);
     }
 }
 
@@ -254,19 +248,19 @@ void append_signals(const ScenarioFacts& scenario, std::string& text) {
     constexpr std::array columns = {std::pair{"signal_calls", "calls"},
                                     std::pair{"signal_calls_granted", "granted"},
                                     std::pair{"held_greens_useless", "useless"},
-                                    std::pair{"signal_entry_delay_s", "entry, s"},
-                                    std::pair{"signal_time_to_service_s", "green, s"},
-                                    std::pair{"signal_dwell_s", "hold, s"},
-                                    std::pair{"signal_recovery_s", "back, s"}};
-    constexpr int width = 9;
+                                    std::pair{"signal_entry_delay_s", "entry s"},
+                                    std::pair{"signal_time_to_service_s", "green s"},
+                                    std::pair{"signal_dwell_s", "hold s"},
+                                    std::pair{"signal_recovery_s", "back s"}};
+    constexpr int width = 8;
     std::string rows;
     for (const ConditionFacts& condition : scenario.conditions) {
         if (condition.complete_runs == 0 || condition.total("signal_calls") == 0.0) continue;
-        std::string line = row_start(condition);
+        std::string line;
         for (const auto& [metric, title] : columns)
             line +=
                 fmt::format("{:>{}}", number_or_dash(mean_of(condition.metric(metric).estimate), {}), width);
-        append_row(std::move(line), rows);
+        append_row(condition, line, rows);
     }
     if (rows.empty()) return;
     text += fmt::format("\n{:<{}}", "Signals, mean of runs", label_width);
@@ -342,6 +336,20 @@ ScenarioFacts without_levels(const StudyFacts& study, const ScenarioFacts& scena
     return kept;
 }
 
+bool failed_always(const ConditionFacts& condition) {
+    return condition.complete_runs == 0 && !condition.failed.empty();
+}
+
+/// The scenario for tables: without the conditions that always failed, and without any where no other is
+/// compared.
+ScenarioFacts without_failed(ScenarioFacts scenario) {
+    const bool was_compared = std::ranges::any_of(scenario.conditions, &ConditionFacts::is_compared);
+    std::erase_if(scenario.conditions, failed_always);
+    if (was_compared && std::ranges::none_of(scenario.conditions, &ConditionFacts::is_compared))
+        scenario.conditions.clear();
+    return scenario;
+}
+
 void append_verdict(const ScenarioFacts& scenario, const ConditionFacts& condition, Tables tables,
                     std::string& text) {
     const Verdict words = verdict(scenario, condition, Script::plain);
@@ -375,7 +383,7 @@ void append_measures(const ScenarioFacts& scenario, Tables tables, std::string& 
         fmt::format_to(std::back_inserter(text), "\n{:<{}}{:>7}  {:<14} {:>7}  {:<14} {}\n{:-<{}}\n{}",
                        "Measure, condition", label_width, "mean", "95 % interval", "diff.", "95 % interval",
                        "effect", "", page_width, rows);
-    if (tables == Tables::all && has_emergency) append_tails(scenario, text);
+    if (tables == Tables::all && has_emergency && !rows.empty()) append_tails(scenario, text);
     if (tables == Tables::all) append_signals(scenario, text);
 }
 
@@ -388,9 +396,10 @@ void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& 
         text += fmt::format("\n{}\n", printable(caption));
         append_published_table(scenario, text);
     }
-    append_measures(scenario, tables, text);
+    const ScenarioFacts shown = without_failed(scenario);
+    append_measures(shown, tables, text);
     text += '\n';
-    append_wrapped(printable(uneven_runs_sentence(scenario)), text);
+    append_wrapped(printable(uneven_runs_sentence(shown)), text);
     if (tables == Tables::all) append_censored(scenario, text);
     const std::string wide = wide_edges_sentence(scenario);
     if (tables == Tables::all && !wide.empty()) append_wrapped(wide, text);

@@ -30,17 +30,15 @@ bool claims_equivalence(const StudyFacts& study) {
 
 constexpr int table_columns = 100;
 
-/// A comparison and what it has shown. What is too long for its column has lines of its own.
+/// A comparison and what it has shown.
 std::string row_of(const StudyFacts& study, const PlannedFinding& finding) {
-    constexpr std::size_t width = 34;
-    std::string pair = "    " + printable(pair_words(study, finding, Script::plain));
-    if (pair.size() > 3 + width) pair = core::wrapped(pair, 6) + "\n";
-    const std::size_t line = pair.ends_with('\n') ? 0 : pair.size();
-    return fmt::format("{}\n{}{:{}} {:<23}{:>5}  {:>7}  {}\n",
-                       printable(fmt::format("{} ({})", finding.comparison.name, finding.scenario)), pair, "",
-                       3 + width - line,
-                       estimate(finding.difference, {.decimals = 2, .sign = Sign::ends_too}), finding.pairs,
-                       p_words(finding.holm_p, Script::plain), finding_words(finding, Script::plain));
+    constexpr std::size_t width = 38;
+    return printable(fmt::format("{} ({})", finding.comparison.name, finding.scenario)) + "\n" +
+           table_row("    " + printable(pair_words(study, finding, Script::plain)), width,
+                     fmt::format("{:<23}{:>5}  {:>7}  {}",
+                                 estimate(finding.difference, {.decimals = 2, .sign = Sign::ends_too}),
+                                 finding.pairs, p_words(finding.holm_p, Script::plain),
+                                 finding_words(finding, Script::plain)));
 }
 
 }  // namespace

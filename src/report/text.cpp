@@ -8,6 +8,18 @@
 #include "core/terminal.hpp"
 
 namespace clearway::report {
+namespace {
+
+/// Bytes of the first line of a text that is broken at `columns` characters.
+std::size_t line_end(const std::string& text, std::size_t columns) {
+    const std::size_t end = core::cut_to_columns(text, columns).size();
+    if (end == text.size() || text[end] == ' ') return end;
+    if (const std::size_t space = text.rfind(' ', end); space != std::string::npos) return space;
+    const std::size_t sign = text.find_last_of("+=,_-/:", end - 1);
+    return sign == std::string::npos ? end : sign + 1;
+}
+
+}  // namespace
 
 std::string short_signal_name(const std::string& id) {
     constexpr std::size_t most = 24;
@@ -26,6 +38,25 @@ std::string printable(const std::string& text) {
         result += code < 0x20 || code == 0x7f ? '?' : letter;
     }
     return result;
+}
+
+std::string table_row(const std::string& label, std::size_t columns, const std::string& figures) {
+    const std::size_t indent = std::min(label.find_first_not_of(' '), label.size());
+    std::size_t margin = indent;
+    std::string rest = label.substr(indent);
+    std::string text;
+    do {
+        const std::size_t end = line_end(rest, columns - 1 - margin);
+        std::string line = std::string(margin, ' ') + rest.substr(0, end);
+        if (text.empty()) {
+            line += std::string(columns - core::characters_in(line), ' ') + figures;
+            line.erase(line.find_last_not_of(" \n") + 1);
+        }
+        text += line + '\n';
+        rest.erase(0, std::min(rest.find_first_not_of(' ', end), rest.size()));
+        margin = indent + 2;
+    } while (!rest.empty());
+    return text;
 }
 
 std::string replications_words(std::uint64_t replications) {

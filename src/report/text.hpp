@@ -58,6 +58,10 @@ std::string p_words(const std::optional<double>& p, Script script);
 /// Text for a terminal. Control characters become `?`, because names come from files.
 std::string printable(const std::string& text);
 
+/// A row of a table for a terminal: `label` in a column of `columns` characters, then `figures`. What is too
+/// long for the column goes on below, broken at spaces or behind signs and set in by two more.
+std::string table_row(const std::string& label, std::size_t columns, const std::string& figures);
+
 /// The text for a missing number.
 std::string missing(Script script);
 

@@ -98,10 +98,9 @@ void check_format(const core::Json& object, const std::string& where) {
 
 /// `conditions (old is not asked for; Soft: soft.py has changed)`, at most three of them. New ones, which a
 /// folder may take, are told only where nothing else differs.
-std::string differing_conditions(const Manifest& left, const Manifest& right) {
+std::string differing_conditions(const Manifest& left, const Manifest& right,
+                                 const experiment::ConditionTitles& titles) {
     constexpr std::size_t most = 3;
-    const experiment::ConditionTitles titles{
-        core::Settings()};  // a folder keeps those of its study file apart
     core::Settings named = titles.of(left.conditions);
     named.merge(titles.of(right.conditions));
     std::vector<std::string> found;
@@ -166,7 +165,7 @@ experiment::Provenance planned_provenance(const Manifest& manifest, const std::s
     return provenance;
 }
 
-std::string differences(const Manifest& left, const Manifest& right) {
+std::string differences(const Manifest& left, const Manifest& right, const core::Settings& titles) {
     std::string list;
     const auto add = [&](bool differs, const std::string& part) {
         if (differs) list += (list.empty() ? "" : ", ") + part;
@@ -179,7 +178,7 @@ std::string differences(const Manifest& left, const Manifest& right) {
     add(left.replications != right.replications, "replications");
     add(left.scenarios != right.scenarios, "scenarios");
     const bool others = left.conditions != right.conditions;
-    add(others, others ? differing_conditions(left, right) : "");
+    add(others, others ? differing_conditions(left, right, experiment::ConditionTitles(titles)) : "");
     add(left.precision != right.precision, "precision");
     add(left.plan != right.plan, "plan");
     return list;

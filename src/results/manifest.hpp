@@ -75,8 +75,9 @@ experiment::Provenance planned_provenance(const Manifest& manifest, const std::s
 /// How `differences` names another build of the programs.
 inline constexpr const char* another_build = "build of Clearway";
 
-/// Names of what differs between two manifests, `seed, conditions`; empty for the same study.
-std::string differences(const Manifest& left, const Manifest& right);
+/// Names of what differs between two manifests, `seed, conditions`; empty for the same study. `titles` are
+/// those that a study file gives.
+std::string differences(const Manifest& left, const Manifest& right, const core::Settings& titles = {});
 
 /// Whether `wanted` is the study of `stored` with as many replications or more and, where no plan was written
 /// before, perhaps conditions between or after those stored: no run depends on another condition.

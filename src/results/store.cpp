@@ -97,9 +97,10 @@ Manifest without_growth(Manifest wanted, const Manifest& stored) {
 }
 
 /// Throws core::InputError, naming what differs, if a folder's study cannot be extended to the wanted one.
-void require_continues(const Manifest& wanted, const Manifest& stored, const fs::path& folder) {
+void require_continues(const Manifest& wanted, const Manifest& stored, const fs::path& folder,
+                       const core::Settings& titles) {
     if (continues(wanted, stored)) return;
-    const std::string differing = differences(stored, without_growth(wanted, stored));
+    const std::string differing = differences(stored, without_growth(wanted, stored), titles);
     if (differing == "replications")
         throw core::InputError(
             {folder.string(),
@@ -172,9 +173,9 @@ void move_to(const fs::path& target, const fs::path& source) {
 Store::Store(const fs::path& folder, Manifest manifest)
     : folder_(folder.has_filename() ? folder : folder.parent_path()), manifest_(std::move(manifest)) {}
 
-void Store::require_fits(const fs::path& folder, const Manifest& manifest) {
+void Store::require_fits(const fs::path& folder, const Manifest& manifest, const core::Settings& titles) {
     if (fs::exists(folder / manifest_name))
-        require_continues(manifest, open(folder).manifest(), folder);
+        require_continues(manifest, open(folder).manifest(), folder, titles);
     else
         refuse_others(folder);
 }

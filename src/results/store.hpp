@@ -45,8 +45,9 @@ class Store {
     /// its study. Throws core::InputError when it holds another study, the same study with more replications,
     /// or something other than a run folder; core::EnvironmentError when it cannot be written.
     static Store create(const std::filesystem::path& folder, const Manifest& manifest);
-    /// Throws core::InputError where `create` does, and writes nothing.
-    static void require_fits(const std::filesystem::path& folder, const Manifest& manifest);
+    /// Throws core::InputError where `create` does, and writes nothing. `titles` are those of the study file.
+    static void require_fits(const std::filesystem::path& folder, const Manifest& manifest,
+                             const core::Settings& titles = {});
     /// Throws core::InputError when `folder` is neither a run folder nor new or empty.
     static void refuse_others(const std::filesystem::path& folder);
     /// Opens an existing run folder. Throws core::InputError when it is not one.
@@ -62,6 +63,8 @@ class Store {
     std::filesystem::path unit_file(const std::string& unit) const;
     std::filesystem::path log_file(const std::string& unit) const;
     std::filesystem::path work_folder(const std::string& unit) const { return folder_ / "work" / unit; }
+    /// Why a run failed; there is none for others.
+    std::filesystem::path error_file(const experiment::RunKey& key) const;
     std::filesystem::path runs_csv() const { return folder_ / "runs.csv"; }
     std::filesystem::path vehicles_csv() const { return folder_ / "vehicles.csv"; }
 
@@ -119,7 +122,6 @@ class Store {
   private:
     /// A slash at the end of `folder` does not count.
     Store(const std::filesystem::path& folder, Manifest manifest);
-    std::filesystem::path error_file(const experiment::RunKey& key) const;
     /// Visits the runs that have an entry in `root` (runs or errors).
     void for_each_file(const std::filesystem::path& root,
                        const std::function<void(const experiment::RunKey&)>& visit) const;

@@ -228,7 +228,7 @@ void require_ready(const Plan& plan, const fs::path& folder) {
 
 results::Store prepare_folder(const Plan& plan, const fs::path& folder) {
     require_ready(plan, folder);
-    results::Store::require_fits(folder, plan.manifest);
+    results::Store::require_fits(folder, plan.manifest, plan.titles);
     const FolderLock lock(folder);
     results::Store store = results::Store::create(folder, plan.manifest);
     require_unchanged(store);
