@@ -103,7 +103,8 @@ TEST_F(ContinuedStudyTest, a_study_with_a_changed_condition_takes_over_the_runs_
     const auto study = [](const char* policy) {
         return fmt::format(
             "name = \"mine\"\nreplications = 2\nscenarios = [\"./line\"]\n"
-            "conditions = [\"baseline\"]\n[[condition]]\nname = \"mine\"\npolicy = \"{}\"\n",
+            "conditions = [\"baseline\"]\n[[condition]]\nname = \"mine\"\npolicy = \"{}\"\n[titles]\nmine = "
+            "\"Ours\"\n",
             policy);
     };
     write("my.toml", study("clear_lane"));
@@ -112,10 +113,10 @@ TEST_F(ContinuedStudyTest, a_study_with_a_changed_condition_takes_over_the_runs_
     EXPECT_THAT(read("runs/mine/report.html"), HasSubstr("policy = &quot;clear_lane&quot;"));
     write("my.toml", study("corridor"));
     EXPECT_THAT(clearway({"study", "my.toml"}).err,
-                AllOf(HasSubstr("different conditions"), HasSubstr("--reuse runs/mine")));
+                AllOf(HasSubstr("different conditions (Ours: "), HasSubstr("--reuse runs/mine")));
     const Ended planned = clearway({"study", "my.toml", "--dry-run"});
     EXPECT_EQ(planned.code, clearway({"study", "my.toml"}).code);
-    EXPECT_THAT(planned.err, HasSubstr("holds another study: different conditions"));
+    EXPECT_THAT(planned.err, HasSubstr("holds another study: different conditions (Ours: "));
     EXPECT_THAT(planned.out, HasSubstr("0 complete in runs/mine")) << "the plan is shown all the same";
     const Ended refused = clearway({"study", "my.toml", "--out", "runs/new", "--reuse", "nowhere"});
     EXPECT_EQ(refused.code, 3) << refused.err;
@@ -178,6 +179,25 @@ void ContinuedStudyTest::interrupt_and_resume(int signal, int expected_code) con
     ASSERT_EQ(clearway(two_conditions("undisturbed", seeds, 2)).code, 0);
     EXPECT_EQ(read("out/runs.csv"), read("undisturbed/runs.csv"));
     EXPECT_EQ(read("out/vehicles.csv"), read("undisturbed/vehicles.csv"));
+}
+
+TEST_F(ContinuedStudyTest, interrupted_before_its_first_run_it_says_so_and_how_to_continue) {
+    write("slow.py",
+          "import pathlib, time\npathlib.Path(__file__).with_name('begun').touch()\ntime.sleep(60)\n");
+    for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}}) {
+        std::filesystem::remove(folder() / "begun");
+        const core::Child child = start({"run", "line", "--policy", "slow.py:Slow", "--out", "out"});
+        const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (!std::filesystem::exists(folder() / "begun") && std::chrono::steady_clock::now() < patience)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        ::kill(child.pid, signal);
+        const Ended interrupted = finish(child);
+        EXPECT_EQ(interrupted.code, code);
+        EXPECT_EQ(
+            interrupted.err,
+            "clearway: interrupted while no run was under way; nothing is lost. To continue:\n  clearway "
+            "run line --policy slow.py:Slow --out out\n");
+    }
 }
 
 TEST_F(ContinuedStudyTest, interrupted_it_exits_with_130_and_continues_to_the_same_result) {

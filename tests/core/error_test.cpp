@@ -100,6 +100,12 @@ TEST(InputError, TellsAnEqualProblemOnce) {
     EXPECT_STREQ(error.what(), "a: one\nb: two");
 }
 
+TEST(InputError, TellsTheCureOfSeveralLinesOnItsOwn) {
+    EXPECT_STREQ(InputError({"a.py", "expected ':'\n    def f()\n           ^", "", "correct it"}).what(),
+                 "a.py: expected ':'\n    def f()\n           ^\n  Correct it");
+    EXPECT_STREQ(InputError({"a", "one line", "", "correct it"}).what(), "a: one line. Correct it");
+}
+
 TEST(InputError, TellsALongListOfWhatIsAllowedOnceForSeveralPlaces) {
     const std::string many(101, 'x');
     const auto unknown = [&](const char* where) { return Problem{where, "`B1` is unknown", many, ""}; };

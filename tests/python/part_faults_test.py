@@ -512,6 +512,32 @@ class FaultTest(FolderCase):
         self.assertEqual(ended.returncode, 1)
         self.assertIn("one number for each of the", ended.stderr)
 
+    def test_a_policy_that_always_fails_is_told_once_and_has_no_empty_tables(self) -> None:
+        self.write("mine.py", "import clearway\nclass Mine(clearway.Policy):\n    def act(self, belief):\n"
+                              "        raise KeyError(f'no EV at {belief.time_s} s')\n")
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "mine.py:Mine", "--seeds", "3",
+                                "--out", "runs"], capture_output=True, text=True, check=False)
+        self.assertEqual(ended.returncode, 1)
+        self.assertEqual(ended.stderr.count("KeyError: "), 1, ended.stderr)
+        self.assertRegex(ended.stderr, r"\n  runs/intersection/Mine/0 \(in 3 of 3 runs\): Mine of .*mine\.py: KeyError: 'no EV at .* s' "
+                                       r"\(mine\.py, line 4\)\n    Traceback .*\n.*\n +raise KeyError\(.*\n"
+                                       r"    in full: runs/errors/intersection/Mine/00000\.json\n")
+        self.assertTrue((self.folder / "runs/errors/intersection/Mine/00000.json").is_file())
+        self.assertEqual(ended.stderr.splitlines()[-1], "clearway: 3 of 9 runs failed, all of Mine (exit code 1)")
+        self.assertIn("Mine: 3 of 3 runs failed; no verdict", ended.stdout)
+        self.assertNotIn("Measure, condition", ended.stdout)
+        self.assertNotIn("KeyError", ended.stdout)
+        self.assertRegex(program("compare", "runs"), r"^Not paired: intersection/Mine: 3 of 3 runs failed or are missing\n")
+
+    def test_two_kinds_of_failure_are_two(self) -> None:
+        self.write("mine.py", "import clearway\nclass Mine(clearway.Policy):\n    def act(self, belief):\n"
+                              "        if len(belief.vehicles) % 2:\n            raise ValueError('odd')\n"
+                              "        raise ValueError('even')\n")
+        ended = subprocess.run([str(PROGRAMS / "clearway"), "run", "intersection", "--policy", "mine.py:Mine", "--seeds", "8", "--no-solo",
+                                "--out", "runs"], capture_output=True, text=True, check=False)
+        self.assertEqual(ended.returncode, 1)
+        self.assertEqual((ended.stderr.count("ValueError: odd"), ended.stderr.count("ValueError: even")), (1, 1), ended.stderr)
+
     def test_whatever_is_drawn_without_a_seed_is_drawn_again(self) -> None:
         drawn = set()
         for folder in ("one", "two"):

@@ -1,5 +1,6 @@
 #include "report/comparison.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -183,6 +184,40 @@ TEST(ComparisonText, ShowsPairsIntervalAndPValuesWithinATerminal) {
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);)
         EXPECT_LE(line.size(), 100U) << line;
+}
+
+TEST(ComparisonText, LeavesOutConditionsWithoutAPair) {
+    analysis::Summary summary = summary_with(-3.25);
+    summary.unpaired = {{"city", "treated", "3 of 3 runs failed or are missing"}};
+    EXPECT_THAT(comparison_text(summary, {"collisions"}), HasSubstr("Wilcoxon"));
+    for (analysis::MetricSummary& metric : summary.scenarios[0].conditions[1].metrics) {
+        metric.comparison->complete_pairs = 0;
+        metric.comparison->difference.reset();
+    }
+    const std::string text = comparison_text(summary, {"collisions"});
+    EXPECT_THAT(text, Not(HasSubstr("Wilcoxon")));
+    EXPECT_THAT(text, HasSubstr("Not paired: city/treated: 3 of 3 runs failed or are missing\n"));
+}
+
+TEST(ComparisonText, HasOneTableOfEvTravelTimeWhereAllArrived) {
+    analysis::Summary summary = summary_with(-3.25);
+    const std::vector<std::string> both = {analysis::primary_metric, "emergency_travel_time_s"};
+    EXPECT_THAT(comparison_text(summary, both),
+                HasSubstr("\ncity: EV travel time, mean of those that arrived, s: the same as of all\n\n"));
+    auto& metrics = summary.scenarios[0].conditions[1].metrics;
+    std::ranges::find(metrics, both[1], [](const auto& metric) {
+        return metric.metric.name;
+    })->comparison->difference->mean += 1.0;
+    EXPECT_THAT(comparison_text(summary, both),
+                HasSubstr("\ncity: EV travel time, mean of those that arrived, s\nCondition "));
+}
+
+TEST(ComparisonText, HasTheFiguresOfALongTitleBesideIt) {
+    const std::string text =
+        comparison_text(summary_with(-3.25), {"collisions"},
+                        {{{"city", "treated\x1b[2J"}, "Ours: green corridor with lane clearing"}});
+    EXPECT_THAT(text, HasSubstr("\nOurs: green        18 of 20   -3.25  [-4.25, -2.25]"));
+    EXPECT_THAT(text, HasSubstr("\n  corridor with\n  lane clearing\n"));
 }
 
 TEST(ComparisonJson, HoldsComparisonsAndShortfalls) {

@@ -154,28 +154,9 @@ TEST(ConsoleTables, mark_conditions_without_safety_checks_and_failed_runs) {
     const std::string text = console_tables(study);
     EXPECT_THAT(text, HasSubstr("Same failures, no repair (!)"));
     EXPECT_THAT(text, HasSubstr("(!): the simulator's safety checks were off"));
-    EXPECT_THAT(text, HasSubstr("Failed: GraphSAGE, corrected inputs: 1 run of 21; first: replication 7"));
-    const auto told = [&](const char* cause) {
-        study.scenarios[0].conditions[2].failed = {{7, cause}};
-        return console_tables(study);
-    };
-    EXPECT_THAT(told("bad.py failed\nTraceback\nKeyError: 'x'\n"),
-                testing::ContainsRegex("bad.py\\s+failed\\s+...\\s+KeyError:\\s+'x'\n"));
-    EXPECT_THAT(told("bad.py, line 8: no such signal\n    return [lease]\n"),
-                AllOf(testing::ContainsRegex("line\\s+8:\\s+no\\s+such\\s+signal\n"),
-                      Not(HasSubstr("return [lease]"))))
-        << "a line of code is no cause";
-}
-
-TEST(ConsoleTables, tell_the_first_and_the_last_line_of_a_traceback) {
-    StudyFacts study = tests::study({"merge"});
-    study.scenarios[0].conditions[2].failed = {
-        {7, "part: Traceback (most recent call last):\n  File \"my.py\", line 3\nValueError: no link\n"}};
-    std::string text = console_tables(study);
-    std::ranges::replace(text, '\n', ' ');
-    EXPECT_THAT(text, testing::ContainsRegex(
-                          "Traceback +.most +recent +call +last.: +[.]{3} +ValueError: +no +link"));
-    EXPECT_THAT(text, Not(HasSubstr("my.py")));
+    EXPECT_THAT(
+        text, HasSubstr("Failed: GraphSAGE, corrected inputs: 1 run of 21; first: replication 7, signal\n"));
+    EXPECT_THAT(text, Not(HasSubstr("killed by"))) << "standard error tells it, once";
 }
 
 TEST(ConsoleTables, of_one_replication_say_that_there_is_no_interval) {
@@ -207,6 +188,46 @@ TEST(ConsoleTables, survive_a_condition_whose_runs_all_failed) {
     EXPECT_THAT(text, HasSubstr("Failed: broken: 2 runs of 2"));
     EXPECT_GT(text.find("Failed: broken"), text.find("Time loss, others")) << "where a terminal shows it";
     EXPECT_THAT(text, Not(HasSubstr("nan")));
+    EXPECT_THAT(text, Not(HasSubstr("\n  broken"))) << "no row of dashes";
+}
+
+TEST(ConsoleTables, are_left_out_where_all_that_was_to_be_compared_failed) {
+    StudyFacts study = tests::study({"merge"});
+    ConditionFacts empty = tests::empty_condition("broken", "broken");
+    empty.baseline = "baseline";
+    empty.failed = {{0, "simulator: no route"}};
+    study.scenarios[0].conditions.resize(1);
+    EXPECT_THAT(console_tables(study), HasSubstr("Measure, condition")) << "a baseline alone has its means";
+    study.scenarios[0].conditions.push_back(empty);
+    for (const Tables tables : {Tables::essential, Tables::all}) {
+        const std::string text = console_tables(study, tables);
+        EXPECT_THAT(text, Not(HasSubstr("Measure, condition")));
+        EXPECT_THAT(text, Not(HasSubstr("median")));
+        EXPECT_THAT(text, Not(HasSubstr("\n  Baseline")));
+        EXPECT_THAT(text, HasSubstr("broken: 1 of 1 runs failed; no verdict: no complete pair of runs."));
+    }
+}
+
+TEST(ConsoleTables, have_one_table_of_ev_travel_time_where_all_arrived) {
+    StudyFacts study = tests::study({"merge"});
+    for (ConditionFacts& condition : study.scenarios[0].conditions) {
+        tests::value(condition, Measure::emergency_travel_time) = condition.value(primary);
+        tests::difference(condition, Measure::emergency_travel_time) = condition.difference(primary);
+    }
+    EXPECT_THAT(console_tables(study),
+                HasSubstr("\nEV travel time, arrived only, s: the same as of all\n\n"));
+    tests::value(study.scenarios[0].conditions[0], Measure::emergency_travel_time)->mean += 1.0;
+    EXPECT_THAT(console_tables(study), HasSubstr("\nEV travel time, arrived only, s\n  "));
+}
+
+TEST(ConsoleTables, have_the_figures_of_a_long_title_beside_it) {
+    StudyFacts study = tests::study({"merge"});
+    study.scenarios[0].conditions[1].title = "Ours: green corridor with lane clearing";
+    const std::string text = console_tables(study);
+    EXPECT_THAT(text, testing::ContainsRegex(
+                          "\n  Ours: green +[0-9.]+  [^\n]+\n    corridor with lane\n    clearing\n"));
+    for (const std::string& line : lines_of(text))
+        EXPECT_LE(line.size(), 80U) << line;
 }
 
 TEST(ConsoleTables, leave_out_what_has_dashes_alone) {

@@ -54,6 +54,17 @@ TEST(IntervalText, shows_that_an_interval_excludes_0) {
     EXPECT_EQ(interval_text({0.0, 2.0}, style), "[0.0, 2.0]");
 }
 
+TEST(TableRow, has_its_figures_beside_the_first_line_of_its_label) {
+    EXPECT_EQ(table_row("  short", 12, "1.0  [0.5, 1.5]  \n"), "  short     1.0  [0.5, 1.5]\n");
+    EXPECT_EQ(table_row("  eleven let", 12, "1.0"), "  eleven    1.0\n    let\n") << "one column stays free";
+    EXPECT_EQ(table_row("Ours: a green corridor", 12, "1.0"), "Ours: a     1.0\n  green\n  corridor\n");
+    EXPECT_EQ(table_row("mine+failure=B10", 12, "1.0"), "mine+       1.0\n  failure=\n  B10\n");
+    EXPECT_EQ(table_row("nowheretobreak", 12, "1.0"), "nowheretobr 1.0\n  eak\n");
+    EXPECT_EQ(table_row("Stra\u00dfe frei", 12, "1.0"), "Stra\u00dfe      1.0\n  frei\n")
+        << "characters, not bytes";
+    EXPECT_EQ(table_row("", 4, "1.0"), "    1.0\n");
+}
+
 TEST(Decimals, grow_where_all_means_are_small) {
     const ScenarioFacts scenario = tests::scenario("merge");
     EXPECT_EQ(decimals_of(scenario, Measure::emergency_travel_time), 1);

@@ -45,6 +45,9 @@ TEST(Manifest, NamesTheConditionsThatDifferAndWhatDiffersInThem) {
     Manifest changed = other;
     changed.conditions[0].policies = {"/there/soft.py:Soft@" + std::string(32, '2')};
     EXPECT_EQ(differences(other, changed), "conditions (Baseline: soft.py has changed)") << "by its title";
+    EXPECT_EQ(differences(other, changed, {{manifest.conditions[0].name, "Today"}}),
+              "conditions (Today: soft.py has changed)")
+        << "by that of its study file";
     EXPECT_THAT(differences(manifest, other), testing::HasSubstr(manifest.conditions[1].name + ": failure"));
     changed = manifest;
     changed.conditions[1].name = "another";
