@@ -392,11 +392,12 @@ void append_scenario(const ScenarioFacts& scenario, Tables tables, std::string& 
     append_wrapped(coarse_step_sentence(scenario.step_length_s), text);
     append_wrapped(incidents_sentence(scenario, Script::plain), text);
     append_wrapped(printable(scenario.outlook), text);
-    if (const std::string caption = published_caption(scenario); !caption.empty()) {
-        text += fmt::format("\n{}\n", printable(caption));
-        append_published_table(scenario, text);
-    }
     const ScenarioFacts shown = without_failed(scenario);
+    if (const std::string caption = published_caption(scenario);
+        !caption.empty() && !shown.conditions.empty()) {
+        text += fmt::format("\n{}\n", printable(caption));
+        append_published_table(shown, text);
+    }
     append_measures(shown, tables, text);
     text += '\n';
     append_wrapped(printable(uneven_runs_sentence(shown)), text);

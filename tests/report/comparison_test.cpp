@@ -216,7 +216,7 @@ TEST(ComparisonText, HasTheFiguresOfALongTitleBesideIt) {
     const std::string text =
         comparison_text(summary_with(-3.25), {"collisions"},
                         {{{"city", "treated\x1b[2J"}, "Ours: green corridor with lane clearing"}});
-    EXPECT_THAT(text, HasSubstr("\nOurs: green        18 of 20   -3.25  [-4.25, -2.25]"));
+    EXPECT_THAT(text, HasSubstr("\nOurs: green         18 of 20   -3.25  [-4.25, -2.25]"));
     EXPECT_THAT(text, HasSubstr("\n  corridor with\n  lane clearing\n"));
 }
 

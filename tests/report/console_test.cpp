@@ -31,8 +31,7 @@ TEST(ConsoleTables, show_the_dissertations_table_with_its_numbers_beside_ours) {
     EXPECT_THAT(text, HasSubstr("TABLE II. PERFORMANCE ON MERGE\n"));
     EXPECT_THAT(
         text, HasSubstr("  Baseline              11.3 +- 1.1   7.2 0.31 +- 0.12   1.2  12.4 +- 2.2  12.8\n"));
-    EXPECT_THAT(text, HasSubstr("  Graph made by simulation attributes\n"
-                                "                         9.9 +- 1.1   5.5"));
+    EXPECT_THAT(text, HasSubstr("  Graph made by          9.9 +- 1.1   5.5"));
 }
 
 StudyFacts planned_study() {
@@ -108,12 +107,12 @@ TEST(ConsoleTables, show_value_difference_intervals_and_effect_of_every_measure)
     EXPECT_THAT(text,
                 HasSubstr("EV travel time, all, s\n"
                           "  Baseline              101.3  [96.9, 105.7]\n"
-                          "  Graph made by simulation attributes\n"
-                          "                         88.9  [84.5, 93.3]     -12.4  [-15.5, -9.3]  better\n"));
+                          "  Graph made by          88.9  [84.5, 93.3]     -12.4  [-15.5, -9.3]  better\n"
+                          "    simulation\n    attributes\n"));
     EXPECT_THAT(text, HasSubstr("+29.5  [21.0, 38.0]   worse\n"));
     EXPECT_THAT(text, HasSubstr("-0.6  [-3.4, 2.2]    none shown\n"));
     for (const MeasureInfo& measure : measures()) {
-        EXPECT_THAT(text, HasSubstr(std::string(measure.title) + ", " + measure.unit + "\n"));
+        EXPECT_THAT(text, HasSubstr(std::string("\n") + measure.title + ", " + measure.unit));
     }
 }
 
@@ -204,7 +203,7 @@ TEST(ConsoleTables, are_left_out_where_all_that_was_to_be_compared_failed) {
         EXPECT_THAT(text, Not(HasSubstr("Measure, condition")));
         EXPECT_THAT(text, Not(HasSubstr("median")));
         EXPECT_THAT(text, Not(HasSubstr("\n  Baseline")));
-        EXPECT_THAT(text, HasSubstr("broken: 1 of 1 runs failed; no verdict: no complete pair of runs."));
+        EXPECT_THAT(text, HasSubstr("broken: 1 of 1 run failed; no verdict: no complete pair of runs."));
     }
 }
 
@@ -224,8 +223,9 @@ TEST(ConsoleTables, have_the_figures_of_a_long_title_beside_it) {
     StudyFacts study = tests::study({"merge"});
     study.scenarios[0].conditions[1].title = "Ours: green corridor with lane clearing";
     const std::string text = console_tables(study);
-    EXPECT_THAT(text, testing::ContainsRegex(
-                          "\n  Ours: green +[0-9.]+  [^\n]+\n    corridor with lane\n    clearing\n"));
+    EXPECT_THAT(text,
+                HasSubstr("\n  Ours: green            88.9  [84.5, 93.3]     -12.4  [-15.5, -9.3]  better\n"
+                          "    corridor with\n    lane clearing\n"));
     for (const std::string& line : lines_of(text))
         EXPECT_LE(line.size(), 80U) << line;
 }
@@ -420,8 +420,8 @@ TEST(ConsoleTables, show_how_signals_served_emergency_vehicles) {
     tests::metric(condition, "signal_calls_granted").estimate = tests::around(3.5, 0.5);
     tests::metric(condition, "signal_recovery_s").estimate = tests::around(42.0, 2.0);
     const std::string text = console_tables(study, Tables::all);
-    EXPECT_THAT(text, HasSubstr("calls  granted  useless entry, s green, s  hold, s  back, s\n"));
-    EXPECT_THAT(text, HasSubstr("4.5      3.5        -        -        -        -     42.0\n"));
+    EXPECT_THAT(text, HasSubstr("calls granted useless entry s green s  hold s  back s\n"));
+    EXPECT_THAT(text, HasSubstr("4.5     3.5       -       -       -       -    42.0\n"));
     EXPECT_THAT(console_tables(study, Tables::essential), Not(HasSubstr("Signals, mean of runs")));
     tests::set_total(condition, "signal_calls", 0);
     EXPECT_THAT(console_tables(study, Tables::all), Not(HasSubstr("Signals, mean of runs")));
