@@ -25,8 +25,9 @@ TEST_F(CompareTest, pairs_conditions_and_folders_and_is_a_gate) {
     ASSERT_EQ(clearway(two_conditions("two", 5)).code, 0);
     const Ended within = clearway({"compare", "one"});
     EXPECT_EQ(within.code, 0) << within.err;
-    EXPECT_THAT(within.out, AllOf(HasSubstr("line: EV travel time"),
-                                  HasSubstr("Graph made by simulation attributes"), HasSubstr("p Holm")));
+    EXPECT_THAT(within.out,
+                AllOf(HasSubstr("line: EV travel time"), HasSubstr("\nGraph made by             5 "),
+                      HasSubstr("\n  simulation\n  attributes\n"), HasSubstr("p Holm")));
     const Ended same =
         clearway({"compare", "one", "two", "--tolerance", "0", "--tolerance", "collisions=2", "--json"});
     EXPECT_EQ(same.code, 0) << same.err;
@@ -106,10 +107,11 @@ TEST_F(CompareTest, compares_with_the_same_at_another_level_of_a_factor) {
                   condition.find("B10") == std::string::npos ? "Ours, perfect sensors" : "Ours, B10");
     }
     EXPECT_EQ(tables.at("conditions").size(), 5U) << "titles of all, also of the baseline";
-    EXPECT_THAT(clearway({"compare", "runs/mine", "--against", "policy=geocast"}).out,
-                AllOf(HasSubstr("\nOurs, B10           "), HasSubstr("\nOurs, perfect sensors\n"),
-                      HasSubstr("diff.: minus its counterpart with policy Today, paired"),
-                      Not(HasSubstr("geocast"))));
+    EXPECT_THAT(
+        clearway({"compare", "runs/mine", "--against", "policy=geocast"}).out,
+        AllOf(HasSubstr("\nOurs, B10           "), HasSubstr("\nOurs, perfect             5 "),
+              HasSubstr("\n  sensors\n"), HasSubstr("diff.: minus its counterpart with policy Today, paired"),
+              Not(HasSubstr("geocast"))));
     const Ended figures = clearway({"export", "figures", "runs/mine", "--out", "figures", "--svg-only",
                                     "--against", "condition.policy=geocast"});
     ASSERT_EQ(figures.code, 0) << figures.err;
