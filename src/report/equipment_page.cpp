@@ -116,7 +116,8 @@ std::vector<detail::LegendEntry> map_entries(const EquipmentFacts& facts) {
     if (!facts.equipped_today.empty()) entries.push_back(detail::dot_entry("dot better", "equipped today"));
     if (facts.signals > facts.candidates.size() + facts.equipped_today.size())
         entries.push_back({"<circle class=\"tick\" cx=\"20\" cy=\"5\" r=\"2\"/>", "left out"});
-    if (!facts.roads->stations.empty()) entries.push_back({detail::station_sign, "station"});
+    if (!facts.roads->stations.empty())
+        entries.push_back({detail::station_sign, detail::station_words(*facts.roads)});
     return entries;
 }
 

@@ -493,7 +493,7 @@ TEST(Equipment, IsMappedWithCandidatesAndChosenDrawnApart) {
     EXPECT_THAT(svg,
                 AllOf(HasSubstr("chosen, gain shown"), HasSubstr("other candidate"), HasSubstr("left out")));
     facts.roads->stations = {{"a", "fire_station", "New <post>"}};
-    EXPECT_THAT(equipment_map(facts), AllOf(HasSubstr("New &lt;post&gt;"), HasSubstr(">station<")));
+    EXPECT_THAT(equipment_map(facts), AllOf(HasSubstr("New &lt;post&gt;"), HasSubstr(">fire station<")));
     facts.roads->stations.clear();
     facts.ranked[0].gain = about(30.0, 31.0);
     EXPECT_EQ(count_of(equipment_map(facts), "<circle class=\"station\""), 2U) << "north is not shown";

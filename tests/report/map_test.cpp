@@ -79,6 +79,14 @@ TEST(MapCanvas, writes_the_names_of_stations_in_full_and_the_kind_of_those_witho
                                       ::testing::Not(::testing::HasSubstr("\u2026"))));
 }
 
+TEST(MapCanvas, calls_stations_in_a_legend_what_they_are) {
+    RoadMap map;
+    map.stations = {{"a", "hospital", "Gate"}, {"b", "hospital", ""}};
+    EXPECT_EQ(detail::station_words(map), "hospital");
+    map.stations.push_back({"a", "fire_station", ""});
+    EXPECT_EQ(detail::station_words(map), "hospital or fire station");
+}
+
 TEST(MapCanvas, moves_a_station_s_name_that_would_lie_on_another_and_leaves_out_kinds_without_room) {
     RoadMap map = diamond();
     map.stations = {{map.edges[0].id, "hospital", ""},

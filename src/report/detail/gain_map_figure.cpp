@@ -197,7 +197,7 @@ std::vector<LegendEntry> entries_of(const RoadMap& roads, const ScenarioMap& map
     if (!roads.incidents.empty()) entries.push_back({incident_sign, "road blocked for a while"});
     if (!roads.calls.empty())
         entries.push_back({"<circle class=\"call\" cx=\"20\" cy=\"6\" r=\"5\"/>", "EVs are called here"});
-    if (!roads.stations.empty()) entries.push_back({station_sign, "station"});
+    if (!roads.stations.empty()) entries.push_back({station_sign, station_words(roads)});
     if (losing)
         entries.push_back({"<path class=\"losing\" d=\"M20 10l5 -9h-10z\"/>", "others lose time here"});
     return entries;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -26,6 +27,12 @@ struct Box {
     }
 };
 
+/// `fire station`.
+std::string spoken(std::string kind) {
+    std::ranges::replace(kind, '_', ' ');
+    return kind;
+}
+
 /// The name of a station in full, or the kind of one without.
 struct StationLabel {
     static constexpr double line_height = 12.0;
@@ -33,9 +40,7 @@ struct StationLabel {
     std::vector<std::string> lines;
 
     explicit StationLabel(const MapStation& station) {
-        std::string label = station.name.empty() ? station.kind : station.name;
-        if (station.name.empty()) std::ranges::replace(label, '_', ' ');
-        lines = lines_of(label, 22);
+        lines = lines_of(station.name.empty() ? spoken(station.kind) : station.name, 22);
     }
     /// Where it may stand about a sign: right, left, below, above.
     std::vector<Box> sides_of(double x, double y) const {
@@ -52,6 +57,14 @@ struct StationLabel {
 };
 
 }  // namespace
+
+std::string station_words(const RoadMap& map) {
+    std::string words;
+    std::set<std::string> named;
+    for (const MapStation& station : map.stations)
+        if (named.insert(station.kind).second) words += (words.empty() ? "" : " or ") + spoken(station.kind);
+    return words;
+}
 
 bool is_drawable(const RoadMap& map) {
     return std::ranges::any_of(map.edges, [](const MapEdge& edge) { return edge.shape.size() > 1; });

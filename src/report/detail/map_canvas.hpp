@@ -46,6 +46,9 @@ class MapCanvas : public Canvas {
     Frame frame_;
 };
 
+/// `hospital or fire station`: the kinds of a map's stations.
+std::string station_words(const RoadMap& map);
+
 /// The sign of a station in a legend.
 inline constexpr const char* station_sign = "<path class=\"station\" d=\"M20 -1l6 6l-6 6l-6 -6z\"/>";
 

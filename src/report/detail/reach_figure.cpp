@@ -81,7 +81,7 @@ Figure reach_figure(const ScenarioFacts& scenario) {
     canvas.edges(reached.gained, "way better much");
     canvas.stations(roads);
     canvas.scale_bar();
-    std::vector<LegendEntry> entries = {{station_sign, "station"},
+    std::vector<LegendEntry> entries = {{station_sign, station_words(roads)},
                                         stripe_entry("way reached", "reached without and with"),
                                         stripe_entry("way better much", "reached only with it")};
     if (!reached.lost.empty()) entries.push_back(stripe_entry("way worse much", "reached only without it"));
@@ -89,12 +89,12 @@ Figure reach_figure(const ScenarioFacts& scenario) {
     canvas.legend(entries);
     canvas.credit(scenario.attribution);
     const std::string note = fmt::format(
-        "Within {} min, half a usual trip, from the nearest station: {} km of road without and {} km with {} "
+        "Within {} min, half a usual trip, from the nearest {}: {} km of road without and {} km with {} "
         "(means of the replications). On {} % of the network\u2019s length the time is that of emergency "
         "vehicles which drove there; elsewhere it is estimated as {} times the time at the limit, without "
         "and with "
         "it.",
-        minutes, number(reach.baseline_m(roads, within_s) / kilometre, typeset(1)),
+        minutes, station_words(roads), number(reach.baseline_m(roads, within_s) / kilometre, typeset(1)),
         number(reach.condition_m(roads, within_s) / kilometre, typeset(1)), condition.label(),
         number(100.0 * driven_share(roads, reach), typeset(0)), number(reach.delay, typeset(2)));
     return {"reach-" + scenario.name, fmt::format("Reached within {} minutes", minutes), canvas.finish(),
