@@ -238,8 +238,9 @@ void append_response(const ScenarioFacts& scenario, Tables tables, std::string& 
                       &Response::percentile_90_difference_s},
                      text);
     append_trips(scenario,
-                 {fmt::format("EV trips within {:g} s, %", scenario.response_threshold_s), &Response::in_time,
-                  &Response::in_time_difference, percent},
+                 {fmt::format("EV trips within {:g} s (100 s per km of the mean EV route unless given), %",
+                              scenario.response_threshold_s),
+                  &Response::in_time, &Response::in_time_difference, percent},
                  text);
 }
 

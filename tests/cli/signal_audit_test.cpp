@@ -174,7 +174,7 @@ TEST_F(SignalAuditTest, and_response_times_are_judged_by_a_threshold) {
     EXPECT_EQ(share("1000"), 1.0);
     EXPECT_EQ(share("1"), 0.0);
     EXPECT_THAT(clearway({"report", "out", "--response-threshold", "77"}).out,
-                HasSubstr("EV trips within 77 s, %"));
+                HasSubstr("EV trips within 77 s (100 s"));
     EXPECT_THAT(clearway({"compare", "out", "--response-threshold", "77"}).out,
                 HasSubstr("trips within 77 s, %"));
     for (const char* const wrong : {"0", "-5", "soon", "1e9"}) {

@@ -395,13 +395,16 @@ StudyFacts study_with_response() {
 }
 
 TEST(ConsoleTables, show_response_times_and_the_share_in_time) {
-    EXPECT_THAT(console_tables(study_with_response(), Tables::essential),
-                AllOf(Not(HasSubstr("90th percentile")), HasSubstr("\nEV trips within 85 s, %\n")));
+    EXPECT_THAT(
+        console_tables(study_with_response(), Tables::essential),
+        AllOf(Not(HasSubstr("90th percentile")),
+              HasSubstr("\nEV trips within 85 s (100 s per km of the mean EV route unless given), %\n")));
     const std::string text = console_tables(study_with_response(), Tables::all);
     EXPECT_THAT(text, HasSubstr("\nEV response time, 90th percentile, s\n"));
     EXPECT_THAT(text, HasSubstr("92.0  [88.0, 99.0]"));
     EXPECT_THAT(text, HasSubstr("-21.5  [-30.0, -14.0] better\n"));
-    EXPECT_THAT(text, HasSubstr("\nEV trips within 85 s, %\n"));
+    EXPECT_THAT(text,
+                HasSubstr("\nEV trips within 85 s (100 s per km of the mean EV route unless given), %\n"));
     EXPECT_THAT(text, HasSubstr("+25.0  [-12.5, 37.5]  none shown\n"));
     for (const std::string& line : lines_of(text))
         EXPECT_LE(line.size(), 100u) << line;
