@@ -127,8 +127,18 @@ void check_kind(const ScenarioConfig& config, std::size_t row, Problems& problem
                         core::did_you_mean(kind, {"ambulance", "fire_engine"})});
 }
 
+/// Whether a site's units were given and could not be read, which is told.
+bool has_unread_units(const ScenarioConfig& config) {
+    for (std::size_t row = 0; row < config.emergency_sites.size(); ++row)
+        if (!config.emergency_sites[row].units &&
+            config.origins.contains(fmt::format("emergency_site[{}].units", row)))
+            return true;
+    return false;
+}
+
 /// Whether enough vehicles wait for all calls of a kind.
 void check_fleet(const ScenarioConfig& config, Problems& problems) {
+    if (has_unread_units(config)) return;
     for (const VehicleKind kind : {VehicleKind::ambulance, VehicleKind::fire_engine}) {
         int ready = 0, called = 0;
         std::optional<std::size_t> first;
@@ -141,8 +151,9 @@ void check_fleet(const ScenarioConfig& config, Problems& problems) {
         }
         if (!first) continue;
         const std::string name(core::name(kind));
+        const std::string units = row_of(*first) + ".units";
         problems.push_back(
-            {config.where(row_of(*first)),
+            {config.where(config.origins.contains(units) ? units : row_of(*first)),
              fmt::format("{} of kind {} {} called, and {} {} at all sites",
                          core::counted(static_cast<std::size_t>(called), "unit"), name,
                          called == 1 ? "is" : "are", ready, ready == 1 ? "waits" : "wait"),

@@ -240,6 +240,23 @@ void detail::check_incidents(const ScenarioConfig& config, Problems& problems) {
         check_one(config, row, problems);
 }
 
+std::set<std::size_t> closing_rows(const roads::Network& network,
+                                   const std::vector<PlacedIncident>& incidents, core::EdgeIndex edge,
+                                   double at_s) {
+    traffic::Incident together;
+    together.edge = edge;
+    std::set<std::size_t> rows;
+    for (const auto& [one, share, row] : incidents) {
+        if (one.edge != edge || one.emergency_passes || one.from.value > at_s || one.to.value <= at_s)
+            continue;
+        together.lanes.insert(together.lanes.end(), one.lanes.begin(), one.lanes.end());
+        rows.insert(row);
+    }
+    std::ranges::sort(together.lanes);
+    if (!roads::closes_to_emergency(network, together)) rows.clear();
+    return rows;
+}
+
 std::vector<PlacedIncident> place_incidents(const ScenarioConfig& config, const roads::Network& network) {
     return Placing(config, network).all();
 }

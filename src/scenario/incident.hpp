@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,12 @@ struct PlacedIncident {
     double reroute_share = 0.0;  ///< Of them: who takes another way once it is known.
     std::size_t row = 0;         ///< In the file.
 };
+
+/// The rows of the incidents that last on an edge at a moment, if they close it to emergency vehicles, alone
+/// or together; else none.
+std::set<std::size_t> closing_rows(const roads::Network& network,
+                                   const std::vector<PlacedIncident>& incidents, core::EdgeIndex edge,
+                                   double at_s);
 
 /// The incidents of a scenario on its network, in the order of the file. Throws core::InputError with every
 /// problem: an unknown edge or lane, coordinates off the network or without a projection, an edge closed to

@@ -78,6 +78,7 @@ class WayFindings : public testing::Test {
                       "<edge id=\"up\" from=\"a\" to=\"d\" speed=\"20\"/>"
                       "<edge id=\"down\" from=\"d\" to=\"b\" speed=\"20\"/>"
                       "<edge id=\"goal\" from=\"b\" to=\"c\" speed=\"20\"/>"
+                      "<edge id=\"wide\" from=\"c\" to=\"d\" numLanes=\"2\"/>"
                       "<edge id=\"far\" from=\"a\" to=\"e\" speed=\"20\"/></edges>");
         const auto file =
             folder_.write("scenario.toml",
@@ -226,6 +227,18 @@ TEST_F(WayFindings, name_those_whom_an_incident_cuts_off) {
     EXPECT_EQ(off[2].grade, Grade::note);
     EXPECT_THAT(off[2].advice, HasSubstr("time_to_teleport_s = -1"));
     EXPECT_EQ(findings("[[incident]]\nedge = \"far\"\nemergency_passes = 1\n")[1].grade, Grade::ok);
+}
+
+TEST_F(WayFindings, say_that_incidents_close_a_road_only_together) {
+    const std::string one = "[[incident]]\nedge = \"wide\"\nlanes = \"0\"\nto_s = 300.0\n";
+    const std::string other = "[[incident]]\nedge = \"wide\"\nlanes = \"1\"\nfrom_s = ";
+    const auto together = findings(one + other + "200.0\n");
+    ASSERT_EQ(together.size(), 4U);
+    EXPECT_EQ(together[2].grade, Grade::note);
+    EXPECT_THAT(together[2].text, HasSubstr("incidents 0 and 1 close edge wide together; each alone leaves"));
+    EXPECT_EQ(findings(one + other + "300.0\n").size(), 3U) << "one after the other";
+    EXPECT_EQ(findings(one).size(), 3U) << "a lane stays open";
+    EXPECT_EQ(findings("[[incident]]\nedge = \"wide\"\n").size(), 3U) << "one closes it alone";
 }
 
 TEST_F(WayFindings, look_for_whom_an_incident_cuts_off_in_more_seeds_than_are_run) {

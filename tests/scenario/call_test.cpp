@@ -186,6 +186,11 @@ TEST_F(CallTest, what_follows_from_a_wrong_number_is_not_told_too) {
     EXPECT_THAT(wrong("[[call]]\nincident = -1\n"), ElementsAre("call[0].incident -1 is negative"));
     EXPECT_THAT(wrong("[[call]]\nincident = 3\n"), ElementsAre("call[0].incident there is no incident 3"));
     EXPECT_THAT(wrong("[[call]]\nedge = 3\nat_s = 100.0\n"), ElementsAre("call[0].edge is a number, 3"));
+    const std::string engines = "[[call]]\nedge = \"place\"\nat_s = 100.0\nkind = \"fire_engine\"\nunits = ";
+    EXPECT_THAT(wrong(engines + "\"two\"\n"), ElementsAre("call[0].units is text, \"two\""));
+    EXPECT_THAT(wrong("[[emergency_site]]\nkind = \"fire_station\"\nedge = \"place\"\nunits = 3.5\n" +
+                      engines + "3\n"),
+                ElementsAre("emergency_site[2].units is a number, 3.5"));
     EXPECT_THAT(wrong("[[call]]\nedge = \"place\"\nat_s = 100.0\nunits = 9\nkind = 5\n"),
                 ElementsAre("call[0].kind is a number, 5"));
     std::string head = called_head;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -118,6 +119,27 @@ Finding incident_finding(roads::RouteSearch& search, const std::vector<Trip>& tr
     if (cut_off.size() > most_named) named += fmt::format(" and {} more", cut_off.size() - most_named);
     return {"incidents", Grade::falls_short, fmt::format("{}: no way round then for {}", count, named),
             "another edge, other lanes, or emergency_passes = 1; else these EVs wait until it is over"};
+}
+
+/// Incidents that close a road only together: crews know each of them alone, with a lane left open. Nothing
+/// where there are none.
+std::optional<Finding> together_finding(const std::vector<scenario::PlacedIncident>& incidents,
+                                        const roads::Network& network) {
+    std::set<std::string> words;
+    for (const scenario::PlacedIncident& one : incidents) {
+        const auto rows = scenario::closing_rows(network, incidents, one.closed.edge, one.closed.from.value);
+        const bool is_closed_alone = std::ranges::any_of(incidents, [&](const auto& each) {
+            return rows.contains(each.row) && roads::closes_to_emergency(network, each.closed);
+        });
+        if (!rows.empty() && !is_closed_alone)
+            words.insert(fmt::format("incidents {} close {} together", fmt::join(rows, " and "),
+                                     road_words(network.edge(one.closed.edge))));
+    }
+    if (words.empty()) return std::nullopt;
+    return Finding{"closed", Grade::note,
+                   fmt::format("{}; each alone leaves a lane open, so EVs do not turn away: they wait there",
+                               fmt::join(words, "; ")),
+                   "one incident with the lanes of both, for EVs to take another way"};
 }
 
 /// Of those who are called to an edge, none passes it.
@@ -297,6 +319,7 @@ std::vector<Finding> way_findings(const scenario::ScenarioConfig& config, const 
     if (incidents.empty()) return findings;
     findings.push_back(incident_finding(
         search, of_more_seeds.empty() ? trips : trips_of(network, of_more_seeds), incidents, network));
+    if (auto together = together_finding(incidents, network)) findings.push_back(*std::move(together));
     findings.push_back(teleport_finding(config, incidents));
     return findings;
 }

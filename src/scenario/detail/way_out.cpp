@@ -5,27 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "roads/closure.hpp"
 #include "roads/exits.hpp"
 #include "scenario/config.hpp"
 
 namespace clearway::scenario::detail {
 namespace {
-
-/// Whether incidents close an edge to emergency vehicles at a moment, alone or together; `rows` gets theirs.
-bool is_closed(const roads::Network& network, const std::vector<PlacedIncident>& incidents,
-               core::EdgeIndex edge, double at_s, std::set<std::size_t>& rows) {
-    traffic::Incident together;
-    together.edge = edge;
-    for (const auto& [one, share, row] : incidents) {
-        if (one.edge != edge || one.emergency_passes || one.from.value > at_s || one.to.value <= at_s)
-            continue;
-        together.lanes.insert(together.lanes.end(), one.lanes.begin(), one.lanes.end());
-        rows.insert(row);
-    }
-    std::ranges::sort(together.lanes);
-    return roads::closes_to_emergency(network, together);
-}
 
 /// The rows of those that close every one of the edges at some moment of an interval; none if one is open.
 std::set<std::size_t> closing(const roads::Network& network, const std::vector<PlacedIncident>& incidents,
@@ -37,8 +21,11 @@ std::set<std::size_t> closing(const roads::Network& network, const std::vector<P
             moments.push_back(placed.closed.from.value);
     for (const double at_s : moments) {
         std::set<std::size_t> rows;
-        if (std::ranges::all_of(edges,
-                                [&](auto edge) { return is_closed(network, incidents, edge, at_s, rows); }))
+        if (std::ranges::all_of(edges, [&](auto edge) {
+                const auto of_edge = closing_rows(network, incidents, edge, at_s);
+                rows.insert(of_edge.begin(), of_edge.end());
+                return !of_edge.empty();
+            }))
             return rows;
     }
     return {};
