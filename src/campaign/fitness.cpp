@@ -24,6 +24,7 @@
 #include "core/terminal.hpp"
 #include "experiment/conditions.hpp"
 #include "report/safety.hpp"
+#include "scenario/map_age.hpp"
 #include "scenario/network.hpp"
 #include "scenario/outlook.hpp"
 #include "scenario/prepare.hpp"
@@ -167,11 +168,12 @@ Finding signals_finding(const core::Json& outlook) {
             "0 in the network: signal policies have no effect here; only policies that make vehicles give "
             "way can help",
             "", outlook};
+    const auto passing = outlook.at("trips_passing").get<std::size_t>();
     const bool is_little = outlook.at("prospect") == core::name(scenario::Prospect::little);
     return {"signals", is_little ? Grade::note : Grade::ok,
-            fmt::format("{} in the network; {} of {} pass one", count,
-                        outlook.at("trips_passing").get<std::size_t>(),
-                        core::counted(outlook.at("trips").get<std::size_t>(), "EV")),
+            fmt::format("{} in the network; {} of {} {} one", count, passing,
+                        core::counted(outlook.at("trips").get<std::size_t>(), "EV"),
+                        passing == 1 ? "passes" : "pass"),
             is_little ? "studies/parts.toml with --scenario: corridor also clears lanes and holds crossing "
                         "traffic back where there is no signal, and the study says what each part brings"
                       : "",
@@ -346,6 +348,8 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
         jams_finding(run, use, checked),
         detail::locks_finding(record, record.traffic.locks, checked, less),
         signals_finding(checked.outlook)};
+    if (const std::string& date = checked.config.network.map_date; !date.empty())
+        findings.push_back(detail::map_finding(date, scenario::today()));
     std::ranges::move(detail::way_findings(checked.config, checked.network, trips, of_seeds),
                       std::back_inserter(findings));
     findings.push_back(collisions_finding(run, checked.config.time.step_length_s, less));

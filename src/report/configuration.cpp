@@ -11,6 +11,7 @@
 #include "core/strict_table.hpp"
 #include "report/text.hpp"
 #include "roads/limits.hpp"
+#include "traffic/emergency_ends.hpp"
 
 namespace clearway::report {
 namespace {
@@ -41,22 +42,25 @@ bool passes_red(const toml::table& scenario, const experiment::ConditionSpec& ba
     return scenario["privilege"]["pass_red"].value_or(0.0) > 0.0;
 }
 
-/// Where ambulances start, if the scenario has sites and no station for them; else empty.
-std::string stand_in_words(const toml::table& scenario) {
-    const toml::array* const sites = scenario["emergency_site"].as_array();
-    const bool has_drawn_ambulances = scenario["demand"]["emergency"].value_or(1.0) > 0.0 &&
-                                      scenario["kinds"]["emergency"]["ambulance"].value_or(1.0) > 0.0 &&
-                                      !scenario["emergency_trip"].is_array();
-    if (sites == nullptr || sites->empty() || !has_drawn_ambulances) return "";
-    bool has_fire_station = false;
-    for (const toml::node& site : *sites) {
-        const toml::table* const row = site.as_table();
-        const std::string kind = row == nullptr ? "" : (*row)["kind"].value_or(std::string());
-        if (kind == "ambulance_station") return "";
-        has_fire_station = has_fire_station || kind == "fire_station";
-    }
-    return fmt::format("no ambulance station, so that ambulances start at {}",
-                       has_fire_station ? "fire stations" : "hospitals");
+/// How trips of EVs are drawn; empty where none is, or along the ways of flows.
+std::string emergency_words(const toml::table& scenario) {
+    const bool are_drawn = scenario["demand"]["emergency"].value_or(0.0) > 0.0 &&
+                           !scenario["emergency_trip"].is_array() && !scenario["flow"].is_array();
+    if (!are_drawn) return "";
+    const auto kinds = scenario["kinds"]["emergency"];
+    traffic::EmergencyEnds ends{.ambulances = kinds["ambulance"].value_or(1.0) > 0.0,
+                                .fire_engines = kinds["fire_engine"].value_or(0.0) > 0.0,
+                                .police_cars = kinds["police_car"].value_or(0.0) > 0.0,
+                                .least_m = scenario["trips"]["emergency_minimum_length_m"].value_or(0.0)};
+    if (const toml::array* const sites = scenario["emergency_site"].as_array())
+        for (const toml::node& site : *sites) {
+            const toml::table* const row = site.as_table();
+            const std::string kind = row == nullptr ? "" : (*row)["kind"].value_or(std::string());
+            ends.hospitals |= kind == "hospital";
+            ends.ambulance_stations |= kind == "ambulance_station";
+            ends.fire_stations |= kind == "fire_station";
+        }
+    return traffic::words(ends);
 }
 
 std::string sentence_of(const toml::table& table, bool has_signals, const std::string& roads,
@@ -68,14 +72,16 @@ std::string sentence_of(const toml::table& table, bool has_signals, const std::s
         words.push_back(fmt::format("density {:g}", density));
     if (const double share = automated_share(table); share >= 0.0)
         words.push_back(fmt::format("automated share {:.2g}", share));
-    if (const std::string stand_in = stand_in_words(table); !stand_in.empty()) words.push_back(stand_in);
+    if (const std::string emergency = emergency_words(table); !emergency.empty()) words.push_back(emergency);
+    if (const std::string date = table["network"]["map_date"].value_or(std::string()); !date.empty())
+        words.push_back("map data of " + date);
     const std::string programs = programs_words(table["network"]["attribution"].value_or(std::string()));
     if (has_signals && !programs.empty()) words.push_back(programs);
     if (has_signals && baseline != nullptr)
         words.emplace_back(passes_red(table, *baseline) ? "EVs of the baseline may pass red"
                                                         : "EVs of the baseline stop at red (where yours may "
                                                           "pass it: --set privilege.pass_red=1)");
-    return fmt::format("Simulated: {}.", fmt::join(words, ", "));
+    return fmt::format("Simulated: {}.", fmt::join(words, "; "));
 }
 
 std::string road_words(const std::optional<RoadMap>& map) {

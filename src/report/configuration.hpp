@@ -12,9 +12,9 @@ namespace clearway::report {
 /// also needs the scenario's roads and baseline.
 void add_configuration(const std::string& configuration, ScenarioFacts& scenario);
 
-/// `Simulated: random trips of 1,159 vehicles in 15 min, ...`: how demand came about and how much of it there
-/// is, the speed limits of the roads, what stands in for stations, and whether EVs of the baseline stop at
-/// red. Empty for an old configuration, which says nothing of demand. Plain text.
+/// `Simulated: random trips of 1,159 vehicles in 15 min; ...`: how demand came about and how much of it there
+/// is, the speed limits of the roads, how EVs' trips are drawn, how old the map is, and whether EVs of the
+/// baseline stop at red. Empty for an old configuration, which says nothing of demand. Plain text.
 std::string simulated_sentence(const std::string& configuration, const roads::Network& network,
                                const experiment::ConditionSpec& baseline);
 

@@ -75,6 +75,7 @@ struct NetworkSource {
     std::string file;
     Restriction restrict = Restriction::none;
     std::string attribution;
+    std::string map_date;
     std::string preemption;
     std::string mean_times;
     std::vector<std::string> additional;  ///< SUMO's additional files that belong to the network.
@@ -94,6 +95,8 @@ struct NetworkSource {
                         "none: the network as it is"},
             core::Field{"attribution", "", &S::attribution, 0, 0,
                         "Attribution that users of the map data must give.", "licence"},
+            core::Field{"map_date", "", &S::map_date, 0, 0,
+                        "Day of the map data, first YYYY-MM-DD; optional.", "the map's timestamps"},
             core::Field{
                 "preemption", "", &S::preemption, 0, 0,
                 "CSV of the signals' preemption parameters (clearway scenario signals writes it); optional.",

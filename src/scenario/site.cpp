@@ -25,6 +25,20 @@ Trips trips_of(const ScenarioConfig& config) {
 
 }  // namespace
 
+traffic::EmergencyEnds emergency_ends(const ScenarioConfig& config) {
+    const auto has = [&](SiteKind kind) {
+        return std::ranges::any_of(config.emergency_sites,
+                                   [&](const auto& site) { return site.kind == kind; });
+    };
+    return {.hospitals = has(SiteKind::hospital),
+            .ambulance_stations = has(SiteKind::ambulance_station),
+            .fire_stations = has(SiteKind::fire_station),
+            .ambulances = config.emergency_kinds.ambulance > 0.0,
+            .fire_engines = config.emergency_kinds.fire_engine > 0.0,
+            .police_cars = config.emergency_kinds.police_car > 0.0,
+            .least_m = config.trips.emergency_minimum_length_m};
+}
+
 std::vector<core::EdgeIndex> trip_edges(const roads::Network& network, const Trips& trips) {
     std::vector<core::EdgeIndex> edges =
         trips.ends == TripEnds::reachable ? roads::car_edges(network) : roads::largest_car_component(network);

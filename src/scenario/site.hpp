@@ -12,6 +12,7 @@
 #include "core/units.hpp"
 #include "roads/lane_grid.hpp"
 #include "roads/network.hpp"
+#include "traffic/emergency_ends.hpp"
 
 namespace clearway::scenario {
 
@@ -55,6 +56,9 @@ struct EmergencySite {
                         "Vehicles that wait here for calls; each goes once.", "stations 1, hospitals 0"});
     }
 };
+
+/// Of the emergency vehicles that are drawn.
+traffic::EmergencyEnds emergency_ends(const ScenarioConfig& config);
 
 /// The edges on which trips may start and end, as `trips.ends` and `trips.minimum_edge_m` say, ascending.
 std::vector<core::EdgeIndex> trip_edges(const roads::Network& network, const Trips& trips);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -5,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/counted.hpp"
+#include "core/error.hpp"
 #include "core/terminal.hpp"
+#include "scenario/map_age.hpp"
 #include "scenario_import/import.hpp"
 
 namespace clearway::scenario_import {
@@ -32,18 +35,30 @@ std::string names_text(const Findings& findings) {
     return fmt::format(" ({})", fmt::join(words, "; "));
 }
 
-/// The sites, and what stands in for kinds that the map does not have.
+/// `1 fire station, 2 hospitals (St. Anna; ...)`.
 std::string sites_text(const Findings& findings) {
-    const std::map<std::string, int>& sites = findings.sites;
-    const bool has_stations = sites.contains("ambulance_station") || sites.contains("fire_station");
-    std::string text = counts_text(sites) + names_text(findings);
-    if (!sites.contains("ambulance_station"))
-        text += fmt::format("; no ambulance_station: ambulances start at {}",
-                            has_stations ? "fire stations" : "hospitals");
-    text += ". All EVs are ambulances: --emergency-kinds ambulance=1,fire_engine=1 asks for fire engines too";
-    if (!sites.contains("fire_station"))
-        text += fmt::format(", which start at {}: the map has no fire_station",
-                            has_stations ? "stations" : "hospitals");
+    std::vector<std::string> words;
+    for (const auto& [name, count] : findings.sites) {
+        std::string kind = name;
+        std::ranges::replace(kind, '_', ' ');
+        words.push_back(core::counted(static_cast<std::uint64_t>(count), kind));
+    }
+    return core::listed(words) + names_text(findings);
+}
+
+/// `of 2012-05-03 (newest object): ...`.
+std::string map_text(const std::string& date) {
+    if (date.empty()) return "of unknown age: its objects have no timestamps";
+    const std::string warning = scenario::map_age_warning(date, scenario::today());
+    return fmt::format("of {}{}", date,
+                       warning.empty() ? "" : fmt::format(": {}; take a new extract for today's", warning));
+}
+
+std::string emergency_text(const Findings& findings) {
+    std::string text = findings.emergency_trips + "; random places are drawn by road length";
+    if (!findings.sites.empty())
+        text +=
+            ". All EVs are ambulances: --emergency-kinds ambulance=1,fire_engine=1 asks for fire engines too";
     return text;
 }
 
@@ -81,13 +96,18 @@ std::string map_signals_text(const Findings& findings) {
 
 std::string to_text(const Findings& findings) {
     std::string text = fmt::format(
-        "{}\n  edges            {} ({} open to cars)\n  lanes for cars   {}\n  roads for cars   {:.1f} km, "
-        "{:.1f} km of lane\n  signals          {}{}\n  connected        {:.1f} % of the car edges reach each "
+        "{}\n  edges            {} ({} open to cars)\n  lanes for cars   {}\n  roads for cars   {:.1f} km "
+        "(each direction "
+        "counts), {:.1f} km of lane\n  signals          {}{}\n  connected        {:.1f} % of the car edges "
+        "reach each "
         "other\n  traffic drives   on the {}, {}\n",
         findings.name, findings.edges, findings.car_edges, findings.lanes, findings.road_km, findings.lane_km,
         findings.signals, map_signals_text(findings), 100.0 * findings.connected_share,
         findings.left_hand ? "left" : "right", findings.side_reason);
+    if (findings.map_date) text += fmt::format("  map data         {}\n", map_text(*findings.map_date));
     if (!findings.sites.empty()) text += fmt::format("  EV sites         {}\n", sites_text(findings));
+    if (!findings.emergency_trips.empty())
+        text += fmt::format("  EV trips         {}\n", emergency_text(findings));
     text += fmt::format("  demand           {:.0f} vehicles/h: {}\n                   {}\n",
                         findings.vehicles_per_hour, counts_text(findings.vehicles), findings.demand);
     if (findings.persons > 0) text += fmt::format("  persons          {} walk or ride\n", findings.persons);
@@ -119,6 +139,8 @@ std::string to_json(const Findings& findings) {
                                    {"left_hand_reason", findings.side_reason},
                                    {"emergency_sites", findings.sites},
                                    {"emergency_site_names", findings.site_names},
+                                   {"emergency_trips", findings.emergency_trips},
+                                   {"map_date", findings.map_date.value_or("")},
                                    {"vehicles_per_hour", findings.vehicles_per_hour},
                                    {"vehicles", findings.vehicles},
                                    {"routed_trips", findings.routed_trips},

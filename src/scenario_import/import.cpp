@@ -1,6 +1,7 @@
 #include "scenario_import/import.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -29,6 +30,7 @@
 #include "scenario_import/osm/sites.hpp"
 #include "scenario_import/sumo/configuration.hpp"
 #include "scenario_import/sumo/demand.hpp"
+#include "traffic/emergency_ends.hpp"
 #include "traffic/step_length.hpp"
 
 namespace clearway::scenario_import {
@@ -207,6 +209,33 @@ void add_pedestrians(Import& import, const roads::Network& network, scenario::Sc
                                    : fmt::format(" with a signal, of {} in all", crossings.size())));
 }
 
+/// `50 km/h on main roads`: what netconvert's types for towns give to these classes of roads.
+std::vector<std::string> limits_of(const std::set<std::string>& classes) {
+    std::set<std::string> rest = classes;
+    std::vector<std::string> words;
+    const auto take = [&](const std::vector<std::string>& names, const char* limit) {
+        std::size_t taken = 0;
+        for (const std::string& name : names)
+            taken += rest.erase(name);
+        if (taken > 0) words.emplace_back(limit);
+    };
+    take({"motorway"}, "100 km/h on motorways");
+    take({"motorway_link"}, "60 km/h on their ramps");
+    take({"living_street"}, "10 km/h in living streets");
+    take({"residential", "unclassified"}, "50 km/h in minor streets");
+    if (!rest.empty()) words.emplace_back("50 km/h on main roads");
+    return words;
+}
+
+/// The day of the maps' data: the oldest that they state, else that of the newest object; or empty.
+std::string map_date(const std::vector<std::filesystem::path>& maps, const std::string& newest) {
+    std::vector<std::string> stated;
+    for (const std::filesystem::path& map : maps)
+        stated.push_back(detail::stated_map_date(map));
+    std::string oldest = *std::ranges::min_element(stated);
+    return !oldest.empty() || newest.empty() ? oldest : newest + " (newest object)";
+}
+
 /// Reports unfinished maps and missing speed limits.
 void report_gaps(Import& import, const std::vector<std::filesystem::path>& maps,
                  const detail::MapContents& map) {
@@ -218,8 +247,8 @@ void report_gaps(Import& import, const std::vector<std::filesystem::path>& maps,
     if (map.unlimited_km >= least_km)
         import.findings.changes.push_back(
             fmt::format("{:.1f} km of the map's {:.1f} km of road have no speed limit: they get those of "
-                        "SUMO's types for towns, 50 km/h on main roads, 100 km/h on motorways",
-                        map.unlimited_km, map.car_roads_km));
+                        "SUMO's types for towns, {}",
+                        map.unlimited_km, map.car_roads_km, core::listed(limits_of(map.unlimited_classes))));
 }
 
 void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
@@ -241,6 +270,8 @@ void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,
                      "them only at roads of at most 50 km/h",
                      "a map with crossings or with such roads", "leave it out"});
     config.network.attribution = "Map data (c) OpenStreetMap contributors, ODbL 1.0";
+    config.network.map_date = map_date(maps, map.newest);
+    import.findings.map_date = config.network.map_date;
     detail::choose_trips(import, config, network);
     import.findings.map_signals = detail::account_for_signals(map.signals, network, import.left_out);
     if (!network.signals().empty())
@@ -375,6 +406,8 @@ Findings import(const ImportRequest& request, const OnProgress& on_progress) {
     Findings& findings = import.findings;
     findings.name = config.name;
     findings.left_out = import.left_out.lines();
+    if (config.emergency_trips.empty())
+        findings.emergency_trips = traffic::words(scenario::emergency_ends(config));
     const roads::Network network =
         roads::Network::read(import.scenario / network_name, scenario::additional_files(config));
     if (!network.signals().empty()) {

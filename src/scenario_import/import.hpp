@@ -57,6 +57,9 @@ struct Findings {
     std::string side_reason;              ///< Why traffic drives on that side.
     std::map<std::string, int> sites;     ///< Hospitals and stations by kind.
     std::vector<std::string> site_names;  ///< In the order of the map.
+    std::string emergency_trips;          ///< How EVs' trips are drawn, in words; empty for given ones.
+    /// Of a map's data, `2012-05-03 (newest object)`; empty where it has no dates. Nothing without a map.
+    std::optional<std::string> map_date;
     double vehicles_per_hour = 0.0;       ///< Human and automated vehicles, over the departure window.
     std::map<std::string, int> vehicles;  ///< By kind, in the window.
     std::size_t routed_trips = 0;         ///< Vehicles whose files give only ends.

@@ -155,18 +155,42 @@ TEST(SitesFinding, says_what_stands_in_for_a_kind_that_is_missing) {
     scenario::ScenarioConfig config;
     EXPECT_THAT(detail::sites_finding(config).text, HasSubstr("random places"));
     config.emergency_sites.resize(2);
-    EXPECT_EQ(detail::sites_finding(config).text,
-              "2 hospital; no ambulance_station, so that ambulances start at hospitals");
+    config.demand.emergency = 6;
+    EXPECT_EQ(
+        detail::sites_finding(config).text,
+        "2 hospitals; EVs drive half from hospitals (no ambulance station is known) to random places and "
+        "half from random places to hospitals, on routes of at least 1000 m");
     config.emergency_kinds = {.ambulance = 0.0, .fire_engine = 1.0};
-    EXPECT_EQ(detail::sites_finding(config).text,
-              "2 hospital; no fire_station, so that fire engines start at hospitals");
+    EXPECT_THAT(
+        detail::sites_finding(config).text,
+        HasSubstr("2 hospitals; fire engines drive from hospitals (no fire station is known) to random "
+                  "places, on"));
     EXPECT_EQ(detail::sites_finding(config).grade, Grade::note);
     config.emergency_sites.emplace_back().kind = scenario::SiteKind::ambulance_station;
-    EXPECT_THAT(detail::sites_finding(config).text, HasSubstr("fire engines start at other stations"));
+    config.emergency_kinds.police_car = 1.0;
+    EXPECT_THAT(
+        detail::sites_finding(config).text,
+        HasSubstr("2 hospitals, 1 ambulance station; EVs other than fire engines drive half from ambulance "
+                  "stations to random places and half from random places to hospitals, fire engines from "
+                  "ambulance stations (no fire station is known) to random places"));
     config.emergency_sites.emplace_back().kind = scenario::SiteKind::fire_station;
+    EXPECT_THAT(detail::sites_finding(config).text, HasSubstr("half from ambulance and fire stations to"));
     EXPECT_EQ(detail::sites_finding(config).grade, Grade::ok);
     config.emergency_trips.resize(1);
     EXPECT_THAT(detail::sites_finding(config).text, HasSubstr("stand in the scenario"));
+}
+
+TEST(MapFinding, notes_data_that_is_old_on_a_day) {
+    using std::chrono::sys_days;
+    using namespace std::chrono_literals;
+    const std::string date = "2012-05-03 (newest object)";
+    const Finding recent = detail::map_finding(date, sys_days(2017y / 5 / 1));
+    EXPECT_EQ(recent.grade, Grade::ok);
+    EXPECT_EQ(recent.text, "data of 2012-05-03 (newest object)");
+    const Finding old = detail::map_finding(date, sys_days(2026y / 5 / 4));
+    EXPECT_EQ(old.grade, Grade::note);
+    EXPECT_THAT(old.text, HasSubstr("data of 2012-05-03 (newest object), 14 years old, in which roads"));
+    EXPECT_THAT(detail::map_finding(date, sys_days(2026y / 5 / 2)).text, HasSubstr("13 years"));
 }
 
 TEST(AbortCure, goes_by_the_assertion) {

@@ -211,18 +211,27 @@ TEST(Assumptions, say_where_traffic_comes_from_and_what_red_means) {
     const std::string drawn =
         "[demand]\nhuman = 1076\nautomated = 579\ndensity = 0.7\n[time]\nwindow_s = 900\n";
     EXPECT_EQ(assumptions_of(drawn, scenario),
-              "Simulated: random trips of 1,159 vehicles in 15 min, density 0.7, automated share 0.35, "
-              "EVs of "
-              "the baseline stop at red (where yours may pass it: --set privilege.pass_red=1).");
+              "Simulated: random trips of 1,159 vehicles in 15 min; density 0.7; automated share 0.35; "
+              "EVs of the baseline stop at red (where yours may pass it: --set privilege.pass_red=1).");
     EXPECT_THAT(assumptions_of(drawn + "[[flow]]\nfrom = 'a'\n", scenario), HasSubstr("drawn flows of"));
-    const std::string hospital = drawn + "[[emergency_site]]\nkind = 'hospital'\n";
-    EXPECT_THAT(assumptions_of(hospital, scenario),
-                HasSubstr("no ambulance station, so that ambulances start at hospitals"));
+    const std::string emergency =
+        "[demand]\nhuman = 9\nemergency = 6\n[trips]\nemergency_minimum_length_m = 800\n";
+    EXPECT_THAT(assumptions_of(emergency, scenario),
+                HasSubstr("; EVs drive between random places, on routes of at least 800 m; "));
+    const std::string hospital = emergency + "[[emergency_site]]\nkind = 'hospital'\n";
+    EXPECT_THAT(
+        assumptions_of(hospital, scenario),
+        HasSubstr("; EVs drive half from hospitals (no ambulance station is known) to random places and "
+                  "half from random places to hospitals, on"));
     EXPECT_THAT(assumptions_of(hospital + "[[emergency_site]]\nkind = 'ambulance_station'\n", scenario),
-                testing::Not(HasSubstr("no ambulance station")));
+                HasSubstr("half from ambulance stations to random places"));
+    EXPECT_THAT(assumptions_of(emergency + "[[emergency_site]]\nkind = 'fire_station'\n", scenario),
+                HasSubstr("from random places to fire stations (no hospital is known)"));
     EXPECT_THAT(assumptions_of(hospital + "[kinds.emergency]\nambulance = 0\npolice_car = 1\n", scenario),
                 testing::Not(HasSubstr("ambulance")))
         << "none is drawn";
+    EXPECT_THAT(assumptions_of("[network]\nmap_date = '2012-05-03 (newest object)'\n" + drawn, scenario),
+                HasSubstr("; map data of 2012-05-03 (newest object); "));
     EXPECT_THAT(assumptions_of(drawn + "[privilege]\npass_red = 1\n", scenario),
                 HasSubstr("EVs of the baseline may pass red"));
     scenario.conditions[0].condition.settings = {{"privilege.pass_red", "1"}};
@@ -235,13 +244,14 @@ TEST(Assumptions, say_where_traffic_comes_from_and_what_red_means) {
         scenario.roads->edges[edge].limit_mps = limit_kmh / 3.6;
     }
     EXPECT_THAT(assumptions_of(drawn, scenario),
-                HasSubstr("in 15 min, roads of 30 to 50 km/h, mostly 50, density 0.7"));
+                HasSubstr("in 15 min; roads of 30 to 50 km/h, mostly 50; density 0.7"));
     scenario.roads->edges.resize(1);
-    EXPECT_THAT(assumptions_of(drawn, scenario), HasSubstr(", roads of 50 km/h, density"));
+    EXPECT_THAT(assumptions_of(drawn, scenario), HasSubstr("; roads of 50 km/h; density"));
     scenario.roads->edges.clear();
     scenario.roads->signals.clear();
     EXPECT_EQ(assumptions_of("[demand]\nemergency = 2\n[measured]\nautomated_share = 0.35\n", scenario),
-              "Simulated: the trips of the scenario's files, automated share 0.35.");
+              "Simulated: the trips of the scenario's files; automated share 0.35; EVs drive between random "
+              "places.");
     EXPECT_EQ(assumptions_of("name = 'old'\n", scenario), "");
 }
 

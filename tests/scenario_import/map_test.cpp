@@ -16,6 +16,7 @@ namespace clearway::scenario_import {
 namespace {
 
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Pair;
@@ -50,7 +51,13 @@ TEST_F(MapImport, makes_a_scenario_that_loads_with_sites_signals_and_a_level) {
     EXPECT_THAT(findings.sites, ElementsAre(Pair("fire_station", 1), Pair("hospital", 1)));
     EXPECT_THAT(findings.demand, AllOf(HasSubstr("synthetic"), HasSubstr("on the road")));
     EXPECT_GT(findings.vehicles_per_hour, 0.0);
-    EXPECT_THAT(to_text(findings), HasSubstr("1 hospital (St. \"Anna\" <Klinik>; unnamed,"));
+    EXPECT_THAT(to_text(findings), HasSubstr("1 fire station, 1 hospital (St. \"Anna\" <Klinik>; unnamed,"));
+    EXPECT_THAT(to_text(findings),
+                HasSubstr("  map data         of unknown age: its objects have no timestamps\n"));
+    EXPECT_THAT(findings.emergency_trips,
+                HasSubstr("half from fire stations (no ambulance station is known) to"));
+    EXPECT_THAT(findings.changes, Contains(HasSubstr("SUMO's types for towns, 50 km/h on main roads")))
+        << "it has no motorway";
     for (const char* const file :
          {"scenario.toml", "network.net.xml", "network.svg", "import.json", "preemption.csv"})
         EXPECT_TRUE(std::filesystem::exists(out() / "town" / file)) << file;
@@ -191,6 +198,30 @@ TEST_F(MapImport, main_roads_without_a_limit_get_that_of_towns_and_that_is_said)
         if (edge.internal) continue;
         EXPECT_NEAR(network.lane(core::LaneIndex{edge.first_lane}).speed_limit_mps, 13.89, 0.01);
     }
+}
+
+TEST_F(MapImport, says_how_old_the_data_is) {
+    std::string map = town_map();
+    const auto stamp = [&](const std::string& element, const char* day) {
+        map.insert(map.find(element) + element.size(), fmt::format(" timestamp='{}T14:50:31Z'", day));
+    };
+    stamp("<node", "2009-12-31");
+    stamp("<way", "2012-05-03");
+    const Findings newest = run(request({write("town.osm", map)}));
+    EXPECT_EQ(newest.map_date, "2012-05-03 (newest object)");
+    EXPECT_THAT(to_text(newest), HasSubstr("of 2012-05-03 (newest object): "));
+    EXPECT_THAT(to_text(newest), HasSubstr(" years old,"));
+    EXPECT_EQ(scenario::load((out() / "town").string()).network.map_date, "2012-05-03 (newest object)");
+    EXPECT_THAT(core::read_file(out() / "town" / "import.json"), HasSubstr("\"map_date\": \"2012-05-03 (n"));
+
+    const std::size_t head = map.find('>', map.find("<osm")) + 1;
+    map.insert(head, "<meta osm_base=\"2023-11-05T10:00:00Z\"/>");
+    EXPECT_EQ(run(request({write("stated.osm", map)}, "stated")).map_date, "2023-11-05") << "of Overpass";
+}
+
+TEST_F(MapImport, names_the_limits_of_those_classes_that_have_none) {
+    const Findings findings = run(request({write("town.osm", town_map(13.0, 51.0, "residential"))}));
+    EXPECT_THAT(findings.changes, Contains(testing::EndsWith("for towns, 50 km/h in minor streets")));
 }
 
 TEST_F(MapImport, limits_of_the_map_stay) {

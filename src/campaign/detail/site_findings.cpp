@@ -2,13 +2,29 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include "core/counted.hpp"
+#include "core/error.hpp"
+#include "scenario/map_age.hpp"
+#include "traffic/emergency_ends.hpp"
 
 namespace clearway::campaign::detail {
 
 using scenario::SiteKind;
+
+namespace {
+
+/// `fire station`.
+std::string spoken(std::string_view name) {
+    std::string words(name);
+    std::ranges::replace(words, '_', ' ');
+    return words;
+}
+
+}  // namespace
 
 Finding sites_finding(const scenario::ScenarioConfig& config) {
     constexpr const char* cure =
@@ -19,21 +35,24 @@ Finding sites_finding(const scenario::ScenarioConfig& config) {
     std::map<SiteKind, std::size_t> counts;
     for (const scenario::EmergencySite& site : config.emergency_sites)
         ++counts[site.kind];
-    if (counts.empty()) return {"sites", Grade::note, "none: EVs start and arrive at random places", cure};
+    if (counts.empty())
+        return {"sites", Grade::note, "none: " + traffic::words(scenario::emergency_ends(config)), cure};
     std::vector<std::string> words;
     for (const auto& [kind, name] : scenario::spellings(SiteKind{}))
-        if (counts.contains(kind)) words.push_back(fmt::format("{} {}", counts.at(kind), name));
-    const bool has_stations =
-        counts.contains(SiteKind::ambulance_station) || counts.contains(SiteKind::fire_station);
-    const char* const others = has_stations ? "other stations" : "hospitals";
-    std::vector<std::string> missing;
-    if (config.emergency_kinds.ambulance > 0.0 && !counts.contains(SiteKind::ambulance_station))
-        missing.push_back(fmt::format("no ambulance_station, so that ambulances start at {}", others));
-    if (config.emergency_kinds.fire_engine > 0.0 && !counts.contains(SiteKind::fire_station))
-        missing.push_back(fmt::format("no fire_station, so that fire engines start at {}", others));
-    const std::string text = fmt::format("{}", fmt::join(words, ", "));
-    if (missing.empty()) return {"sites", Grade::ok, text};
-    return {"sites", Grade::note, fmt::format("{}; {}", text, fmt::join(missing, "; ")), cure};
+        if (counts.contains(kind)) words.push_back(core::counted(counts.at(kind), spoken(name)));
+    const std::string text = core::listed(words);
+    if (config.demand.emergency == 0) return {"sites", Grade::ok, text};
+    const traffic::EmergencyEnds ends = scenario::emergency_ends(config);
+    return {"sites", ends.has_stand_in() ? Grade::note : Grade::ok,
+            fmt::format("{}; {}", text, traffic::words(ends)), ends.has_stand_in() ? cure : ""};
+}
+
+Finding map_finding(const std::string& map_date, std::chrono::sys_days on_day) {
+    const std::string warning = scenario::map_age_warning(map_date, on_day);
+    const std::string text = "data of " + map_date;
+    if (warning.empty()) return {"map", Grade::ok, text};
+    return {"map", Grade::note, fmt::format("{}, {}", text, warning),
+            "an import of a new extract, for results of today"};
 }
 
 }  // namespace clearway::campaign::detail

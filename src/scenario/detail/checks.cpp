@@ -10,6 +10,7 @@
 
 #include "core/folder_name.hpp"
 #include "scenario/detail/road_place.hpp"
+#include "scenario/map_age.hpp"
 #include "scenario/mean_times.hpp"
 #include "scenario/preemption.hpp"
 #include "traffic/vehicle.hpp"
@@ -87,6 +88,10 @@ void check_network(const ScenarioConfig& config, Problems& problems) {
     check_file(config, "network.file", network.file, problems);
     for (const std::string& path : network.additional)
         check_file(config, "network.additional", path, problems);
+    if (!network.map_date.empty() && !begins_with_map_date(network.map_date))
+        problems.push_back({config.where("network.map_date"),
+                            fmt::format("\"{}\" does not begin with a day of map data", network.map_date),
+                            "YYYY-MM-DD, from 2004 on", "correct it, or leave it out"});
     check_preemption(config, problems);
     check_mean_times(config, problems);
 }

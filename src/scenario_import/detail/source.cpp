@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/near_file.hpp"
 #include "core/open_file.hpp"
+#include "scenario/map_age.hpp"
 #include "scenario_import/detail/element.hpp"
 #include "scenario_import/detail/packed_file.hpp"
 
@@ -170,6 +171,21 @@ std::string overpass_remark(const std::filesystem::path& map) {
     if (first == std::string::npos || close == std::string::npos || first >= close) return {};
     const std::size_t last = end.find_last_not_of(" \t\r\n", close - 1);
     return end.substr(first, last + 1 - first);
+}
+
+std::string stated_map_date(const std::filesystem::path& map) {
+    constexpr std::size_t letters_of_day = 10;
+    PackedFile stream(map);
+    std::string head = head_of(stream);
+    head.resize(std::min({head.size(), head.find("<node"), head.find("<way")}));
+    // Of Overpass, in <meta>, and of osmconvert, in <osm>.
+    for (const std::string_view name : {"osm_base=", " timestamp="}) {
+        const std::size_t found = head.find(name);
+        if (found == std::string::npos) continue;
+        const std::string day = head.substr(std::min(head.size(), found + name.size() + 1), letters_of_day);
+        if (scenario::begins_with_map_date(day)) return day;
+    }
+    return {};
 }
 
 void refuse_bomb(const std::filesystem::path& file) {

@@ -21,6 +21,9 @@ std::string map_format(const std::filesystem::path& map);
 /// empty if there is no remark.
 std::string overpass_remark(const std::filesystem::path& map);
 
+/// The day of the data as the beginning of a map in XML says, `2012-05-03`; or empty.
+std::string stated_map_date(const std::filesystem::path& map);
+
 /// Throws core::InputError for a .gz or .bz2 file that is damaged or unpacks to more than any real file does:
 /// over 100 MB and 250 times its size. Reads the file once, without keeping it.
 void refuse_bomb(const std::filesystem::path& file);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "scenario/map_age.hpp"
 #include "scenario_import/detail/element.hpp"
 
 namespace clearway::scenario_import::detail {
@@ -76,6 +77,9 @@ struct PendingSite {
 class MapReader {
   public:
     void take(const Element& element) {
+        constexpr std::size_t letters_of_day = 10;
+        const std::string day = element.text("timestamp").substr(0, letters_of_day);
+        if (day > contents_.newest && scenario::begins_with_map_date(day)) contents_.newest = day;
         if (element.name == "node") take_node(element);
         if (element.name == "way") take_way(element);
         if (element.name == "relation") take_relation(element);
@@ -152,7 +156,9 @@ class MapReader {
             last = &node->second;
         }
         contents_.car_roads_km += length_km;
-        if (!has_limit(way)) contents_.unlimited_km += length_km;
+        if (has_limit(way)) return;
+        contents_.unlimited_km += length_km;
+        contents_.unlimited_classes.insert(tag(way, "highway"));
     }
 
     void take_relation(const Element& element) {
