@@ -244,7 +244,7 @@ std::string conclusion_of(const std::string& scenario, const std::vector<Finding
         return fmt::format("{} is not fit for a study as it is: {}.", scenario, core::listed(short_of));
     if (!has_trials && std::ranges::find(noted, detail::locks_name) != noted.end())
         return fmt::format(
-            "{} may be fit for a study: its one run locks, and others may more; --lock-trials 6 tells. "
+            "{} may be fit for a study: its one run locks, and others may lock more; --lock-trials 6 tells. "
             "Noted: {}.",
             scenario, core::listed(noted));
     if (!first.empty())

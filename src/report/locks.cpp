@@ -23,6 +23,10 @@ std::string lock_remedy(Blockers blockers, const std::string& less) {
         less);
 }
 
+std::string longest_words(std::uint64_t locks, double longest_s) {
+    return fmt::format("{}{:.0f} s", locks == 1 ? "of " : "the longest ", longest_s);
+}
+
 std::string lock_words(const analysis::ConditionSummary& condition) {
     const std::size_t locked = condition.locked_runs();
     if (locked == 0) return {};
@@ -32,9 +36,10 @@ std::string lock_words(const analysis::ConditionSummary& condition) {
     double longest_s = 0.0;
     for (const std::optional<double>& value : condition.metric("longest_lock_s").values)
         longest_s = std::max(longest_s, value.value_or(0.0));
-    std::string words = fmt::format(
-        "{} in {} of {}, the longest {:.0f} s; {} stood in them", counted(total("locks"), "lock"), locked,
-        counted(condition.complete_runs, "run"), longest_s, counted(total("locked_vehicles"), "vehicle"));
+    const std::uint64_t locks = total("locks");
+    std::string words = fmt::format("{} in {} of {}, {}; {} stood in {}", counted(locks, "lock"), locked,
+                                    counted(condition.complete_runs, "run"), longest_words(locks, longest_s),
+                                    counted(total("locked_vehicles"), "vehicle"), locks == 1 ? "it" : "them");
     const std::uint64_t emergency = total("locked_emergency_vehicles");
     return words + (emergency == 0 ? "" : fmt::format(", {} of them EV", grouped(emergency)));
 }
@@ -48,8 +53,8 @@ std::string locked_pairs_words(const analysis::Comparison& comparison, double ha
                            number(comparison.difference->mean, style),
                            number_or_dash(comparison.median, style),
                            unlocked == 0   ? "no pair is"
-                           : unlocked == 1 ? "1 pair alone is"
-                                           : fmt::format("{} pairs alone are", unlocked));
+                           : unlocked == 1 ? "only 1 pair is"
+                                           : fmt::format("only {} pairs are", unlocked));
     return fmt::format(
         "mean {}, median of pairs {}, mean of the {} without a lock {}; replications for "
         "{}{:g}: {}, without locks {}",

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "analysis/summary.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report {
+
+/// `the longest 310 s`, of one lock `of 310 s`.
+std::string longest_words(std::uint64_t locks, double longest_s);
 
 /// `3 locks in 2 of 30 runs, the longest 310 s; 41 vehicles stood in them, 1 of them an EV`; empty where no
 /// run locked.

@@ -108,7 +108,10 @@ std::string to_text(const Findings& findings) {
     if (!findings.sites.empty()) text += fmt::format("  EV sites         {}\n", sites_text(findings));
     if (!findings.emergency_trips.empty())
         text += fmt::format("  EV trips         {}\n", emergency_text(findings));
-    text += fmt::format("  demand           {:.0f} vehicles/h: {}\n                   {}\n",
+    int total = 0;
+    for (const auto& [kind, count] : findings.vehicles)
+        total += count;
+    text += fmt::format("  demand           {} vehicles, {:.0f} an hour: {}\n                   {}\n", total,
                         findings.vehicles_per_hour, counts_text(findings.vehicles), findings.demand);
     if (findings.persons > 0) text += fmt::format("  persons          {} walk or ride\n", findings.persons);
     if (findings.bad_vehicles_share > most_bad_vehicles)

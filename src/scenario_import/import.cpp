@@ -209,22 +209,16 @@ void add_pedestrians(Import& import, const roads::Network& network, scenario::Sc
                                    : fmt::format(" with a signal, of {} in all", crossings.size())));
 }
 
-/// `50 km/h on main roads`: what netconvert's types for towns give to these classes of roads.
-std::vector<std::string> limits_of(const std::set<std::string>& classes) {
-    std::set<std::string> rest = classes;
+/// `10 km/h in living streets, 50 km/h on other roads`: what netconvert's types for towns give these classes.
+std::string limits_of(const std::set<std::string>& classes) {
     std::vector<std::string> words;
-    const auto take = [&](const std::vector<std::string>& names, const char* limit) {
-        std::size_t taken = 0;
-        for (const std::string& name : names)
-            taken += rest.erase(name);
-        if (taken > 0) words.emplace_back(limit);
-    };
-    take({"motorway"}, "100 km/h on motorways");
-    take({"motorway_link"}, "60 km/h on their ramps");
-    take({"living_street"}, "10 km/h in living streets");
-    take({"residential", "unclassified"}, "50 km/h in minor streets");
-    if (!rest.empty()) words.emplace_back("50 km/h on main roads");
-    return words;
+    for (const auto& [name, limit] : {std::pair{"motorway", "100 km/h on motorways"},
+                                      {"motorway_link", "60 km/h on their ramps"},
+                                      {"living_street", "10 km/h in living streets"}})
+        if (classes.contains(name)) words.emplace_back(limit);
+    if (words.empty()) return "50 km/h";
+    if (words.size() < classes.size()) words.emplace_back("50 km/h on other roads");
+    return core::listed(words);
 }
 
 /// The day of the maps' data: the oldest that they state, else that of the newest object; or empty.
@@ -248,7 +242,7 @@ void report_gaps(Import& import, const std::vector<std::filesystem::path>& maps,
         import.findings.changes.push_back(
             fmt::format("{:.1f} km of the map's {:.1f} km of road have no speed limit: they get those of "
                         "SUMO's types for towns, {}",
-                        map.unlimited_km, map.car_roads_km, core::listed(limits_of(map.unlimited_classes))));
+                        map.unlimited_km, map.car_roads_km, limits_of(map.unlimited_classes)));
 }
 
 void import_maps(Import& import, const std::vector<std::filesystem::path>& maps,

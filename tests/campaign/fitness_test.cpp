@@ -129,9 +129,10 @@ TEST(LockFinding, counts_a_run_that_holds_up_an_emergency_vehicle_or_many_others
 TEST(Conclusion, knows_nothing_of_a_scenario_whose_one_run_locks) {
     std::vector<Finding> findings = {{detail::locks_name, Grade::note, "1 lock in this run"},
                                      {"collisions", Grade::note, "2"}};
-    EXPECT_EQ(conclusion_of("town", findings),
-              "town may be fit for a study: its one run locks, and others may more; --lock-trials 6 tells. "
-              "Noted: locks, collisions.");
+    EXPECT_EQ(
+        conclusion_of("town", findings),
+        "town may be fit for a study: its one run locks, and others may lock more; --lock-trials 6 tells. "
+        "Noted: locks, collisions.");
     findings.push_back({detail::trials_name, Grade::ok, "none of 6 runs locks"});
     EXPECT_EQ(conclusion_of("town", findings),
               "town is fit for a study, with what is noted: locks, collisions.");

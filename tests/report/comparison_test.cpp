@@ -72,6 +72,15 @@ TEST(Locks, AreToldByConditionAndBesideTheMeanThatTheyDecide) {
         if (metric.comparison) metric.comparison->locked_pairs = metric.comparison->complete_pairs;
     EXPECT_THAT(comparison_text(all_locked, {"emergency_travel_time_s"}),
                 HasSubstr("mean -20.0, median of pairs -18.5; no pair is without a lock"));
+    for (analysis::MetricSummary& metric : all_locked.scenarios[0].conditions[1].metrics)
+        if (metric.comparison) metric.comparison->locked_pairs = metric.comparison->complete_pairs - 1;
+    for (analysis::MetricSummary& metric : all_locked.scenarios[0].conditions[0].metrics) {
+        if (metric.metric.name == "locks") metric.values = {1.0, 0.0, 0.0, 0.0};
+        if (metric.metric.name == "longest_lock_s") metric.values = {78.0, 0.0, 0.0, 0.0};
+    }
+    EXPECT_THAT(comparison_text(all_locked, {"emergency_travel_time_s"}),
+                testing::AllOf(HasSubstr("; only 1 pair is without a lock"),
+                               HasSubstr("1 lock in 1 of 20 runs, of 78 s; 0 vehicles stood in it")));
     const std::string json = comparison_json(locked_summary(), {"emergency_travel_time_s"}, {});
     EXPECT_THAT(json, HasSubstr("\"locked_runs\": 3"));
     EXPECT_THAT(json, HasSubstr("\"difference_without_locks\": -19.0"));

@@ -42,6 +42,13 @@ TEST(Page, holds_verdict_tables_figures_outcomes_and_reproduction) {
     EXPECT_THAT(page, HasSubstr(">58</td>"));
 }
 
+TEST(Page, says_the_name_of_an_imported_scenario_once) {
+    StudyFacts study = tests::study({"city"});
+    study.scenarios[0].title = study.scenarios[0].name + ", imported from map.osm";
+    EXPECT_THAT(page_of(study),
+                HasSubstr("<h3>" + study.scenarios[0].name + "<small>imported from map.osm</small></h3>"));
+}
+
 TEST(Page, marks_coarse_steps_on_the_first_screen_and_at_the_verdicts) {
     StudyFacts study = tests::study({"merge"});
     EXPECT_THAT(page_of(study), Not(HasSubstr("(!) steps of")));

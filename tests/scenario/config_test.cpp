@@ -219,6 +219,22 @@ TEST_F(Config, not_a_number_is_refused) {
     EXPECT_THAT(only_problem("[time]\nstep_length_s = nan\n").what, HasSubstr("nan is out of range"));
 }
 
+TEST_F(Config, the_day_of_the_map_is_one_on_which_there_was_data) {
+    const auto file_with = [&](const std::string& date) {
+        std::string text = line_head;
+        text.insert(text.find("[network]\n") + 10, "map_date = \"" + date + "\"\n");
+        return write("scenario.toml", text).string();
+    };
+    for (const char* const date : {"2012-05-03 (newest object)", "2024-02-29"})
+        EXPECT_EQ(load(file_with(date)).network.map_date, date);
+    for (const char* const date : {"May 2012", "2012-5-3", "2023-02-29", "1970-01-01", "2012-05-0x"}) {
+        const auto problems = problems_of([&] { load(file_with(date)); });
+        ASSERT_EQ(problems.size(), 1U) << date;
+        EXPECT_THAT(problems[0].where, EndsWith("network.map_date"));
+        EXPECT_THAT(problems[0].what, HasSubstr("does not begin with a day of map data"));
+    }
+}
+
 TEST_F(Config, emergency_departure_before_the_warm_up_is_refused) {
     const core::Problem problem = only_problem(
         "[time]\nwarm_up_s = 60.0\n[[emergency_trip]]\nfrom = \"first\"\nto = \"second\"\ndepart_s = 5.0\n");

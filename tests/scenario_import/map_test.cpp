@@ -54,9 +54,11 @@ TEST_F(MapImport, makes_a_scenario_that_loads_with_sites_signals_and_a_level) {
     EXPECT_THAT(to_text(findings), HasSubstr("1 fire station, 1 hospital (St. \"Anna\" <Klinik>; unnamed,"));
     EXPECT_THAT(to_text(findings),
                 HasSubstr("  map data         of unknown age: its objects have no timestamps\n"));
+    EXPECT_THAT(to_text(findings),
+                testing::ContainsRegex("demand           [0-9]+ vehicles, [0-9]+ an hour: "));
     EXPECT_THAT(findings.emergency_trips,
                 HasSubstr("half from fire stations (no ambulance station is known) to"));
-    EXPECT_THAT(findings.changes, Contains(HasSubstr("SUMO's types for towns, 50 km/h on main roads")))
+    EXPECT_THAT(findings.changes, Contains(testing::EndsWith("SUMO's types for towns, 50 km/h")))
         << "it has no motorway";
     for (const char* const file :
          {"scenario.toml", "network.net.xml", "network.svg", "import.json", "preemption.csv"})
@@ -220,8 +222,17 @@ TEST_F(MapImport, says_how_old_the_data_is) {
 }
 
 TEST_F(MapImport, names_the_limits_of_those_classes_that_have_none) {
-    const Findings findings = run(request({write("town.osm", town_map(13.0, 51.0, "residential"))}));
-    EXPECT_THAT(findings.changes, Contains(testing::EndsWith("for towns, 50 km/h in minor streets")));
+    std::string map = town_map(13.0, 51.0, "living_street");
+    const Findings slow = run(request({write("slow.osm", map)}, "slow"));
+    EXPECT_THAT(slow.changes, Contains(testing::EndsWith("for towns, 10 km/h in living streets")));
+    map.replace(map.find("living_street"), 13, "motorway");
+    const Findings fast = run(request({write("fast.osm", map)}, "fast"));
+    EXPECT_THAT(fast.changes,
+                Contains(testing::EndsWith("for towns, 100 km/h on motorways, 10 km/h in living streets")));
+    map.replace(map.find("living_street"), 13, "primary");
+    const Findings all = run(request({write("all.osm", map)}, "all"));
+    EXPECT_THAT(all.changes,
+                Contains(testing::EndsWith("10 km/h in living streets, 50 km/h on other roads")));
 }
 
 TEST_F(MapImport, limits_of_the_map_stay) {

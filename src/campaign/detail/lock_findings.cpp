@@ -82,13 +82,14 @@ Finding locks_finding(const results::RunRecord& record, const std::vector<metric
                                       ? ""
                                       : fmt::format(", {} of them EV", run.locked_emergency_vehicles);
     const bool ignored = checked.config.time.ignore_junction_blocker_s.value_or(-1.0) >= 0.0;
-    return {locks_name, metrics::is_held_up(run) ? Grade::falls_short : Grade::note,
-            fmt::format("{} in this run of seed {}, the longest {:.0f} s; {} stood in them{}: {}",
-                        core::counted(run.locks, "lock"), record.provenance.study_seed, run.longest_lock_s,
-                        core::counted(run.locked_vehicles, "vehicle"), emergency,
-                        places_of(locks, checked.network)),
-            report::lock_remedy(ignored ? report::Blockers::ignored : report::Blockers::respected, less) +
-                "; --lock-trials 6 counts the runs that lock"};
+    return {
+        locks_name, metrics::is_held_up(run) ? Grade::falls_short : Grade::note,
+        fmt::format("{} in this run of seed {}, {}; {} stood in {}{}: {}", core::counted(run.locks, "lock"),
+                    record.provenance.study_seed, report::longest_words(run.locks, run.longest_lock_s),
+                    core::counted(run.locked_vehicles, "vehicle"), run.locks == 1 ? "it" : "them", emergency,
+                    places_of(locks, checked.network)),
+        report::lock_remedy(ignored ? report::Blockers::ignored : report::Blockers::respected, less) +
+            "; --lock-trials 6 counts the runs that lock"};
 }
 
 void count_trial(const metrics::RunMetrics& run, std::uint32_t trials, LockTrial& trial) {

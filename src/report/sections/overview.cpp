@@ -28,6 +28,12 @@ std::string tile_markup(const Tile& tile) {
                        tile.subject, escaped(tile.figure), escaped(tile.meaning), lines);
 }
 
+/// The title, which of an import begins with the name that stands before it.
+std::string without_name(const ScenarioFacts& scenario) {
+    const std::string name = scenario.name + ", ";
+    return scenario.title.starts_with(name) ? scenario.title.substr(name.size()) : scenario.title;
+}
+
 void write_notes(std::initializer_list<std::string> notes, Writer& writer) {
     for (const std::string& note : notes)
         if (!note.empty()) writer.markup(fmt::format("<p class=\"note\">{}</p>\n", escaped(note)));
@@ -38,7 +44,7 @@ void write_words(const StudyFacts& study, const ScenarioFacts& scenario, const C
     constexpr Script script = Script::typeset;
     const std::string title = scenario.title.empty() || scenario.title == scenario.name
                                   ? ""
-                                  : fmt::format("<small>{}</small>", escaped(scenario.title));
+                                  : fmt::format("<small>{}</small>", escaped(without_name(scenario)));
     const Badge badge = badge_of(scenario, condition, script);
     writer.markup(fmt::format("<h3>{}{}</h3>\n<p class=\"headline\">{}</p>\n", escaped(scenario.name), title,
                               escaped(scenario_headline(scenario, condition, script))));

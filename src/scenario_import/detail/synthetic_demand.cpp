@@ -42,9 +42,10 @@ std::string describe(const scenario::ScenarioConfig& config, const DemandLevel& 
     const Load& load = level.load;
     const std::string speed =
         load.running > 0.0 && level.free_speed > 0.0
-            ? fmt::format("mean speed {:.0f} % of that with {} cars (signals as they are), {:.0f} % halting",
-                          100.0 * load.relative_speed / level.free_speed, level.fewest_cars,
-                          100.0 * load.halting / load.running)
+            ? fmt::format(
+                  "mean speed {:.0f} % of that with only {} cars at the same signals, {:.0f} % halting",
+                  100.0 * load.relative_speed / level.free_speed, level.fewest_cars,
+                  100.0 * load.halting / load.running)
             : "speed unknown";
     return fmt::format(
         "synthetic: {} cars in {:.0f} s {}; after 12 to 15 minutes {:.{}f} on the road, {:.1f} per km of "
