@@ -183,4 +183,32 @@ EquipPlan equip_greedily(const EquipConfig& config, const MeasureSets& measure) 
     return Greedy(config, measure).run();
 }
 
+GainSplit split_gain(const std::vector<TripTimes>& before, const std::vector<TripTimes>& after,
+                     const std::vector<std::set<std::string>>& passing) {
+    struct Group {
+        std::vector<double> gains_s, trips;  // by replication
+    };
+    GainSplit split;
+    Group pass, others;
+    for (std::size_t replication = 0; replication < before.size(); ++replication) {
+        for (Group* const group : {&pass, &others}) {
+            group->gains_s.push_back(0.0);
+            group->trips.push_back(0.0);
+        }
+        for (const auto& [id, time_s] : before[replication]) {
+            const auto same = after.at(replication).find(id);
+            if (same == after[replication].end()) continue;
+            const bool is_passing = passing.at(replication).contains(id);
+            Group& group = is_passing ? pass : others;
+            group.gains_s.back() += time_s - same->second;
+            group.trips.back() += 1.0;
+            ++split.trips;
+            split.passing += is_passing ? 1 : 0;
+        }
+    }
+    split.passing_gain = estimate_ratio(pass.gains_s, pass.trips);
+    split.other_gain = estimate_ratio(others.gains_s, others.trips);
+    return split;
+}
+
 }  // namespace clearway::analysis

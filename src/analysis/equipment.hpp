@@ -4,7 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "analysis/summary.hpp"
@@ -95,5 +98,20 @@ std::vector<std::size_t> equip_looks(std::size_t replications);
 /// 1978), and then the lazy search (Minoux 1978) finds what the thorough one finds. Gains of signals need not
 /// be: a green may pay only with the next one, which is what pairs are for.
 EquipPlan equip_greedily(const EquipConfig& config, const MeasureSets& measure);
+
+/// Times of the emergency vehicles of a run, s, by id; empty for a run that failed.
+using TripTimes = std::map<std::string, double>;
+
+/// What trips gain that pass a chosen signal on their planned way, and the others.
+struct GainSplit {
+    std::size_t trips = 0;       ///< That both runs of a pair have.
+    std::size_t passing = 0;     ///< Of them.
+    MaybeEstimate passing_gain;  ///< Less time a trip, s. Weighted by trips, both add up to the gain of all.
+    MaybeEstimate other_gain;
+};
+
+/// All by replication; `passing`: the ids of the emergency vehicles that pass.
+GainSplit split_gain(const std::vector<TripTimes>& before, const std::vector<TripTimes>& after,
+                     const std::vector<std::set<std::string>>& passing);
 
 }  // namespace clearway::analysis

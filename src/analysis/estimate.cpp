@@ -67,6 +67,18 @@ MaybeEstimate estimate_mean(std::span<const double> values, double level) {
     return estimate;
 }
 
+MaybeEstimate estimate_ratio(std::span<const double> sums, std::span<const double> counts, double level) {
+    assert(sums.size() == counts.size());
+    const double count = std::accumulate(counts.begin(), counts.end(), 0.0);
+    if (count <= 0.0) return std::nullopt;
+    const double ratio = std::accumulate(sums.begin(), sums.end(), 0.0) / count;
+    const auto clusters = static_cast<double>(counts.size() - std::ranges::count(counts, 0.0));
+    std::vector<double> values;
+    for (std::size_t at = 0; at < sums.size(); ++at)
+        if (counts[at] > 0.0) values.push_back(ratio + (sums[at] - ratio * counts[at]) * clusters / count);
+    return estimate_mean(values, level);
+}
+
 MaybeEstimate estimate_not_negative(std::span<const double> values, double level) {
     auto estimate = estimate_mean(values, level);
     if (!estimate || !estimate->interval || estimate->interval->low >= 0.0 || !(estimate->mean > 0.0))

@@ -66,6 +66,12 @@ MaybeEstimate estimate_difference(std::span<const double> condition, std::span<c
 MaybeEstimate relative_difference(std::span<const double> condition, std::span<const double> baseline,
                                   double level = usual_level);
 
+/// Sum of `sums` by sum of `counts`: a mean of what comes in clusters of different sizes, with the t interval
+/// of the clusters' deviations from it (Cochran, Sampling Techniques, 1977, chapter 6). Clusters of count 0
+/// do not count; n is the number of the others. The spans have equal lengths.
+MaybeEstimate estimate_ratio(std::span<const double> sums, std::span<const double> counts,
+                             double level = usual_level);
+
 /// Median; mean of the two middle values for even n. `values` not empty.
 double median(std::span<const double> values);
 /// Quantile `share` in [0, 1] by linear interpolation between order statistics (Hyndman and Fan 1996, type

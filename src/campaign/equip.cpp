@@ -20,6 +20,7 @@
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
 #include "experiment/related_conditions.hpp"
+#include "experiment/settings.hpp"
 #include "report/configuration.hpp"
 #include "report/equipment.hpp"
 
@@ -72,11 +73,32 @@ void add_outcomes(const analysis::EquipPlan& plan, const Signals& signals, const
         const EquipOutcome& after = fresh.chosen.at(rank);
         facts.ranked.push_back({signals.number(step.candidate), signals.id(step.candidate),
                                 signals.streets(step.candidate),
-                                less_time(before.emergency_s, after.emergency_s, together), gain(after),
+                                less_time(before.emergency_s, after.emergency_s, together),
+                                // That of rank 1 is its gain: two intervals would judge it twice.
+                                less_time(fresh.none.emergency_s, after.emergency_s,
+                                          rank + 1 < plan.steps.size() ? together : analysis::usual_level),
                                 loss(after), step.gain});
-        // One of its own would judge the gain of rank 1 a second time, and otherwise.
-        if (rank + 1 < plan.steps.size() && facts.ranked.back().so_far)
-            facts.ranked.back().so_far->interval.reset();
+    }
+}
+
+/// What all that were chosen do over none besides the means of times.
+void add_sums(const Search& search, const analysis::EquipPlan& plan, const FreshOutcomes& fresh,
+              report::EquipmentFacts& facts) {
+    if (plan.steps.empty()) return;
+    std::vector<core::SignalIndex> chosen;
+    for (const analysis::EquipStep& step : plan.steps)
+        chosen.push_back(search.signals.candidates.signals.at(step.candidate));
+    study::StudyConfig config = search.config;
+    config.seed = search.rounds.fresh_seed();
+    facts.split = analysis::split_gain(fresh.none.trips_s, fresh.chosen.back().trips_s,
+                                       trips_past(chosen, config, search.signals.built));
+    for (std::size_t event = 0; event < equip_events.size(); ++event) {
+        const analysis::Values& none = fresh.none.events.at(event);
+        const analysis::Values& with = fresh.chosen.back().events.at(event);
+        constexpr auto count = analysis::MetricKind::count;
+        facts.events.push_back({equip_events.at(event).title, analysis::estimate_values(none, count),
+                                analysis::estimate_values(with, count),
+                                analysis::estimate_paired(with, none, count)});
     }
 }
 
@@ -111,6 +133,8 @@ report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipReq
     facts.condition = request.condition.name;
     facts.command = request.run.command;
     facts.study = request.study;
+    facts.density = request.density;
+    facts.other_parts = experiment::policies_with(request.condition, traffic::Trait::renews_requests);
     facts.seed = config.seed;
     facts.replications = config.replications;
     facts.step_length_s = config.scenarios.front().time.step_length_s;
@@ -207,6 +231,7 @@ core::ExitCode equip(EquipRequest request) {
     add_candidates(plan, search.signals, facts);
     add_outcomes(plan, search.signals, fresh, facts);
     add_pairs(plan, search.signals, fresh, facts);
+    add_sums(search, plan, fresh, facts);
     facts.roads = report::road_map(results::Store::open(rounds.fresh_folder()), facts.scenario);
     write_files(facts, request.run.folder);
     fmt::print("{}", request.run.publish.printing == Printing::json ? report::equipment_json(facts)

@@ -151,6 +151,18 @@ std::string amount_words(const EquipRequest& request, const EquipForecast& runs,
     return words;
 }
 
+/// What held runs say of locks; without any, what would.
+std::string lock_words(const EquipRounds& rounds, const EquipRequest& request) {
+    const report::UnsoundRuns unsound = rounds.first_unsound();
+    if (unsound.runs > 0) return lock_warning(unsound, request.calmer);
+    return core::wrapped(
+               "Whether vehicles lock each other, runs alone tell: clearway scenario check with "
+               "--lock-trials 6 "
+               "looks before.",
+               0) +
+           "\n";
+}
+
 }  // namespace
 
 EquipRequest detail::fitted(EquipRequest request, const scenario::BuiltNetwork& built) {
@@ -227,11 +239,12 @@ core::ExitCode equip_dry_run(EquipRequest request) {
             {"runs", runs.likely()},
             {"most_runs", runs.most()},
             {"held_runs", held},
+            {"held_runs_say_little", search.rounds.first_unsound().say_little()},
             {"estimated_time_s", seconds(runs.likely())},
             {"estimate_measured", cost.basis == CostBasis::measured}},
            {table},
            core::wrapped(amount_words(request, runs, held, candidates), 0) + "\n" +
-               core::wrapped(time + shorter, 0) + "\n",
+               core::wrapped(time + shorter, 0) + "\n" + lock_words(search.rounds, request),
            core::wrapped(met.words(), 0) + "\n\n"},
           request.run.publish.printing);
     return core::ExitCode::ok;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cassert>
 #include <filesystem>
-#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -15,17 +14,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "campaign/detail/emergency_trips.hpp"
+#include "analysis/response.hpp"
 #include "campaign/detail/lock_findings.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/equipped_signals.hpp"
 #include "experiment/related_conditions.hpp"
-#include "metrics/run_metrics.hpp"
-#include "scenario/prepare.hpp"
+#include "metrics/restricted_time.hpp"
 #include "study/reuse.hpp"
 
 namespace clearway::campaign {
@@ -34,44 +31,30 @@ namespace {
 constexpr const char* fresh_prefix = "fresh-";
 /// Candidates that a lazy search is assumed to try for each later place. From small cities.
 constexpr std::size_t likely_tries = 2;
-/// Pairs of neighbours that race with the candidates. Assumed: more would cost more than the race of signals.
-constexpr std::size_t most_pairs = 6;
-
 /// Of the estimate on fresh seeds: with each number of signals, none, all, alone, and the baseline.
 std::size_t fresh_runs(std::size_t budget, std::uint32_t replications) {
     return replications * (budget + 4);
-}
-
-/// The candidates that follow each other on these ways, with how often.
-std::vector<std::array<std::size_t, 2>> neighbours_of(
-    const std::vector<core::SignalIndex>& candidates,
-    const std::vector<std::vector<core::SignalIndex>>& ways) {
-    std::map<std::array<std::size_t, 2>, std::size_t> counts;
-    const auto number = [&](core::SignalIndex signal) {
-        return static_cast<std::size_t>(std::ranges::find(candidates, signal) - candidates.begin());
-    };
-    for (const std::vector<core::SignalIndex>& way : ways) {
-        for (std::size_t at = 1; at < way.size(); ++at) {
-            const auto [first, second] = std::minmax({number(way[at - 1]), number(way[at])});
-            if (second < candidates.size()) ++counts[{first, second}];
-        }
-    }
-    std::vector<std::array<std::size_t, 2>> pairs;
-    for (const auto& [pair, count] : counts)
-        pairs.push_back(pair);
-    std::ranges::stable_sort(pairs, std::greater{}, [&](const auto& pair) { return counts.at(pair); });
-    pairs.resize(std::min(pairs.size(), most_pairs));
-    return pairs;
 }
 
 EquipOutcome outcome_of(const results::Results& results, const std::string& condition) {
     EquipOutcome outcome;
     outcome.emergency_s.resize(results.manifest.replications);
     outcome.others_s.resize(results.manifest.replications);
+    outcome.trips_s.resize(results.manifest.replications);
+    for (analysis::Values& counts : outcome.events)
+        counts.resize(results.manifest.replications);
     for (const results::RunRecord& run : results.runs) {
         if (run.key.condition != condition) continue;
         outcome.emergency_s.at(run.key.replication) = run.metrics.emergency_restricted_travel_time_s;
         outcome.others_s.at(run.key.replication) = run.metrics.others_time_loss_s;
+        const double horizon_s = analysis::horizon_s(run).value_or(0.0);
+        for (const metrics::VehicleRow& vehicle : run.vehicles)
+            if (vehicle.vehicle_class == traffic::VehicleClass::emergency)
+                outcome.trips_s[run.key.replication][vehicle.id] =
+                    metrics::restricted_travel_time_s(vehicle, horizon_s);
+        for (std::size_t event = 0; event < equip_events.size(); ++event)
+            outcome.events[event].at(run.key.replication) =
+                static_cast<double>(run.metrics.*equip_events[event].count);
     }
     return outcome;
 }
@@ -85,6 +68,8 @@ report::UnsoundRuns unsound_runs(const results::Results& results, const std::str
         unsound.locked += run.metrics.locks > 0 ? 1 : 0;
         unsound.held_up += metrics::is_held_up(run.metrics) ? 1 : 0;
         unsound.lost_vehicles += run.metrics.emergency_count - run.metrics.emergency_arrived;
+        unsound.collisions += run.metrics.collisions;
+        unsound.vehicles += run.metrics.vehicle_count;
     }
     return unsound;
 }
@@ -124,50 +109,13 @@ std::size_t count_of(const std::map<analysis::SignalSet, std::set<std::uint32_t>
 
 }  // namespace
 
-EquipCandidates equip_candidates(const study::StudyConfig& config, const scenario::BuiltNetwork& built,
-                                 const std::vector<bool>& today, std::size_t most) {
-    const detail::Crossings crossings = detail::crossings_of(built.network);
-    EquipCandidates candidates;
-    std::map<core::SignalIndex, std::size_t> trips;  // of emergency vehicles that pass
-    std::vector<std::set<core::SignalIndex>> passed(config.replications);
-    std::vector<std::vector<core::SignalIndex>> ways;
-    for (std::uint32_t replication = 0; replication < config.replications; ++replication) {
-        const core::TemporaryFolder folder;
-        const scenario::Prepared prepared =
-            scenario::prepare(config.scenarios.front(), built, core::StudySeed{config.seed},
-                              core::Replication{replication}, folder.path());
-        for (const traffic::EmergencyDeparture& departure : prepared.emergency) {
-            const std::vector<core::SignalIndex>& way =
-                ways.emplace_back(detail::passed_by(departure.edges, crossings));
-            passed[replication].insert(way.begin(), way.end());
-            candidates.met.add(way.size());
-            for (const core::SignalIndex signal : way)
-                ++trips[signal];
-        }
-    }
-    candidates.not_passed = built.network.signals().size() - trips.size();
-    candidates.switched_off = std::erase_if(trips, [&](const auto& one) {
-        return !built.preemption.empty() && built.preemption[one.first.value].enabled.value_or(1) == 0;
-    });
-    candidates.equipped =
-        std::erase_if(trips, [&](const auto& one) { return !today.empty() && today[one.first.value]; });
-    for (const auto& [signal, count] : trips)
-        candidates.signals.push_back(signal);
-    if (candidates.signals.size() > most) {
-        candidates.seldom_passed = candidates.signals.size() - most;
-        std::ranges::stable_sort(candidates.signals, std::greater{}, [&](auto one) { return trips.at(one); });
-        candidates.signals.resize(most);
-        std::ranges::sort(candidates.signals);
-    }
-    candidates.neighbours = neighbours_of(candidates.signals, ways);
-    candidates.passed.resize(config.replications);
-    for (std::size_t candidate = 0; candidate < candidates.signals.size(); ++candidate) {
-        const core::SignalIndex signal = candidates.signals[candidate];
-        candidates.trips.push_back(static_cast<double>(trips.at(signal)) / static_cast<double>(ways.size()));
-        for (std::size_t replication = 0; replication < passed.size(); ++replication)
-            if (passed[replication].contains(signal)) candidates.passed[replication].push_back(candidate);
-    }
-    return candidates;
+std::string lock_warning(const report::UnsoundRuns& unsound, const std::string& calmer) {
+    if (!unsound.say_little()) return "";
+    return core::wrapped(
+               fmt::format("In the first round {}: such runs say little of signals. With less traffic:",
+                           unsound.words()),
+               0) +
+           "\n  " + calmer + "\n";
 }
 
 EquipRounds::EquipRounds(EquipQuestion question, RunOptions options)
@@ -306,6 +254,13 @@ void EquipRounds::require_fits() const {
     results::Store::require_fits(options.folder, plan.manifest);
 }
 
+report::UnsoundRuns EquipRounds::first_unsound() const {
+    const std::filesystem::path folder = options_.folder / first_round;
+    if (!std::filesystem::exists(folder / "manifest.json")) return {};
+    return unsound_runs(results::read_results(results::Store::open(folder), results::VehicleRows::emergency),
+                        "");
+}
+
 void EquipRounds::run_round(const Wanted& wanted) {
     std::map<std::string, const Replications*> replications_of;
     std::string names;
@@ -328,6 +283,10 @@ void EquipRounds::run_round(const Wanted& wanted) {
     std::erase_if(plan.units,
                   [](const study::PlannedUnit& planned) { return planned.unit.conditions.empty(); });
     const results::Results results = run(plan, options);
+    if (rounds_ == 1)
+        if (const std::string warning = lock_warning(unsound_runs(results, ""), question_.calmer);
+            !warning.empty())
+            core::print_message("clearway: " + warning);
     for (const auto& [set, replications] : wanted) {
         const EquipOutcome outcome = outcome_of(results, with(set).name);
         for (const std::uint32_t replication : replications)

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -14,39 +15,30 @@
 #include "campaign/study_run.hpp"
 #include "core/progress.hpp"
 #include "experiment/condition.hpp"
+#include "metrics/run_metrics.hpp"
 #include "report/equipment.hpp"
 #include "results/store.hpp"
-#include "roads/network.hpp"
-#include "scenario/network.hpp"
 #include "study/config.hpp"
 
 namespace clearway::campaign {
 
-/// Signals that equipment could help, and why the others are left out.
-struct EquipCandidates {
-    std::vector<core::SignalIndex> signals;  ///< Ascending.
-    /// By replication: which of them emergency vehicles pass there, ascending.
-    std::vector<analysis::SignalSet> passed;
-    std::vector<double> trips;  ///< By candidate: share of the emergency vehicles that pass it.
-    /// Candidates that follow each other on ways, the most driven first, six at most.
-    std::vector<std::array<std::size_t, 2>> neighbours;
-    report::SignalsMet met;
-    std::size_t not_passed = 0;     ///< No emergency vehicle passes them.
-    std::size_t equipped = 0;       ///< Passed, but equipped today.
-    std::size_t switched_off = 0;   ///< Passed, but their preemption parameters have `enabled` 0.
-    std::size_t seldom_passed = 0;  ///< More emergency vehicles pass each of `most` others.
+/// Events of a run that are told beside the times.
+struct EquipEvent {
+    const char* title;
+    std::uint64_t metrics::RunMetrics::*count;
 };
-
-/// The signals that emergency vehicles of a study's first scenario pass in any of its replications, without
-/// those that are equipped `today` (by core::SignalIndex; empty: none is); if they are more than `most`,
-/// those that most of these vehicles pass, of equal ones the first. Throws as scenario::prepare does.
-EquipCandidates equip_candidates(const study::StudyConfig& config, const scenario::BuiltNetwork& built,
-                                 const std::vector<bool>& today, std::size_t most);
+inline constexpr std::array<EquipEvent, 4> equip_events = {
+    {{"Collisions", &metrics::RunMetrics::collisions},
+     {"Of them with an EV", &metrics::RunMetrics::emergency_collisions},
+     {"Teleports", &metrics::RunMetrics::teleports},
+     {"Emergency brakings", &metrics::RunMetrics::emergency_brakings}}};
 
 /// What a set of equipped signals does, by replication; nothing for runs that failed.
 struct EquipOutcome {
-    analysis::Values emergency_s;  ///< `analysis::primary_metric`.
-    analysis::Values others_s;     ///< Mean time loss of the others.
+    analysis::Values emergency_s;              ///< `analysis::primary_metric`.
+    analysis::Values others_s;                 ///< Mean time loss of the others.
+    std::vector<analysis::TripTimes> trips_s;  ///< Of which `emergency_s` is the mean.
+    std::array<analysis::Values, equip_events.size()> events;
 };
 
 /// Runs on fresh seeds, which had no part in the choice.
@@ -67,7 +59,12 @@ struct EquipQuestion {
     std::vector<std::array<std::size_t, 2>> pairs;  ///< That are tried together.
     std::size_t budget = 1;
     analysis::Search search = analysis::Search::lazy;
+    std::string calmer = {};  ///< The command with less traffic.
 };
+
+/// What becomes of runs in which vehicles lock each other, and the command with less traffic; empty where
+/// none holds an emergency vehicle up.
+std::string lock_warning(const report::UnsoundRuns& unsound, const std::string& calmer);
 
 /// Runs that a search makes.
 struct EquipForecast {
@@ -109,6 +106,9 @@ class EquipRounds {
     std::uint64_t fresh_seed() const;
     /// Of the runs on fresh seeds; a whole study. Empty before `estimate`.
     const std::filesystem::path& fresh_folder() const { return fresh_folder_; }
+
+    /// Of the runs of the first round that are there.
+    report::UnsoundRuns first_unsound() const;
 
     /// So far, complete ones and failed ones.
     std::size_t runs() const { return done_; }

@@ -15,8 +15,10 @@
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
 #include "core/interruption.hpp"
+#include "core/process.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/equipped_signals.hpp"
+#include "report/locks.hpp"
 
 namespace clearway::cli {
 namespace {
@@ -42,13 +44,22 @@ std::string value_behind(const std::string& word) {
     return equals == std::string::npos ? "" : word.substr(equals + 1);
 }
 
-/// The command as one of `clearway run`: without what only equip takes, where it writes, its name and what
-/// was equipped. The scenario comes first, so that no option of several values takes it.
+/// The command with less traffic, in a folder of its own where it names one: the other holds another search.
+std::string calmer_command(const std::vector<std::string>& command, const campaign::EquipRequest& request) {
+    const std::string density = report::less_density(request.density);
+    std::vector<std::string> words = core::with_option(command, "--density", density);
+    if (!request.run.folder.empty())
+        words = core::with_option(std::move(words), "--out",
+                                  fmt::format("{}-density-{}", request.run.folder.string(), density));
+    return core::shell_text(words);
+}
+
+/// The command as one of `clearway run`: without what only equip takes, seeds, where it writes, its name and
+/// what was equipped. The scenario comes first, so that no option of several values takes it.
 std::vector<std::string> study_words(const std::vector<std::string>& command, const std::string& scenario) {
-    const std::vector<std::string> with_value = {"--budget",         "--candidates",  "--seeds", "--seed",
-                                                 "--within",         "--out",         "--jobs",  "--name",
-                                                 "--run-time-limit", "--memory-limit"};
-    const std::vector<std::string> flags = {"--thorough", "--dry-run", "--json", "--retry-failed"};
+    const std::vector<std::string> with_value = {"--budget", "--candidates", "--seeds", "--seed",
+                                                 "--within", "--out",        "--name"};
+    const std::vector<std::string> flags = {"--thorough", "--dry-run", "--json"};
     const std::string equipped = std::string(experiment::equipped_setting) + "=";
     std::vector<std::string> words = {command.front(), "run", scenario};
     bool has_condition = false;
@@ -79,7 +90,9 @@ std::vector<std::string> study_words(const std::vector<std::string>& command, co
 
 void add_study_options(App& app, const std::shared_ptr<EquipArguments>& arguments) {
     campaign::EquipRequest& request = arguments->request;
-    app.add_option("--budget", request.budget, "How many signals to equip")
+    app.add_option("--budget", request.budget,
+                   "How many signals to equip. Gains count from none equipped, where the "
+                   "policy's other parts, such as clear_lane, work all the same")
         .required()
         .range(std::size_t{1}, most_signals)
         .option_text(fmt::format("N, 1 to {} (required)", most_signals));
@@ -125,7 +138,9 @@ Action configure_equip(App& app) {
         request.condition = shown_condition(chosen_conditions(arguments->conditions), "equip");
         request.scenario = scenario::load(arguments->scenario, arguments->options);
         request.run.command = invocation.command;
+        request.density = arguments->options.number("density", 1.0);
         request.study = study_words(invocation.words, arguments->scenario);
+        request.calmer = calmer_command(invocation.words, request);
         return arguments->mode == Mode::dry_run ? campaign::equip_dry_run(request) : campaign::equip(request);
     };
 }

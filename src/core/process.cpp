@@ -211,6 +211,20 @@ std::string shell_text(const std::vector<std::string>& words) {
     return text;
 }
 
+std::vector<std::string> with_option(std::vector<std::string> words, const std::string& name,
+                                     const std::string& value) {
+    const auto found = std::ranges::find_if(
+        words, [&](const std::string& word) { return word == name || word.starts_with(name + "="); });
+    if (found == words.end()) {
+        words.insert(words.end(), {name, value});
+    } else if (*found != name) {
+        *found = name + "=" + value;
+    } else if (found + 1 != words.end()) {
+        found[1] = value;
+    }
+    return words;
+}
+
 std::string tail(const std::filesystem::path& file, int lines) {
     std::ifstream stream(file);
     std::deque<std::string> kept;

@@ -70,6 +70,10 @@ void begin_program();
 /// Words as one shell command, quoted where necessary.
 std::string shell_text(const std::vector<std::string>& words);
 
+/// The words of a command with this option at this value, in place of the one that they give it, if any.
+std::vector<std::string> with_option(std::vector<std::string> words, const std::string& name,
+                                     const std::string& value);
+
 /// The last `lines` lines of a text file; empty when it cannot be read.
 std::string tail(const std::filesystem::path& file, int lines);
 

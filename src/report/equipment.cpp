@@ -71,16 +71,10 @@ Sheet ranked_sheet(const EquipmentFacts& facts) {
     return sheet;
 }
 
-/// A row of what several signals bring together.
-std::vector<SheetCell> sum_row(const EquipmentFacts& facts, const EquippedSignal& sum) {
-    return {SheetCell(),
-            SheetCell(),
-            sum.so_far,
-            is_shown(sum.so_far),
-            SheetCell(),
-            share_cell(facts, sum),
-            detail::others_cell(facts, sum.others),
-            sum.signal};
+/// A row of what `equipped` signals bring together.
+std::vector<SheetCell> sum_row(const EquipmentFacts& facts, std::size_t equipped, const EquippedSignal& sum) {
+    return {equipped, sum.so_far, is_shown(sum.so_far), share_cell(facts, sum),
+            detail::others_cell(facts, sum.others)};
 }
 
 template <class Facts>
@@ -120,22 +114,33 @@ Sheet ranks_table(const EquipmentFacts& facts) {
                  {"", "Signal"},
                  {"", "Gain, s"},
                  {"", "Effect"},
-                 {"", "So far, s"},
-                 {"", "%"},
-                 {"", others_save(facts) ? "Others save, s" : "Others lose, s", Where::if_room},
                  {"", "Streets"}},
                 {}};
     for (const EquippedSignal& signal : facts.ranked)
         table.rows.push_back({table.rows.size() + 1, SignalNumber{signal.number}, signal.gain,
-                              is_shown(signal.gain), without_interval(signal.so_far),
-                              share_cell(facts, signal), others_cell(facts, signal.others), name_of(signal)});
-    if (facts.ranked.size() > 1) {
-        EquippedSignal chosen = facts.ranked.back();
-        chosen.signal = fmt::format("these {}", counted(facts.ranked.size(), "signal"));
-        table.rows.push_back(sum_row(facts, chosen));
-    }
-    table.rows.push_back(sum_row(facts, all_of(facts)));
+                              is_shown(signal.gain), name_of(signal)});
     return table;
+}
+
+Sheet curve_table(const EquipmentFacts& facts) {
+    Sheet table{{{"", "Signals"},
+                 {"", "Gain in all, s"},
+                 {"", "Effect"},
+                 {"", "%"},
+                 {"", others_save(facts) ? "Others save, s" : "Others lose, s", Where::if_room}},
+                {}};
+    for (const EquippedSignal& signal : facts.ranked)
+        table.rows.push_back(sum_row(facts, table.rows.size() + 1, signal));
+    table.rows.push_back(sum_row(facts, facts.signals, all_of(facts)));
+    return table;
+}
+
+Sheet event_sheet(const EquipmentFacts& facts) {
+    Sheet sheet{{{"event", "Events of a run"}, {"none", "None"}, {"chosen", "Chosen"}, {"more", "More"}}, {}};
+    for (const EquipEventFacts& event : facts.events)
+        sheet.rows.push_back(
+            {event.title, without_interval(event.none), without_interval(event.chosen), event.more});
+    return sheet;
 }
 
 Sheet candidate_sheet(const EquipmentFacts& facts) {
@@ -230,7 +235,11 @@ std::string equipment_text(const EquipmentFacts& facts) {
                 paragraph({detail::candidate_legend(facts)});
     if (!facts.pairs.empty())
         text += "\n" + detail::text_of(detail::pair_sheet(facts)) + paragraph({detail::pair_legend()});
-    text += "\n" + detail::text_of(detail::ranks_table(facts)) + paragraph({detail::ranks_legend(facts)});
+    if (!facts.ranked.empty())
+        text += "\n" + detail::text_of(detail::ranks_table(facts)) + paragraph({detail::ranks_legend(facts)});
+    text += "\n" + detail::text_of(detail::curve_table(facts)) + paragraph({detail::curve_legend(facts)});
+    if (!facts.events.empty())
+        text += "\n" + detail::text_of(detail::event_sheet(facts)) + paragraph({detail::event_legend(facts)});
     text += "\n" + paragraph(detail::circumstances_of(facts)) + "\n" + lines(detail::findings_of(facts));
     if (const std::string command = detail::study_command(facts); !command.empty())
         text += lines({detail::study_words}) + command + "\n";
@@ -262,6 +271,11 @@ std::string equipment_json(const EquipmentFacts& facts) {
                        {"baseline_s", estimate_json(facts.baseline_s)},
                        {"none_equipped_s", estimate_json(facts.none_s)},
                        {"all_equipped_s", estimate_json(facts.all_s)},
+                       {"fresh_trips", facts.split.trips},
+                       {"fresh_trips_passing", facts.split.passing},
+                       {"gain_of_passing_s", estimate_json(facts.split.passing_gain)},
+                       {"gain_of_not_passing_s", estimate_json(facts.split.other_gain)},
+                       {"events", detail::json_of(detail::event_sheet(facts))},
                        {"alone_s", estimate_json(facts.alone_s)},
                        {"candidates", detail::json_of(detail::candidate_sheet(facts))},
                        {"pairs", detail::json_of(detail::pair_sheet(facts))},

@@ -22,7 +22,8 @@ struct EquippedSignal {
         streets;  ///< Names of those that lead to it, with ` / ` between; text from a file. May be empty.
     /// Over those of better rank, s of EV time. The intervals of all ranks hold together (Bonferroni).
     analysis::MaybeEstimate gain;
-    /// Over no signal equipped; of the last rank with an interval.
+    /// Over no signal equipped. The intervals of all ranks but the last hold together, as those of `gain`;
+    /// that of the last holds alone.
     analysis::MaybeEstimate so_far;
     analysis::MaybeEstimate others;          ///< Time loss of the others over no signal equipped, s each.
     analysis::MaybeEstimate chosen_by = {};  ///< `gain` in the runs that decided; too high by the choice.
@@ -64,12 +65,25 @@ struct SignalsMet {
     std::string words() const;
 };
 
+/// An event of the fresh runs, number a run.
+struct EquipEventFacts {
+    std::string title;
+    analysis::MaybeEstimate none;    ///< With no signal equipped.
+    analysis::MaybeEstimate chosen;  ///< With all that were chosen.
+    analysis::MaybeEstimate more;    ///< `chosen` less `none`, paired.
+};
+
 /// Runs whose times say more of the simulation than of signals.
 struct UnsoundRuns {
     std::size_t runs = 0;           ///< All in traffic.
     std::size_t locked = 0;         ///< Of them, vehicles locked each other in them.
     std::size_t held_up = 0;        ///< Of these, locks held up an EV or one vehicle in a hundred.
     std::size_t lost_vehicles = 0;  ///< Emergency vehicles that did not arrive, in all.
+    std::uint64_t collisions = 0, vehicles = 0;  ///< In all.
+
+    bool say_little() const { return held_up + lost_vehicles > 0; }
+    /// `vehicles locked each other in 4 of 30 runs, 2 held up by it, and 1 EV did not arrive`, or empty.
+    std::string words() const;
 };
 
 /// Which signals to equip first, and what that is worth. Gains are restricted mean travel times of emergency
@@ -86,6 +100,9 @@ struct EquipmentFacts {
     std::uint64_t fresh_seed = 0;         ///< Of those that estimate.
     std::uint32_t replications = 0;
     double step_length_s = 0.0;  ///< Of the simulation.
+    double density = 1.0;        ///< `--density` of the command.
+    /// What works where no signal is equipped: policies that ask vehicles alone.
+    std::vector<std::string> other_parts = {};
     std::size_t budget = 0;
     SignalsMet met = {};
     std::size_t signals = 0;     ///< Of the network.
@@ -106,6 +123,8 @@ struct EquipmentFacts {
     analysis::MaybeEstimate all_gain;    ///< Every signal over none.
     analysis::MaybeEstimate all_others;
     std::vector<EquippedSignal> ranked;
+    analysis::GainSplit split = {};            ///< With all that were chosen over none.
+    std::vector<EquipEventFacts> events = {};  ///< Empty where none was chosen.
     analysis::EquipEnd end = analysis::EquipEnd::budget;
     std::optional<RoadMap> roads;  ///< Nothing where there is no map to draw.
 };

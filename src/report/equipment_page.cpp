@@ -205,7 +205,7 @@ Figure curve_figure(const EquipmentFacts& facts) {
     const bool has_order = detail::has_order(facts);
     std::vector<LegendEntry> legend = {line_entry(
         {0, Series::Weight::lead}, fmt::format("{}{}", has_order ? "the first signals" : "the chosen signals",
-                                               has_intervals ? ", with the 95 % interval" : ""))};
+                                               has_intervals ? ", with 95 % intervals" : ""))};
     if (facts.all_gain) {
         plot.line({{numbers.low, facts.all_gain->mean}, {numbers.high, facts.all_gain->mean}}, {2});
         legend.push_back(line_entry({2}, fmt::format("all of {}", counted(facts.signals, "signal"))));
@@ -285,7 +285,13 @@ void write_equipment_page(const EquipmentFacts& facts, std::ostream& page) {
         paragraphs({findings.front()}, "headline") + note(facts.assumptions) +
         detail::coarse_step_note(facts.step_length_s) + list_of({findings.begin() + 1, findings.end()}) +
         study_html(facts) + figures({detail::equipment_map_figure(facts), detail::curve_figure(facts)}) +
-        to_html(detail::data_table_of(detail::ranks_table(facts))) + note(detail::ranks_legend(facts));
+        (facts.ranked.empty() ? ""
+                              : to_html(detail::data_table_of(detail::ranks_table(facts))) +
+                                    note(detail::ranks_legend(facts))) +
+        to_html(detail::data_table_of(detail::curve_table(facts))) + note(detail::curve_legend(facts)) +
+        (facts.events.empty() ? ""
+                              : to_html(detail::data_table_of(detail::event_sheet(facts))) +
+                                    note(detail::event_legend(facts)));
     std::vector<detail::PageSection> sections = {{"equipment", "Which first", answer}};
     const std::string pairs =
         facts.pairs.empty()

@@ -15,6 +15,7 @@
 #include "report/detail/equipment_sheets.hpp"
 #include "report/equipment.hpp"
 #include "report/locks.hpp"
+#include "report/safety.hpp"
 #include "report/text.hpp"
 
 namespace clearway::report {
@@ -128,20 +129,31 @@ std::string seeds_sentence(const EquipmentFacts& facts) {
                        seeds);
 }
 
-/// `On the fresh seeds vehicles locked each other in 4 of 30 runs, 2 held up by it, and 1 EV did not arrive:
-/// ...`, or empty.
-std::string unsound_sentence(const UnsoundRuns& unsound) {
-    std::vector<std::string> words;
-    if (unsound.locked > 0)
-        words.push_back(fmt::format("vehicles locked each other in {} of {}, {} held up by it",
-                                    unsound.locked, counted(unsound.runs, "run"),
-                                    unsound.held_up == 0 ? "none" : std::to_string(unsound.held_up)));
-    if (unsound.lost_vehicles > 0)
-        words.push_back(fmt::format("{} did not arrive", counted(unsound.lost_vehicles, "EV")));
-    if (words.empty()) return "";
-    const std::string text = fmt::format("On the fresh seeds {}", fmt::join(words, ", and "));
-    if (unsound.held_up + unsound.lost_vehicles == 0) return text + ".";
-    return fmt::format("{}: such runs say little of signals. Less traffic: {}.", text, less_traffic);
+/// `On the fresh seeds vehicles locked each other in 4 of 30 runs, ...`, or empty.
+std::string unsound_sentence(const EquipmentFacts& facts) {
+    if (facts.unsound.words().empty()) return "";
+    const std::string text = "On the fresh seeds " + facts.unsound.words();
+    if (!facts.unsound.say_little()) return text + ".";
+    return fmt::format("{}: such runs say little of signals. Less traffic: --density {}, or less.", text,
+                       less_density(facts.density));
+}
+
+/// `Of 60 fresh trips 45 (75 %) pass a chosen signal and gain 12.3 [8.1, 16.5] s each (shown); the others
+/// gain
+/// ...`
+std::string split_sentence(const EquipmentFacts& facts) {
+    const analysis::GainSplit& split = facts.split;
+    if (split.trips == 0) return "";
+    if (split.passing == 0) return "No fresh trip passes a chosen signal.";
+    const auto gain = [](const analysis::MaybeEstimate& value) {
+        return fmt::format("gain {} s each ({})", estimate_or_dash(value), shown_word(value));
+    };
+    const std::string others =
+        split.passing == split.trips ? "" : fmt::format("; the other trips {}", gain(split.other_gain));
+    return fmt::format("Of {} on the fresh seeds {} ({:.0f} %) pass a chosen signal and {}{}.",
+                       counted(split.trips, "trip"), split.passing,
+                       100.0 * static_cast<double>(split.passing) / static_cast<double>(split.trips),
+                       gain(split.passing_gain), others);
 }
 
 /// A rank that few trips pass rests on them alone.
@@ -184,10 +196,11 @@ std::string passed_over_sentence(const EquipmentFacts& facts) {
 
 /// Why no number of seeds makes more of a map that has little to choose from.
 std::string small_map_sentence(const EquipmentFacts& facts) {
+    const std::size_t passed = facts.candidates.size() + facts.seldom_passed;
     std::vector<std::string> why;
-    if (facts.ranked.size() + 1 >= facts.candidates.size())
+    if (facts.ranked.size() + 1 >= passed)
         why.push_back(fmt::format("the {} chosen are nearly all of its {} that EVs pass", facts.ranked.size(),
-                                  counted(facts.candidates.size(), "signal")));
+                                  counted(passed, "signal")));
     if (2 * facts.met.trips_with_signals < facts.met.trips)
         why.push_back(fmt::format("only {} of {} pass one", facts.met.trips_with_signals,
                                   counted(facts.met.trips, "EV trip")));
@@ -373,19 +386,14 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts) {
         sentences.push_back(fmt::format("No signal to equip: in the mean of the runs none of the {} gains.",
                                         counted(facts.candidates.size(), "candidate")));
     } else {
-        sentences = {headline(facts),
-                     has_order(facts) ? "" : small_map_sentence(facts),
-                     chosen_sentence(facts),
-                     gain_sentence(facts),
-                     no_effect_sentence(facts),
-                     together_sentence(facts),
-                     not_shown_sentence(facts),
-                     unchanged_sentence(facts),
-                     passed_over_sentence(facts),
-                     few_trips_sentence(facts),
-                     seeds_sentence(facts)};
+        sentences = {headline(facts),           has_order(facts) ? "" : small_map_sentence(facts),
+                     chosen_sentence(facts),    gain_sentence(facts),
+                     split_sentence(facts),     no_effect_sentence(facts),
+                     together_sentence(facts),  not_shown_sentence(facts),
+                     unchanged_sentence(facts), passed_over_sentence(facts),
+                     few_trips_sentence(facts), seeds_sentence(facts)};
     }
-    sentences.push_back(unsound_sentence(facts.unsound));
+    sentences.push_back(unsound_sentence(facts));
     sentences.push_back(end_sentence(facts));
     sentences.push_back(share_sentence(facts));
     std::erase(sentences, "");
@@ -400,9 +408,14 @@ std::string study_command(const EquipmentFacts& facts) {
     for (const EquippedSignal& signal : facts.ranked)
         if (are_all_chance || !is_chance(facts, signal)) signals.push_back(fmt::format("#{}", signal.number));
     std::vector<std::string> words = facts.study;
-    if (const std::size_t seeds = seeds_to_show(facts);
-        seeds > 0 && seeds <= analysis::most_equip_replications)
-        words.insert(words.end(), {"--seeds", std::to_string(seeds)});
+    const std::size_t to_show = seeds_to_show(facts);
+    const std::size_t seeds = to_show <= analysis::most_equip_replications
+                                  ? std::max<std::size_t>(to_show, facts.replications)
+                                  : facts.replications;
+    if (seeds > analysis::fewest_replications)
+        words = core::with_option(words, "--seeds", std::to_string(seeds));
+    if (facts.unsound.say_little())
+        words = core::with_option(words, "--density", less_density(facts.density));
     words.insert(words.end(), {"--set", fmt::format("actuation.equipped={}", fmt::join(signals, ","))});
     return printable(core::shell_text(words));
 }
@@ -446,12 +459,44 @@ std::string pair_legend() {
 std::string ranks_legend(const EquipmentFacts& facts) {
     return fmt::format(
         "{}Gain: over the rows before, in fresh runs, seed {}, so that the choice does not flatter it [95 %, "
-        "all rows together (Bonferroni)]; of several signals, over {} [95 %]. %: of the gain of all.",
-        has_order(facts) ? "" : "Steps of the search; no order is shown. ", facts.fresh_seed,
-        start_of(facts));
+        "all rows together (Bonferroni)].",
+        has_order(facts) ? "" : "Steps of the search; no order is shown. ", facts.fresh_seed);
+}
+
+std::string curve_legend(const EquipmentFacts& facts) {
+    const std::string rows = facts.ranked.empty()
+                                 ? fmt::format("All {}", counted(facts.signals, "signal"))
+                                 : fmt::format("So many of the first together, in the last row all {}",
+                                               counted(facts.signals, "signal"));
+    const std::string parts =
+        facts.other_parts.empty()
+            ? ""
+            : fmt::format(" There, {} of {} {} all the same: these gains are of signals alone.",
+                          fmt::join(facts.other_parts, " and "), facts.condition,
+                          facts.other_parts.size() == 1 ? "works" : "work");
+    return fmt::format("{}, over {} [95 %{}].{}{}", rows, start_of(facts),
+                       facts.ranked.size() > 1 ? "; of fewer than all chosen as their gains" : "",
+                       is_shown(facts.all_gain) ? " %: of the gain of all." : "", parts);
+}
+
+std::string event_legend(const EquipmentFacts& facts) {
+    return fmt::format("Fresh runs with {}, with all chosen, and the difference [95 %].{}", start_of(facts),
+                       collide_by_model(facts.unsound.collisions, facts.unsound.vehicles)
+                           ? " So many collisions are made by the model of drivers: they say nothing of "
+                             "safety."
+                           : "");
 }
 
 }  // namespace detail
+
+std::string UnsoundRuns::words() const {
+    std::vector<std::string> words;
+    if (locked > 0)
+        words.push_back(fmt::format("vehicles locked each other in {} of {}, {} held up by it", locked,
+                                    counted(runs, "run"), held_up == 0 ? "none" : std::to_string(held_up)));
+    if (lost_vehicles > 0) words.push_back(fmt::format("{} did not arrive", counted(lost_vehicles, "EV")));
+    return fmt::format("{}", fmt::join(words, ", and "));
+}
 
 std::string SignalsMet::words() const {
     if (trips == 0) return "No EV has a trip in these seeds.";

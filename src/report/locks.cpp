@@ -14,6 +14,10 @@ std::string needed(const MaybeEstimate& difference, double half_width) {
 
 }  // namespace
 
+std::string less_density(double density) {
+    return fmt::format("{:.2g}", less_traffic_factor * density);
+}
+
 std::string lock_remedy(Blockers blockers, const std::string& less) {
     if (blockers == Blockers::ignored)
         return fmt::format("less traffic: {}, or a look at the junction in netedit", less);

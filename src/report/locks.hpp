@@ -16,7 +16,11 @@ std::string longest_words(std::uint64_t locks, double longest_s);
 std::string lock_words(const analysis::ConditionSummary& condition);
 
 /// Whatever the density is, which multiplies that of the scenario's file.
+inline constexpr double less_traffic_factor = 0.8;
 inline constexpr const char* less_traffic = "0.8 times the present --density, or less";
+
+/// The value of `--density` that makes traffic less where the present one is `density`: `0.8`.
+std::string less_density(double density);
 
 /// What makes locks fewer. `less`: how to get less traffic, `--density 0.7`. Plain text.
 std::string lock_remedy(Blockers blockers, const std::string& less = less_traffic);

@@ -256,5 +256,27 @@ TEST(Equipment, OfSignalsThatChangeNothingIsShownAsSeldomAsPromised) {
     EXPECT_GE(shown, trials * 10 / 1000) << "wider than promised";
 }
 
+TEST(GainSplit, TellsTripsThatPassFromTheOthers) {
+    // Those that pass gain 10 and 4 s, then 20 s; the others -1 and 0 s. c is missing after, e before.
+    const std::vector<TripTimes> before = {
+        {{"a", 100.0}, {"b", 80.0}, {"c", 10.0}, {"d", 50.0}}, {{"a", 90.0}, {"d", 60.0}}, {}};
+    const std::vector<TripTimes> after = {
+        {{"a", 90.0}, {"b", 76.0}, {"d", 51.0}}, {{"a", 70.0}, {"d", 60.0}, {"e", 5.0}}, {{"a", 1.0}}};
+    const GainSplit split = split_gain(before, after, {{"a", "b", "c"}, {"a"}, {"a"}});
+    EXPECT_EQ(split.trips, 5U);
+    EXPECT_EQ(split.passing, 3U);
+    EXPECT_DOUBLE_EQ(split.passing_gain->mean, 34.0 / 3.0) << "a trip, not a replication";
+    EXPECT_DOUBLE_EQ(split.other_gain->mean, -0.5);
+    EXPECT_EQ(split.passing_gain->n, 2U) << "the third replication has no pair";
+    // The replications deviate by -+(34 / 3 * 2 - 14) / 1.5; t(1) is 12.706.
+    EXPECT_NEAR(split.passing_gain->interval->half_width(), 12.706 * (68.0 / 3.0 - 14.0) / 1.5, 0.01);
+}
+
+TEST(GainSplit, HasNoGainOfTripsThatAreNotThere) {
+    const GainSplit split = split_gain({{{"a", 9.0}}}, {{{"a", 8.0}}}, {{"a"}});
+    EXPECT_DOUBLE_EQ(split.passing_gain->mean, 1.0);
+    EXPECT_FALSE(split.other_gain);
+}
+
 }  // namespace
 }  // namespace clearway::analysis

@@ -39,6 +39,16 @@ TEST(EstimateMean, HasNoIntervalForOneValueAndNothingForNone) {
     EXPECT_FALSE(one->interval);
 }
 
+TEST(EstimateRatio, OfClustersOfOneSizeIsTheMeanOfTheirMeans) {
+    const std::vector<double> sums = {2.0, 8.0, 0.0, 5.0};
+    const auto ratio = estimate_ratio(sums, std::vector{2.0, 2.0, 0.0, 2.0});
+    const auto mean = estimate_mean(std::vector{1.0, 4.0, 2.5});
+    EXPECT_EQ(ratio->n, 3U) << "an empty cluster says nothing";
+    EXPECT_DOUBLE_EQ(ratio->mean, mean->mean);
+    EXPECT_DOUBLE_EQ(ratio->interval->low, mean->interval->low);
+    EXPECT_FALSE(estimate_ratio(std::vector{0.0}, std::vector{0.0}));
+}
+
 TEST(RelativeDifference, IsTheDifferenceOverTheBaselinesMean) {
     const std::vector<double> baseline = {100.0, 120.0, 140.0};
     const std::vector<double> condition = {80.0, 90.0, 130.0};

@@ -66,6 +66,16 @@ TEST_F(EquipTest, ranks_signals_and_continues_in_its_folder_without_new_runs) {
     EXPECT_LT(mean(json, "all_equipped_s"), mean(json, "none_equipped_s"));
     EXPECT_EQ(json.at("candidates").size(), 2U);
     ASSERT_FALSE(json.at("ranked").empty());
+    EXPECT_EQ(json.at("fresh_trips"), 5);
+    EXPECT_EQ(json.at("fresh_trips_passing"), 5);
+    EXPECT_DOUBLE_EQ(mean(json, "gain_of_passing_s"), mean(json.at("ranked").back(), "gain_so_far_s"))
+        << "all pass";
+    EXPECT_TRUE(json.at("gain_of_not_passing_s").is_null());
+    EXPECT_EQ(json.at("events").at(0).at("event"), "Collisions");
+    EXPECT_EQ(json.at("events").at(0).at("more").at("pairs"), 5);
+    const auto& first_rank = json.at("ranked").front();
+    EXPECT_EQ(first_rank.at("gain_so_far_s"), first_rank.at("gain_s")) << "one quantity, one interval";
+    EXPECT_TRUE(first_rank.at("gain_so_far_s").at("low").is_number());
     double so_far_s = 0.0;
     for (const auto& row : json.at("ranked")) {
         so_far_s += mean(row, "gain_s");
@@ -309,6 +319,34 @@ TEST_F(EquipTest, prints_a_command_that_runs_whatever_the_order_of_the_words) {
                      "./crossings"},
                     "last"),
               kept);
+}
+
+TEST_F(EquipTest, keeps_the_options_of_the_command_in_that_of_the_study) {
+    const Ended ended = clearway({"equip", "./crossings", "--budget", "1", "--seeds", "12", "--jobs", "1",
+                                  "--memory-limit", "9000", "--density", "0.5", "--out", "out"});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    EXPECT_THAT(
+        fmt::format("{}", fmt::join(words_of_last_line(ended.out), " ")),
+        HasSubstr("run ./crossings --jobs 1 --memory-limit 9000 --density 0.5 --condition corridor --name "
+                  "chosen --seed 3 --seeds 12 --set"));
+    EXPECT_THAT(ended.err, Not(HasSubstr("say little of signals")));
+}
+
+TEST_F(EquipTest, warns_after_the_first_round_of_runs_that_say_little_with_a_command_for_less_traffic) {
+    const std::vector<std::string> short_horizon = {"--horizon", "90", "--density", "0.5"};
+    EXPECT_THAT(equip({"--dry-run"}).out, HasSubstr("--lock-trials 6"));
+    const Ended ended = equip(short_horizon);
+    const std::string calmer =
+        "clearway equip ./crossings --budget 2 --seeds 5 --out out-density-0.4 --horizon 90 "
+        "--density 0.4";
+    EXPECT_THAT(ended.err,
+                testing::ContainsRegex("In the first round [0-9]+ EVs? did not arrive: such runs"));
+    EXPECT_THAT(ended.err, HasSubstr("\n  " + calmer + "\n"));
+    EXPECT_LT(ended.err.find(calmer), ended.err.find("fresh seeds")) << "before the rest is run";
+    std::vector<std::string> dry = short_horizon;
+    dry.emplace_back("--dry-run");
+    EXPECT_THAT(equip(dry).out, AllOf(HasSubstr("In the first round"), HasSubstr("--density 0.4"),
+                                      Not(HasSubstr("--lock-trials"))));
 }
 
 TEST_F(EquipTest, tries_only_the_signals_that_most_emergency_vehicles_pass_where_that_is_wanted) {

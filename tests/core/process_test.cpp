@@ -217,5 +217,16 @@ TEST_F(ProcessTest, KnowsItsOwnFolder) {
     EXPECT_TRUE(std::filesystem::exists(program_folder() / "core_test"));
 }
 
+TEST(WithOption, ReplacesWhatACommandSaysOrAddsIt) {
+    using Words = std::vector<std::string>;
+    const Words bare = {"run", "town"};
+    EXPECT_EQ(with_option(bare, "--density", "0.8"), (Words{"run", "town", "--density", "0.8"}));
+    EXPECT_EQ(with_option({"run", "--density", "2", "town"}, "--density", "0.8"),
+              (Words{"run", "--density", "0.8", "town"}));
+    EXPECT_EQ(with_option({"run", "--density=2", "town"}, "--density", "0.8"),
+              (Words{"run", "--density=0.8", "town"}));
+    EXPECT_EQ(with_option({"run", "--densityx=2"}, "--density", "1").size(), 4U) << "another option";
+}
+
 }  // namespace
 }  // namespace clearway::core

@@ -89,8 +89,9 @@ TEST(Equipment, HasARowForEachCandidateAndRankInEightyColumns) {
     EXPECT_THAT(text, HasSubstr("31.0 [27.0, 35.0]  shown"));
     EXPECT_THAT(text, HasSubstr("1.0 [-1.0, 3.0]  not shown      5"));
     EXPECT_THAT(text, HasSubstr("30.0 [26.0, 34.0]  shown"));
-    EXPECT_THAT(text, HasSubstr("12.0 [-1.0, 25.0]  not shown       42.0   84"));
-    EXPECT_THAT(text, HasSubstr("42.0 [38.0, 46.0]  shown              -   84  1.0 [0.6, 1.4]"))
+    EXPECT_THAT(text, HasSubstr("12.0 [-1.0, 25.0]  not shown"));
+    EXPECT_THAT(text, testing::ContainsRegex(
+                          "\n +2  42\\.0 \\[38\\.0, 46\\.0\\]  shown +84  1\\.0 \\[0\\.6, 1\\.4\\]"))
         << "of both, with the cost to the others";
     EXPECT_EQ(count_of(text, "42.0 [38.0, 46.0]"), 2U) << "in the row of both and in the answer";
     EXPECT_LT(text.find("31.0 ["), text.find("1.0 [-1.0, 3.0]")) << "the greatest gain first";
@@ -104,7 +105,7 @@ TEST(Equipment, HasNamesInFullBelowTheirRowsWhereALineHasNoRoom) {
     EXPECT_THAT(text, HasSubstr("\n      south of the old town's gate\n"));
     EquipmentFacts wide = two_of_twelve();
     for (EquippedSignal& signal : wide.ranked)
-        signal.gain = signal.so_far = signal.others = about(1000.0, 12345.0);
+        signal.gain = signal.so_far = signal.others = about(1000.0, 123456.0);
     for (const std::string& line : lines_of(equipment_text(wide)))
         EXPECT_LE(line.size(), 80U) << line;
     EXPECT_THAT(equipment_text(wide), Not(HasSubstr("Others lose, s"))) << "no room for it";
@@ -132,6 +133,85 @@ TEST(Equipment, SaysThatTheOthersSaveTimeWhereThatIsShown) {
                          .at("mean")
                          .get<double>(),
                      -3.0);
+}
+
+TEST(Equipment, TellsWhatTripsGainThatPassAChosenSignal) {
+    EquipmentFacts facts = two_of_twelve();
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("pass a chosen signal")));
+    facts.split = {60, 45, about(56.0, 6.0), about(0.4, 1.0)};
+    EXPECT_THAT(flat_text(facts),
+                HasSubstr("Of 60 trips on the fresh seeds 45 (75 %) pass a chosen signal and gain "
+                          "56.0 [50.0, 62.0] s each (shown); the other trips gain 0.4 [-0.6, "
+                          "1.4] s each (not shown)."));
+    const auto json = nlohmann::json::parse(equipment_json(facts));
+    EXPECT_EQ(json.at("fresh_trips_passing"), 45);
+    EXPECT_DOUBLE_EQ(json.at("gain_of_passing_s").at("low").get<double>(), 50.0);
+    std::ostringstream page;
+    write_equipment_page(facts, page);
+    EXPECT_THAT(page.str(), HasSubstr("<li>Of 60 trips on the fresh seeds 45 (75 %)"));
+    facts.split.passing = 60;
+    EXPECT_THAT(flat_text(facts),
+                HasSubstr("60 (100 %) pass a chosen signal and gain 56.0 [50.0, 62.0] s each "
+                          "(shown)."));
+    facts.split.passing = 0;
+    EXPECT_THAT(flat_text(facts), HasSubstr("No fresh trip passes a chosen signal."));
+}
+
+TEST(Equipment, HasCollisionsAndTeleportsBesideTheCost) {
+    EquipmentFacts facts = two_of_twelve();
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("Events of a run")));
+    facts.events = {{"Collisions", about(1.0, 0.5), about(1.5, 0.5), about(0.5, 0.6)},
+                    {"Teleports", about(0.0, 0.0), about(0.0, 0.0), about(0.0, 0.3)}};
+    facts.unsound = {.runs = 30, .collisions = 10, .vehicles = 1000};
+    EXPECT_THAT(equipment_text(facts),
+                testing::ContainsRegex("\nCollisions +1\\.0 +1\\.5 +0\\.5 \\[-0\\.1, 1\\.1\\]\nTeleports "));
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("nothing of safety")));
+    EXPECT_EQ(nlohmann::json::parse(equipment_json(facts)).at("events").at(0).at("more").at("mean"), 0.5);
+    facts.unsound.collisions = 11;
+    EXPECT_THAT(flat_text(facts), HasSubstr("So many collisions are made by the model of drivers: they say "
+                                            "nothing of safety."));
+    std::ostringstream page;
+    write_equipment_page(facts, page);
+    EXPECT_THAT(page.str(), AllOf(HasSubstr("Events of a run"), HasSubstr("nothing of safety")));
+}
+
+TEST(Equipment, SaysWhatWorksWhereNoSignalIsEquipped) {
+    EquipmentFacts facts = two_of_twelve();
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("all the same")));
+    facts.other_parts = {"clear_lane", "give_way"};
+    const std::string sentence =
+        "over no signal equipped [95 %; of fewer than all chosen as their gains]. %: of the gain of all. There, "
+        "clear_lane and give_way of corridor work all the same: these gains are of signals alone.";
+    EXPECT_THAT(flat_text(facts), HasSubstr(sentence));
+    std::ostringstream page;
+    write_equipment_page(facts, page);
+    EXPECT_THAT(page.str(), HasSubstr(sentence));
+}
+
+TEST(Equipment, HasAnIntervalAtEachStepOfTheCurve) {
+    EquipmentFacts facts = two_of_twelve();
+    EXPECT_THAT(equipment_text(facts),
+                testing::ContainsRegex("\n +1  30\\.0 \\[26\\.0, 34\\.0\\]  shown +60 "));
+    const std::string with = equipment_curve(facts);
+    EXPECT_THAT(with, HasSubstr("with 95 % intervals"));
+    facts.ranked[0].so_far->interval.reset();
+    EXPECT_LT(equipment_curve(facts).size(), with.size()) << "the mark of its interval";
+}
+
+TEST(Equipment, LeavesOutAColumnThatSaysNothing) {
+    EquipmentFacts facts = two_of_twelve();
+    const auto has_share = [&] {
+        std::ostringstream page;
+        write_equipment_page(facts, page);
+        EXPECT_EQ(equipment_text(facts).find("of the gain of all") != std::string::npos,
+                  page.str().find(">%</th>") != std::string::npos);
+        for (const std::string& line : lines_of(equipment_text(facts)))
+            if (line.starts_with("Signals ")) return line.find(" % ") != std::string::npos;
+        return false;
+    };
+    EXPECT_TRUE(has_share());
+    facts.all_gain = about(50.0, 51.0);
+    EXPECT_FALSE(has_share());
 }
 
 TEST(Equipment, HasPairsThatWereTriedTogether) {
@@ -176,7 +256,7 @@ TEST(Equipment, EndsWithTheAnswer) {
     EXPECT_THAT(equipment_text(two_of_twelve()),
                 testing::EndsWith(":\nclearway run town --set 'actuation.equipped=#4,#9'\n"));
     EXPECT_THAT(text, HasSubstr("Stopped at 2 of 5"));
-    EXPECT_THAT(text, testing::ContainsRegex("- +- +50\\.0 .* all signals")) << "no rank 12";
+    EXPECT_THAT(equipment_text(two_of_twelve()), testing::ContainsRegex("\n +12  50\\.0 \\["));
     EXPECT_LE(answer.size(), 8U * 80U) << "eight lines at the end of a terminal";
 }
 
@@ -198,7 +278,12 @@ TEST(Equipment, SaysWhatItsFreshRunsAreWorthAndHowFewTripsDecided) {
         flat_text(facts),
         HasSubstr(
             "On the fresh seeds vehicles locked each other in 4 of 30 runs, 2 held up by it, and 1 EV did "
-            "not arrive: such runs say little of signals. Less traffic: 0.8 times"));
+            "not arrive: such runs say little of signals. Less traffic: --density 0.8, or less."));
+    EXPECT_THAT(equipment_text(facts),
+                testing::EndsWith(" run town --density 0.8 --set 'actuation.equipped=#4,#9'\n"));
+    facts.density = 1.5;
+    facts.study.insert(facts.study.end(), {"--density", "1.5"});
+    EXPECT_THAT(equipment_text(facts), HasSubstr("\nclearway run town --density 1.2 --set"));
     EXPECT_EQ(nlohmann::json::parse(equipment_json(facts)).at("fresh_runs_with_locks"), 4);
     facts.unsound = {30, 4, 0, 0};
     EXPECT_THAT(flat_text(facts), AllOf(HasSubstr("locked each other in 4 of 30 runs, none held up by it."),
@@ -256,6 +341,9 @@ TEST(Equipment, NamesNoOrderWhereNothingIsShown) {
                       HasSubstr("About 73 seeds would likely (80 %) show the gain of all")));
     facts.ranked[1].so_far->mean = 0.1;
     EXPECT_THAT(flat_text(facts), HasSubstr("It would take more than 1000 seeds to show so small a gain"));
+    facts.replications = 30;
+    EXPECT_THAT(flat_text(facts), HasSubstr("clearway run town --seeds 30 --set"))
+        << "as many as were asked for";
     facts.ranked[1].so_far = about(0.0, 0.0);
     facts.ranked[1].so_far->deviation = 0.0;
     EXPECT_THAT(flat_text(facts), HasSubstr("In these runs no trip of an EV was changed"));
@@ -311,6 +399,9 @@ TEST(Equipment, SaysWhatASmallMapCannotDecide) {
     facts.met = {8, 5, 15};
     EXPECT_THAT(flat_text(facts), Not(HasSubstr("This map can hardly")))
         << "two of four, most trips pass one";
+    facts.candidates.pop_back();
+    facts.seldom_passed = 1;
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("This map can hardly"))) << "EVs pass four here too";
     EXPECT_THAT(flat_text(two_of_twelve()), Not(HasSubstr("This map can hardly"))) << "it has decided";
 }
 
@@ -538,7 +629,7 @@ TEST(Equipment, HasAPageWithAnswerMapTablesAndCommand) {
                   "the others lose [^.]* s each \\(not shown\\)|the others lose .* s each \\(shown\\)")));
     EXPECT_THAT(html, Not(HasSubstr("north<&>")));
     EXPECT_THAT(html, HasSubstr("south of the old town&#39;s gate"));
-    EXPECT_EQ(count_of(html, "<th scope=\"row\">"), 7U) << "3 candidates, 2 ranks, both and all signals";
+    EXPECT_EQ(count_of(html, "<th scope=\"row\">"), 8U) << "3 candidates, 2 ranks, 1, 2 and all signals";
     EXPECT_THAT(html,
                 AllOf(HasSubstr("<li>Not shown: what #9 adds."),
                       HasSubstr("<code>clearway run town --set &#39;actuation.equipped=#4,#9&#39;</code>")));

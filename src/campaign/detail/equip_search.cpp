@@ -79,7 +79,8 @@ EquipQuestion question_of(const study::StudyConfig& config, const EquipRequest& 
                            .passed = signals.candidates.passed,
                            .pairs = signals.candidates.neighbours,
                            .budget = request.budget,
-                           .search = request.search};
+                           .search = request.search,
+                           .calmer = request.calmer};
     question.base.settings.erase(experiment::equipped_setting);  // with all equipped
     analysis::SignalSet all;
     for (std::size_t candidate = 0; candidate < signals.candidates.signals.size(); ++candidate) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "campaign/equip.hpp"
+#include "campaign/equip_candidates.hpp"
 #include "campaign/equip_rounds.hpp"
 #include "scenario/network.hpp"
 #include "study/config.hpp"

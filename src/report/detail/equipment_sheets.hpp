@@ -11,8 +11,11 @@ namespace clearway::report::detail {
 /// Of the gain of all signals: how many signals bring it is said.
 inline constexpr double great_share = 0.8;
 
-/// The ranks for people, then what they and all signals bring together.
+/// The ranks for people.
 Sheet ranks_table(const EquipmentFacts& facts);
+/// What the first signals bring together, a row for each number of them, then what all bring.
+Sheet curve_table(const EquipmentFacts& facts);
+Sheet event_sheet(const EquipmentFacts& facts);
 /// The greatest gain first.
 Sheet candidate_sheet(const EquipmentFacts& facts);
 Sheet pair_sheet(const EquipmentFacts& facts);
@@ -34,6 +37,8 @@ inline constexpr const char* study_words = "To study these signals on other seed
 std::vector<std::string> circumstances_of(const EquipmentFacts& facts);
 /// How the columns are to be read.
 std::string ranks_legend(const EquipmentFacts& facts);
+std::string curve_legend(const EquipmentFacts& facts);
+std::string event_legend(const EquipmentFacts& facts);
 std::string candidate_legend(const EquipmentFacts& facts);
 std::string pair_legend();
 

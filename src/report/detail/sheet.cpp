@@ -73,6 +73,15 @@ bool is_estimate(const Sheet& sheet, std::size_t column) {
     return !sheet.rows.empty() && std::holds_alternative<MaybeEstimate>(sheet.rows.front()[column]);
 }
 
+/// Whether people see a column: not if nothing can be said in any of its rows.
+bool is_visible(const Sheet& sheet, std::size_t column) {
+    const auto is_empty = [&](const std::vector<SheetCell>& row) {
+        return std::holds_alternative<std::monostate>(row[column]);
+    };
+    return sheet.columns[column].shown != SheetColumn::Shown::in_data &&
+           (sheet.rows.empty() || !std::ranges::all_of(sheet.rows, is_empty));
+}
+
 bool holds_text(const Sheet& sheet, std::size_t column) {
     return std::ranges::any_of(sheet.rows, [&](const std::vector<SheetCell>& row) {
         return std::holds_alternative<std::string>(row[column]) || std::holds_alternative<bool>(row[column]);
@@ -97,7 +106,7 @@ struct TextColumn {
 std::vector<TextColumn> text_columns(const Sheet& sheet) {
     std::vector<TextColumn> columns;
     for (std::size_t at = 0; at < sheet.columns.size(); ++at) {
-        if (sheet.columns[at].shown == SheetColumn::Shown::in_data) continue;
+        if (!is_visible(sheet, at)) continue;
         TextColumn column{{sheet.columns[at].title}, holds_text(sheet, at)};
         column.if_room = sheet.columns[at].shown == SheetColumn::Shown::if_room;
         for (const std::vector<SheetCell>& row : sheet.rows) {
@@ -188,13 +197,12 @@ std::string text_of(const Sheet& sheet) {
 
 DataTable data_table_of(const Sheet& sheet) {
     DataTable table;
-    for (const SheetColumn& column : sheet.columns)
-        if (column.shown != SheetColumn::Shown::in_data) table.head.push_back(column.title);
+    for (std::size_t at = 0; at < sheet.columns.size(); ++at)
+        if (is_visible(sheet, at)) table.head.push_back(sheet.columns[at].title);
     for (const std::vector<SheetCell>& row : sheet.rows) {
         std::vector<std::string>& cells = table.rows.emplace_back();
         for (std::size_t at = 0; at < row.size(); ++at)
-            if (sheet.columns[at].shown != SheetColumn::Shown::in_data)
-                cells.push_back(cell_words(row[at], Script::typeset));
+            if (is_visible(sheet, at)) cells.push_back(cell_words(row[at], Script::typeset));
     }
     return table;
 }
