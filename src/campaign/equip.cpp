@@ -141,11 +141,12 @@ report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipReq
     facts.budget = request.budget;
     facts.signals = signals.built.network.signals().size();
     facts.met = signals.candidates.met;
+    facts.outlook = scenario::outlook_sentence(signals.candidates.outlook);
     facts.not_passed = signals.candidates.not_passed;
     facts.switched_off = signals.candidates.switched_off;
     facts.equipped_today = signals.ids_of_today();
     facts.equipped_and_passed = signals.candidates.equipped;
-    facts.seldom_passed = signals.candidates.seldom_passed;
+    facts.less_red = signals.candidates.less_red;
     return facts;
 }
 

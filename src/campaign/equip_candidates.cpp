@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <utility>
 
 #include "campaign/detail/emergency_trips.hpp"
 #include "core/temporary_folder.hpp"
@@ -48,6 +49,14 @@ void for_each_demand(const study::StudyConfig& config, const scenario::BuiltNetw
     }
 }
 
+scenario::Outlook outlook_of(const roads::Network& network, const scenario::Prepared& prepared) {
+    std::vector<std::vector<std::string>> ways;
+    for (const traffic::EmergencyDeparture& departure : prepared.emergency)
+        ways.push_back(departure.edges);
+    return scenario::outlook(network, ways, scenario::planned_routes(prepared.route_files.front(), network),
+                             prepared.time.window_s);
+}
+
 }  // namespace
 
 EquipCandidates equip_candidates(const study::StudyConfig& config, const scenario::BuiltNetwork& built,
@@ -55,6 +64,7 @@ EquipCandidates equip_candidates(const study::StudyConfig& config, const scenari
     const detail::Crossings crossings = detail::crossings_of(built.network);
     EquipCandidates candidates;
     std::map<core::SignalIndex, std::size_t> trips;  // of emergency vehicles that pass
+    std::map<core::SignalIndex, double> red_s;       // of all of them
     std::vector<std::set<core::SignalIndex>> passed(config.replications);
     std::vector<std::vector<core::SignalIndex>> ways;
     for_each_demand(config, built, [&](std::uint32_t replication, const scenario::Prepared& prepared) {
@@ -65,7 +75,10 @@ EquipCandidates equip_candidates(const study::StudyConfig& config, const scenari
             candidates.met.add(way.size());
             for (const core::SignalIndex signal : way)
                 ++trips[signal];
+            for (const auto& [signal, wait_s] : scenario::red_waits_s(built.network, departure.edges))
+                red_s[signal] += wait_s;
         }
+        if (replication == 0) candidates.outlook = outlook_of(built.network, prepared);
     });
     candidates.not_passed = built.network.signals().size() - trips.size();
     candidates.switched_off = std::erase_if(trips, [&](const auto& one) {
@@ -76,8 +89,10 @@ EquipCandidates equip_candidates(const study::StudyConfig& config, const scenari
     for (const auto& [signal, count] : trips)
         candidates.signals.push_back(signal);
     if (candidates.signals.size() > most) {
-        candidates.seldom_passed = candidates.signals.size() - most;
-        std::ranges::stable_sort(candidates.signals, std::greater{}, [&](auto one) { return trips.at(one); });
+        candidates.less_red = candidates.signals.size() - most;
+        // Found more of the signals that gain most alone than the number of trips, in three networks.
+        std::ranges::stable_sort(candidates.signals, std::greater{},
+                                 [&](core::SignalIndex one) { return std::pair(red_s[one], trips.at(one)); });
         candidates.signals.resize(most);
         std::ranges::sort(candidates.signals);
     }

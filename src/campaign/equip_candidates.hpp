@@ -10,6 +10,7 @@
 #include "core/ids.hpp"
 #include "report/equipment.hpp"
 #include "scenario/network.hpp"
+#include "scenario/outlook.hpp"
 #include "study/config.hpp"
 
 namespace clearway::campaign {
@@ -23,15 +24,17 @@ struct EquipCandidates {
     /// Candidates that follow each other on ways, the most driven first, six at most.
     std::vector<std::array<std::size_t, 2>> neighbours;
     report::SignalsMet met;
-    std::size_t not_passed = 0;     ///< No emergency vehicle passes them.
-    std::size_t equipped = 0;       ///< Passed, but equipped today.
-    std::size_t switched_off = 0;   ///< Passed, but their preemption parameters have `enabled` 0.
-    std::size_t seldom_passed = 0;  ///< More emergency vehicles pass each of `most` others.
+    std::size_t not_passed = 0;      ///< No emergency vehicle passes them.
+    std::size_t equipped = 0;        ///< Passed, but equipped today.
+    std::size_t switched_off = 0;    ///< Passed, but their preemption parameters have `enabled` 0.
+    std::size_t less_red = 0;        ///< Emergency vehicles wait longer at red at each of `most` others.
+    scenario::Outlook outlook = {};  ///< Of the first replication.
 };
 
 /// The signals that emergency vehicles of a study's first scenario pass in any of its replications, without
 /// those that are equipped `today` (by core::SignalIndex; empty: none is); if they are more than `most`,
-/// those that most of these vehicles pass, of equal ones the first. Throws as scenario::prepare does.
+/// those where these vehicles wait longest at red in all (scenario::red_waits_s), of equal ones those that
+/// most pass, then the first. Throws as scenario::prepare does.
 EquipCandidates equip_candidates(const study::StudyConfig& config, const scenario::BuiltNetwork& built,
                                  const std::vector<bool>& today, std::size_t most);
 

@@ -232,9 +232,11 @@ core::ExitCode equip_dry_run(EquipRequest request) {
     const std::string shorter =
         cost.wall_s && request.within_s <= 0.0 ? short_plan(search.rounds, request, candidates, run_s) : "";
     const report::SignalsMet& met = search.signals.candidates.met;
+    const std::string outlook = scenario::outlook_sentence(search.signals.candidates.outlook);
     print({{{"folder", request.run.folder.string()},
             {"share_of_trips_with_signals", core::to_json_value(met.share())},
             {"signals_per_trip", core::to_json_value(met.mean())},
+            {"outlook", outlook},
             {"candidates", candidates},
             {"runs", runs.likely()},
             {"most_runs", runs.most()},
@@ -245,7 +247,7 @@ core::ExitCode equip_dry_run(EquipRequest request) {
            {table},
            core::wrapped(amount_words(request, runs, held, candidates), 0) + "\n" +
                core::wrapped(time + shorter, 0) + "\n" + lock_words(search.rounds, request),
-           core::wrapped(met.words(), 0) + "\n\n"},
+           core::wrapped(met.words(), 0) + "\n" + core::wrapped(report::printable(outlook), 0) + "\n\n"},
           request.run.publish.printing);
     return core::ExitCode::ok;
 }

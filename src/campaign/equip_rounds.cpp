@@ -283,10 +283,8 @@ void EquipRounds::run_round(const Wanted& wanted) {
     std::erase_if(plan.units,
                   [](const study::PlannedUnit& planned) { return planned.unit.conditions.empty(); });
     const results::Results results = run(plan, options);
-    if (rounds_ == 1)
-        if (const std::string warning = lock_warning(unsound_runs(results, ""), question_.calmer);
-            !warning.empty())
-            core::print_message("clearway: " + warning);
+    const std::string warning = rounds_ == 1 ? lock_warning(unsound_runs(results, ""), question_.calmer) : "";
+    if (!warning.empty()) core::print_message("clearway: " + warning);
     for (const auto& [set, replications] : wanted) {
         const EquipOutcome outcome = outcome_of(results, with(set).name);
         for (const std::uint32_t replication : replications)

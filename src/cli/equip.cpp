@@ -97,7 +97,8 @@ void add_study_options(App& app, const std::shared_ptr<EquipArguments>& argument
         .range(std::size_t{1}, most_signals)
         .option_text(fmt::format("N, 1 to {} (required)", most_signals));
     add_condition_words(app, arguments->conditions);
-    app.add_option("--candidates", request.most_candidates, "Try only the N signals that most EVs pass")
+    app.add_option("--candidates", request.most_candidates,
+                   "Try only the N signals at whose red EVs wait longest, by the programs")
         .range(std::size_t{1}, most_signals)
         .option_text(fmt::format("N, 1 to {} [all that EVs pass]", most_signals));
     app.add_flag_callback(

@@ -227,7 +227,7 @@ std::string equipment_text(const EquipmentFacts& facts) {
     std::string text =
         paragraph({fmt::format("{}: which signals to equip first, {}, {}", printable(facts.title),
                                facts.condition, counted(facts.replications, "replication"))}) +
-        paragraph({facts.met.words()});
+        paragraph({facts.met.words()}) + paragraph({printable(facts.outlook)});
     if (const std::string coarse = coarse_step_sentence(facts.step_length_s); !coarse.empty())
         text += paragraph({coarse});
     if (!facts.candidates.empty())
@@ -258,11 +258,12 @@ std::string equipment_json(const EquipmentFacts& facts) {
                        {"step_length_s", facts.step_length_s},
                        {"share_of_trips_with_signals", detail::json_of(facts.met.share())},
                        {"signals_per_trip", detail::json_of(facts.met.mean())},
+                       {"outlook", facts.outlook},
                        {"budget", facts.budget},
                        {"signals", facts.signals},
                        {"not_passed", facts.not_passed},
                        {"switched_off", facts.switched_off},
-                       {"seldom_passed", facts.seldom_passed},
+                       {"less_red", facts.less_red},
                        {"equipped_today", facts.equipped_today},
                        {"runs", facts.runs},
                        {"fresh_runs", facts.unsound.runs},

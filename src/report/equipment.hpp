@@ -105,13 +105,14 @@ struct EquipmentFacts {
     std::vector<std::string> other_parts = {};
     std::size_t budget = 0;
     SignalsMet met = {};
+    std::string outlook = {};    ///< What to expect of preemption before any run; text from a file.
     std::size_t signals = 0;     ///< Of the network.
     std::size_t not_passed = 0;  ///< Of them, no emergency vehicle passes in these replications.
     std::vector<std::string> equipped_today = {};  ///< Ids; texts from a file. Gains count from there.
     std::size_t equipped_and_passed = 0;           ///< Of them, emergency vehicles pass.
-    std::size_t switched_off = 0;   ///< Passed, but `enabled` is 0 in the scenario's preemption parameters.
-    std::size_t seldom_passed = 0;  ///< Left out because more emergency vehicles pass the candidates.
-    std::size_t runs = 0;           ///< Those that decide and those that estimate.
+    std::size_t switched_off = 0;  ///< Passed, but `enabled` is 0 in the scenario's preemption parameters.
+    std::size_t less_red = 0;      ///< Left out: emergency vehicles wait longer at red at the candidates.
+    std::size_t runs = 0;          ///< Those that decide and those that estimate.
     std::vector<EquipCandidateFacts> candidates;  ///< By number.
     std::vector<EquipPairFacts> pairs;            ///< Empty where only one signal was wanted.
     // Of the fresh seeds.

@@ -282,7 +282,7 @@ void write_equipment_page(const EquipmentFacts& facts, std::ostream& page) {
     using detail::to_html;
     const std::vector<std::string> findings = detail::findings_of(facts);
     const std::string answer =
-        paragraphs({findings.front()}, "headline") + note(facts.assumptions) +
+        paragraphs({findings.front()}, "headline") + note(facts.outlook) + note(facts.assumptions) +
         detail::coarse_step_note(facts.step_length_s) + list_of({findings.begin() + 1, findings.end()}) +
         study_html(facts) + figures({detail::equipment_map_figure(facts), detail::curve_figure(facts)}) +
         (facts.ranked.empty() ? ""

@@ -196,7 +196,7 @@ std::string passed_over_sentence(const EquipmentFacts& facts) {
 
 /// Why no number of seeds makes more of a map that has little to choose from.
 std::string small_map_sentence(const EquipmentFacts& facts) {
-    const std::size_t passed = facts.candidates.size() + facts.seldom_passed;
+    const std::size_t passed = facts.candidates.size() + facts.less_red;
     std::vector<std::string> why;
     if (facts.ranked.size() + 1 >= passed)
         why.push_back(fmt::format("the {} chosen are nearly all of its {} that EVs pass", facts.ranked.size(),
@@ -426,7 +426,7 @@ std::vector<std::string> circumstances_of(const EquipmentFacts& facts) {
                                                    facts.budget, counted(facts.signals, "signal"))
                                      : "",
         left_out_sentence(facts.not_passed, "no EV passes in these seeds"),
-        left_out_sentence(facts.seldom_passed, "fewer EVs pass than the candidates"),
+        left_out_sentence(facts.less_red, "cost EVs less red than the candidates, by their programs"),
         left_out_sentence(facts.switched_off, "the scenario's preemption parameters switch off"),
         facts.equipped_today.empty()
             ? ""

@@ -63,6 +63,28 @@ void for_each_link(const roads::Network& network, core::EdgeIndex edge, const Vi
             if (way.signal.exists()) visit(way);
 }
 
+/// The wait at red of a trip at each signal, s: by the lane with the shortest wait. A signal with several
+/// stop lines on a way serves them together, so that the longest of their waits counts. Calls
+/// `visit(connection)` for each way through a signal.
+template <class Visit>
+std::map<core::SignalIndex, double> waits_on(const roads::Network& network, const Way& way,
+                                             const Visit& visit) {
+    std::map<core::SignalIndex, double> waits_s;
+    for (std::size_t at = 1; at < way.size(); ++at) {
+        std::optional<std::pair<double, core::SignalIndex>> shortest;
+        for_each_link(network, way[at - 1], [&](const roads::Connection& link) {
+            if (network.lane(link.to).edge != way[at] || !link.allows_emergency) return;
+            visit(link);
+            const double wait_s = roads::link_green(network.signal(link.signal), link.signal_link).wait_s;
+            if (!shortest || wait_s < shortest->first) shortest = {wait_s, link.signal};
+        });
+        if (!shortest) continue;
+        double& longest_s = waits_s.try_emplace(shortest->second, 0.0).first->second;
+        longest_s = std::max(longest_s, shortest->first);
+    }
+    return waits_s;
+}
+
 /// Links of a signal that emergency vehicles take.
 using Links = std::set<std::uint16_t>;
 
@@ -76,9 +98,9 @@ class EmergencyWays {
         const auto free_s = [&](core::EdgeIndex edge, double) { return search_.free_s(edge); };
         const double driven_s = search_.time_of(way, search_.free_s(way.front()), free_s);
         if (driven_s == roads::no_way_s) return;
-        std::map<core::SignalIndex, double> waits_s;
-        for (std::size_t at = 1; at < way.size(); ++at)
-            pass({way[at - 1], way[at]}, waits_s);
+        const auto waits_s = waits_on(network_, way, [&](const roads::Connection& link) {
+            passed_[link.signal].insert(link.signal_link);
+        });
         ++outlook_.trips;
         outlook_.trips_passing += waits_s.empty() ? 0 : 1;
         outlook_.signals_a_trip += static_cast<double>(waits_s.size());
@@ -89,21 +111,6 @@ class EmergencyWays {
     const std::map<core::SignalIndex, Links>& passed() const { return passed_; }
 
   private:
-    /// By the lane with the shortest wait. A signal with several stop lines on a way serves them together, so
-    /// that the longest of their waits counts.
-    void pass(const Turn& turn, std::map<core::SignalIndex, double>& waits_s) {
-        std::optional<std::pair<double, core::SignalIndex>> shortest;
-        for_each_link(network_, turn.from, [&](const roads::Connection& way) {
-            if (network_.lane(way.to).edge != turn.to || !way.allows_emergency) return;
-            passed_[way.signal].insert(way.signal_link);
-            const double wait_s = roads::link_green(network_.signal(way.signal), way.signal_link).wait_s;
-            if (!shortest || wait_s < shortest->first) shortest = {wait_s, way.signal};
-        });
-        if (!shortest) return;
-        double& longest_s = waits_s.try_emplace(shortest->second, 0.0).first->second;
-        longest_s = std::max(longest_s, shortest->first);
-    }
-
     const roads::Network& network_;
     roads::RouteSearch search_;
     Outlook& outlook_;
@@ -249,6 +256,11 @@ PlannedRoutes planned_routes(const std::filesystem::path& file, const roads::Net
     RouteReader reader(network);
     core::stream_xml(file, reader);
     return reader.take();
+}
+
+std::map<core::SignalIndex, double> red_waits_s(const roads::Network& network,
+                                                const std::vector<std::string>& edges) {
+    return waits_on(network, way_of(edges, network), [](const roads::Connection&) {});
 }
 
 Outlook outlook(const roads::Network& network, const std::vector<std::vector<std::string>>& ways,

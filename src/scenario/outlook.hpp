@@ -57,6 +57,10 @@ struct Outlook {
 };
 inline constexpr double full_degree = 0.9;
 
+/// What a trip over these edges waits at red where nobody queues, s, by signal: of these `red_s` is the sum.
+std::map<core::SignalIndex, double> red_waits_s(const roads::Network& network,
+                                                const std::vector<std::string>& edges);
+
 /// `ways`: the edges of each emergency vehicle's trip. The others' turns count as a flow over `window_s`.
 Outlook outlook(const roads::Network& network, const std::vector<std::vector<std::string>>& ways,
                 const PlannedRoutes& others, double window_s);

@@ -96,11 +96,10 @@ std::string map_signals_text(const Findings& findings) {
 
 std::string to_text(const Findings& findings) {
     std::string text = fmt::format(
-        "{}\n  edges            {} ({} open to cars)\n  lanes for cars   {}\n  roads for cars   {:.1f} km "
-        "(each direction "
-        "counts), {:.1f} km of lane\n  signals          {}{}\n  connected        {:.1f} % of the car edges "
-        "reach each "
-        "other\n  traffic drives   on the {}, {}\n",
+        "{}\n  edges            {} ({} open to cars)\n  lanes for cars   {}\n  roads for cars   {:.1f} km by "
+        "direction, without junctions; {:.1f} km of lane\n  signals          {}{}\n  connected        {:.1f} "
+        "% of "
+        "the car edges reach each other\n  traffic drives   on the {}, {}\n",
         findings.name, findings.edges, findings.car_edges, findings.lanes, findings.road_km, findings.lane_km,
         findings.signals, map_signals_text(findings), 100.0 * findings.connected_share,
         findings.left_hand ? "left" : "right", findings.side_reason);

@@ -240,8 +240,8 @@ void report_gaps(Import& import, const std::vector<std::filesystem::path>& maps,
     constexpr double least_km = 0.05;
     if (map.unlimited_km >= least_km)
         import.findings.changes.push_back(
-            fmt::format("{:.1f} km of the map's {:.1f} km of road have no speed limit: they get those of "
-                        "SUMO's types for towns, {}",
+            fmt::format("{:.1f} km of the map's {:.1f} km of road, both directions together, have no speed "
+                        "limit: they get those of SUMO's types for towns, {}",
                         map.unlimited_km, map.car_roads_km, limits_of(map.unlimited_classes)));
 }
 

@@ -160,6 +160,7 @@ TEST_F(EquipTest, says_before_it_runs_how_many_runs_it_makes) {
     const Ended text = equip({"--dry-run"});
     EXPECT_THAT(text.out,
                 testing::ContainsRegex("^100 % of the EVs' [0-9]+ trips pass at least one signal; a trip"));
+    EXPECT_THAT(text.out, testing::ContainsRegex("average\\.\nBy programs and trips alone, preemption"));
     EXPECT_THAT(text.out,
                 testing::ContainsRegex("55 runs likely, 55 at most, into out, which holds [0-9]+ of\\s"));
     EXPECT_THAT(text.out, testing::ContainsRegex("for the rest with .*from runs of\\sthese scenarios"));
@@ -349,14 +350,25 @@ TEST_F(EquipTest, warns_after_the_first_round_of_runs_that_say_little_with_a_com
                                       Not(HasSubstr("--lock-trials"))));
 }
 
-TEST_F(EquipTest, tries_only_the_signals_that_most_emergency_vehicles_pass_where_that_is_wanted) {
+TEST_F(EquipTest, tries_only_the_signals_that_cost_most_red_where_that_is_wanted) {
     const Ended ended = equip({"--candidates", "1", "--json"});
     ASSERT_EQ(ended.code, 0) << ended.err;
     const auto json = nlohmann::json::parse(ended.out);
     ASSERT_EQ(json.at("candidates").size(), 1U);
     EXPECT_EQ(json.at("candidates").at(0).at("signal"), "A") << "of equal ones the first";
     EXPECT_DOUBLE_EQ(json.at("candidates").at(0).at("share_of_trips").get<double>(), 1.0);
-    EXPECT_EQ(json.at("seldom_passed"), 1);
+    EXPECT_EQ(json.at("less_red"), 1);
+    // All EVs pass both; A has 49 s of red in 90 s, from now on B has 69 s in 110 s.
+    std::string net = read("crossings/net.net.xml");
+    const std::string cross_green = "<phase duration=\"41\" state=\"rrrrGGGgrrrrGGGg\"/>";
+    const std::size_t place = net.find(cross_green, net.find("<tlLogic id=\"B\""));
+    ASSERT_NE(place, std::string::npos);
+    net.replace(place, cross_green.size(), "<phase duration=\"61\" state=\"rrrrGGGgrrrrGGGg\"/>");
+    write("crossings/net.net.xml", net);
+    const Ended longer = equip({"--candidates", "1", "--json"}, "longer");
+    ASSERT_EQ(longer.code, 0) << longer.err;
+    EXPECT_EQ(nlohmann::json::parse(longer.out).at("candidates").at(0).at("signal"), "B");
+    EXPECT_THAT(nlohmann::json::parse(longer.out).at("outlook"), HasSubstr("By programs and trips alone"));
 }
 
 TEST_F(EquipTest, does_not_report_a_gain_where_every_request_is_lost) {

@@ -180,7 +180,8 @@ TEST(Equipment, SaysWhatWorksWhereNoSignalIsEquipped) {
     EXPECT_THAT(flat_text(facts), Not(HasSubstr("all the same")));
     facts.other_parts = {"clear_lane", "give_way"};
     const std::string sentence =
-        "over no signal equipped [95 %; of fewer than all chosen as their gains]. %: of the gain of all. There, "
+        "over no signal equipped [95 %; of fewer than all chosen as their gains]. %: of the gain of all. "
+        "There, "
         "clear_lane and give_way of corridor work all the same: these gains are of signals alone.";
     EXPECT_THAT(flat_text(facts), HasSubstr(sentence));
     std::ostringstream page;
@@ -400,7 +401,7 @@ TEST(Equipment, SaysWhatASmallMapCannotDecide) {
     EXPECT_THAT(flat_text(facts), Not(HasSubstr("This map can hardly")))
         << "two of four, most trips pass one";
     facts.candidates.pop_back();
-    facts.seldom_passed = 1;
+    facts.less_red = 1;
     EXPECT_THAT(flat_text(facts), Not(HasSubstr("This map can hardly"))) << "EVs pass four here too";
     EXPECT_THAT(flat_text(two_of_twelve()), Not(HasSubstr("This map can hardly"))) << "it has decided";
 }
@@ -436,6 +437,11 @@ TEST(Equipment, OpensWithHowManyTripsMeetSignals) {
     const auto json = nlohmann::json::parse(equipment_json(facts));
     EXPECT_DOUBLE_EQ(json.at("share_of_trips_with_signals").get<double>(), 0.625);
     EXPECT_DOUBLE_EQ(json.at("signals_per_trip").get<double>(), 1.875);
+    facts.outlook = "By programs, it <helps>.";
+    EXPECT_LT(flat_text(facts).find(facts.outlook), flat_text(facts).find("Gain alone"));
+    std::ostringstream with_outlook;
+    write_equipment_page(facts, with_outlook);
+    EXPECT_THAT(with_outlook.str(), HasSubstr("<p class=\"note\">By programs, it &lt;helps&gt;.</p>"));
     facts.met = {};
     EXPECT_THAT(flat_text(facts), HasSubstr("No EV has a trip in these seeds."));
     EXPECT_TRUE(nlohmann::json::parse(equipment_json(facts)).at("signals_per_trip").is_null());

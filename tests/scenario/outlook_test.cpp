@@ -40,6 +40,14 @@ TEST(Outlook, adds_up_the_red_of_the_signals_of_a_trip_and_its_time_at_the_limit
     EXPECT_NEAR(found.trip_s - found.red_s, driven_m / limit_mps / 2.0, 0.5);
 }
 
+TEST(Outlook, tells_the_red_of_each_signal_of_a_trip) {
+    const auto waits_s = red_waits_s(testing::two_crossings(), testing::eastbound);
+    ASSERT_EQ(waits_s.size(), 2U);
+    for (const auto& [signal, wait_s] : waits_s)
+        EXPECT_DOUBLE_EQ(wait_s, 49.0 * 49.0 / 180.0) << signal.value;
+    EXPECT_TRUE(red_waits_s(testing::two_crossings(), {"B_east"}).empty());
+}
+
 TEST(Outlook, waits_once_at_a_signal_with_two_stop_lines_on_the_way) {
     const support::TemporaryFolder folder;
     std::string text = core::read_file(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml");

@@ -193,8 +193,17 @@ TEST_F(MapImport, roads_with_a_side_of_their_own_do_not_turn_the_map_and_that_is
 }
 
 TEST_F(MapImport, main_roads_without_a_limit_get_that_of_towns_and_that_is_said) {
-    const Findings findings = run(request({write("town.osm", town_map(13.0, 51.0, "primary"))}));
-    EXPECT_THAT(findings.changes, testing::Contains(HasSubstr("km of road have no speed limit")));
+    const auto map = write("town.osm", town_map(13.0, 51.0, "primary"));
+    const Findings findings = run(request({map}));
+    const double map_km = detail::read_map(map).car_roads_km;
+    EXPECT_THAT(
+        findings.changes,
+        testing::Contains(HasSubstr(fmt::format(
+            "of the map's {:.1f} km of road, both directions together, have no speed limit", map_km))));
+    EXPECT_NEAR(findings.road_km, 2.0 * map_km, 0.1 * map_km) << "each direction, without junctions";
+    EXPECT_THAT(to_text(findings), HasSubstr(fmt::format("roads for cars   {:.1f} km by direction, without "
+                                                         "junctions; ",
+                                                         findings.road_km)));
     const roads::Network network = roads::Network::read(out() / "town" / "network.net.xml");
     for (const roads::Edge& edge : network.edges()) {
         if (edge.internal) continue;
