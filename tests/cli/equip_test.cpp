@@ -360,10 +360,10 @@ TEST_F(EquipTest, tries_only_the_signals_that_cost_most_red_where_that_is_wanted
     EXPECT_EQ(json.at("less_red"), 1);
     // All EVs pass both; A has 49 s of red in 90 s, from now on B has 69 s in 110 s.
     std::string net = read("crossings/net.net.xml");
-    const std::string cross_green = "<phase duration=\"41\" state=\"rrrrGGGgrrrrGGGg\"/>";
+    const std::string cross_green = "<phase duration=\"41\" state=\"GGGgrrrrGGGgrrrr\"/>";
     const std::size_t place = net.find(cross_green, net.find("<tlLogic id=\"B\""));
     ASSERT_NE(place, std::string::npos);
-    net.replace(place, cross_green.size(), "<phase duration=\"61\" state=\"rrrrGGGgrrrrGGGg\"/>");
+    net.replace(place, cross_green.size(), "<phase duration=\"61\" state=\"GGGgrrrrGGGgrrrr\"/>");
     write("crossings/net.net.xml", net);
     const Ended longer = equip({"--candidates", "1", "--json"}, "longer");
     ASSERT_EQ(longer.code, 0) << longer.err;
