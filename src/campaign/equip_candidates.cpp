@@ -90,7 +90,7 @@ EquipCandidates equip_candidates(const study::StudyConfig& config, const scenari
         candidates.signals.push_back(signal);
     if (candidates.signals.size() > most) {
         candidates.less_red = candidates.signals.size() - most;
-        // Found more of the signals that gain most alone than the number of trips, in three networks.
+        // Ranks what signals gain alone better than the number of trips does, in three networks of three.
         std::ranges::stable_sort(candidates.signals, std::greater{},
                                  [&](core::SignalIndex one) { return std::pair(red_s[one], trips.at(one)); });
         candidates.signals.resize(most);
