@@ -96,6 +96,10 @@ void name_errors(const results::Store& store, const results::Results& results) {
         fmt::print(stderr, "  and {} kinds of failure more, in {}\n", order.size() - named_errors,
                    store.runs_csv().string());
     const auto passing = std::ranges::count_if(results.errors, results::may_pass, &results::RunError::cause);
+    if (passing == 0) {
+        fmt::print(stderr, "  The same command does not repeat them; with --retry-failed it does\n");
+        return;
+    }
     fmt::print(stderr,
                "  The command of the study tries again those that a signal, a limit or the machine ended "
                "({}); with --retry-failed all of them\n",
