@@ -27,7 +27,7 @@ class SignalsTest(FolderCase):
         self.assertIn("</svg>", Path("signals.svg").read_text(encoding="utf-8"))
 
         programs = "".join(re.findall(r"<tlLogic.*?</tlLogic>", Path("monaco/network.net.xml").read_text(encoding="utf-8"), re.DOTALL))
-        self.write("monaco/programs.add.xml", "<additional>" + programs.replace('duration="3"', 'duration="4"') + "</additional>")
+        self.write("monaco/programs.add.xml", "<additional>" + programs.replace('programID="0"', 'programID="mine"').replace('duration="3"', 'duration="4"') + "</additional>")
         self.name_in_network("monaco", "Enter your programs", "additional")
         self.assertIn("  92  4 ", type_in(signals))
 

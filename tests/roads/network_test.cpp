@@ -302,6 +302,26 @@ TEST_F(NetworkTest, RefusesControllersThatSumoReadsButCannotRun) {
         << "SUMO takes it for another offset of a known program";
 }
 
+TEST_F(NetworkTest, RefusesAProgramWithTheIdOfTheOneBeforeAsSumoDoes) {
+    const auto file = folder_.write("test.net.xml", crossing_network());
+    const auto with_id = [&](const std::string& id) {
+        return folder_.write("tls.add.xml",
+                             "<additional>\n    <tlLogic id=\"J\" type=\"static\" programID=\"" + id +
+                                 "\"><phase duration=\"9\" state=\"GGrr\"/></tlLogic></additional>");
+    };
+    const std::string before = Network::read(file).signals()[0].program_id;
+    EXPECT_EQ(Network::read(file, {with_id("mine")}).signals()[0].program_id, "mine");
+    try {
+        Network::read(file, {with_id(before)});
+        FAIL() << "SUMO loads no second program of an id";
+    } catch (const core::InputError& error) {
+        EXPECT_THAT(error.what(),
+                    HasSubstr("tls.add.xml:2: a program of signal \"J\" has the programID of the one "
+                              "before, \"" +
+                              before + "\""));
+    }
+}
+
 TEST_F(NetworkTest, TakesAProgramWithIdleLettersAsSumoDoes) {
     const auto file = folder_.write("test.net.xml", crossing_network());
     const auto programs = folder_.write("tls.add.xml", R"(<additional>

@@ -278,14 +278,20 @@ std::size_t NetworkBuilder::letters_in_use(const Signal& signal) const {
     return letters;
 }
 
-/// SUMO takes a program of an additional file without `type` for another offset of a known program.
-void NetworkBuilder::check_controller(const std::string& signal) {
+/// SUMO takes a program of an additional file without `type` for another offset of a known program, and loads
+/// no second one of the same id.
+void NetworkBuilder::check_controller(const Signal& signal) {
+    if (in_additional_ && program_id_ == signal.program_id)
+        add_problem({program_place_,
+                     fmt::format("a program of signal \"{}\" has the programID of the one before, \"{}\"",
+                                 signal.id, program_id_),
+                     "a programID of its own", "Change it, such as to programID=\"mine\""});
     if (in_additional_ && !has_type_)
         add_problem({program_place_,
-                     fmt::format("a program of signal \"{}\" lacks the attribute type", signal),
+                     fmt::format("a program of signal \"{}\" lacks the attribute type", signal.id),
                      core::listed(controllers()), "Write type=\"static\" for fixed times"});
     if (needs_target_phase(controller_) && !has_target_phase_)
-        add_problem(target_phase_problem(program_place_, signal, controller_));
+        add_problem(target_phase_problem(program_place_, signal.id, controller_));
 }
 
 void NetworkBuilder::end_program() {
@@ -299,7 +305,7 @@ void NetworkBuilder::end_program() {
         add_problem(fmt::format("signal \"{}\" has a program without phases", signal.id));
         return;
     }
-    check_controller(signal.id);
+    check_controller(signal);
     const std::size_t letters = phases_.front().state.size();
     const std::size_t in_use = in_additional_ ? letters_in_use(signal) : 0;
     if (letters < in_use) {

@@ -58,7 +58,7 @@ class NetworkBuilder : public core::XmlHandler {
     void end_edge();
     void read_program(const core::XmlAttributes& attributes);
     void read_phase(const core::XmlAttributes& attributes);
-    void check_controller(const std::string& signal);
+    void check_controller(const Signal& signal);
     void end_program();
     std::size_t letters_in_use(const Signal& signal) const;
     void read_junction(const core::XmlAttributes& attributes);
