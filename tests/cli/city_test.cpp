@@ -19,7 +19,7 @@ TEST_F(CityTest, an_imported_town_is_checked_run_and_written_as_geojson) {
     const Ended import = clearway({"scenario", "import", "town.osm", "--name", "town"});
     ASSERT_EQ(import.code, 0) << import.err;
     EXPECT_THAT(import.out, testing::ContainsRegex("All\\s+EVs\\s+are\\s+ambulances:\\s+--emergency-kinds"));
-    EXPECT_THAT(import.out, AllOf(HasSubstr("76 open to cars"), HasSubstr("1 fire_station, 1 hospital"),
+    EXPECT_THAT(import.out, AllOf(HasSubstr("76 open to cars"), HasSubstr("1 fire station, 1 hospital"),
                                   HasSubstr("town/network.svg")));
     const Ended check = clearway({"scenario", "check", "./town", "--density", "0.3", "--json"});
     EXPECT_EQ(check.code, 0) << check.out << check.err;
