@@ -25,7 +25,7 @@ PreemptSignals::PreemptSignals(const PolicyContext& context, PreemptSignalsConfi
         is_careful_ = roads::on_short_loops(context_.network, config_.short_block_m);
     if (config_.timing != HoldTiming::lead)
         planner_.emplace(detail::HoldPlanner::Settings{
-            config_.emergency_worth, config_.least_gain_s,
+            config_.emergency_worth, config_.least_gain_s, config_.longest_early_s,
             config_.timing == HoldTiming::queues ? detail::ModelSight::all : detail::ModelSight::none});
 }
 

@@ -223,7 +223,7 @@ TEST(HoldPlanner, leaves_phases_that_run_side_by_side_to_the_rule) {
         CrossingScene scene(100.0, network);
         scene.add({"e", VehicleClass::emergency, eastbound, 1, line_m - 100.0, 16.67});
         const View view(network, scene.belief());
-        HoldPlanner planner({1000.0, 0.0, ModelSight::all});
+        HoldPlanner planner({.emergency_worth = 1000.0, .longest_early_s = 20.0});
         planner.begin(view);
         return planner.is_due(view, first_arrival(view), 10.0, false);
     };
@@ -242,7 +242,7 @@ TEST(QueueModel, has_no_edge_where_the_way_has_changed) {
     turned.add({"e", VehicleClass::emergency, southbound, 1, 100.0, 10.0});
     const View other(two_crossings(), turned.belief());
     EXPECT_EQ(policy::detail::edge_before(other, before), std::nullopt);
-    HoldPlanner planner({1000.0, 0.0, ModelSight::all});
+    HoldPlanner planner({.emergency_worth = 1000.0, .longest_early_s = 20.0});
     planner.begin(other);
     EXPECT_FALSE(planner.is_due(other, before, 10.0, false)) << "left to the rule";
 }
@@ -270,7 +270,7 @@ TEST(HoldPlanner, asks_for_nothing_that_others_pay_for_where_the_emergency_vehic
     const traffic::BelievedGraph& belief = scene.belief();
     const View view(two_crossings(), belief);
     const auto is_due = [&](double emergency_worth) {
-        HoldPlanner planner({emergency_worth, 0.0, ModelSight::all});
+        HoldPlanner planner({.emergency_worth = emergency_worth, .longest_early_s = 20.0});
         planner.begin(view);
         return planner.is_due(view, first_arrival(view), 10.0, false);
     };
@@ -283,14 +283,48 @@ TEST(HoldPlanner, begins_before_the_lead_only_for_a_gain) {
     const traffic::BelievedGraph& belief = scene.belief();
     const View view(two_crossings(), belief);
     const auto is_due = [&](double rule_s, double least_gain_s) {
-        HoldPlanner planner({1000.0, least_gain_s, ModelSight::all});
+        HoldPlanner planner({1000.0, least_gain_s, 20.0});
         planner.begin(view);
         return planner.is_due(view, first_arrival(view), rule_s, false);
     };
     EXPECT_TRUE(is_due(4.0, 2.0)) << "6 s to the line: a hold in 4 s opens it 3 s after that";
     EXPECT_FALSE(is_due(4.0, 10.0));
     EXPECT_FALSE(is_due(0.0, 2.0)) << "the lead asks now";
-    EXPECT_TRUE(is_due(1e6, 2.0)) << "a lead that never comes";
+    EXPECT_TRUE(is_due(20.0, 2.0));
+    EXPECT_FALSE(is_due(20.5, 2.0)) << "too long before the lead";
+}
+
+TEST(Pace, is_of_those_who_drive_on_green) {
+    policy::detail::Pace pace;
+    const core::VehicleKey one = core::vehicle_key("one");
+    const core::VehicleKey other = core::vehicle_key("other");
+    constexpr core::SignalIndex signal{0};
+    EXPECT_EQ(pace.share(), 1.0) << "nobody has driven";
+    const auto drive = [&](core::VehicleKey vehicle, double at_half_pace_s, bool counts) {
+        for (double at_s = 0.0; at_s <= at_half_pace_s; at_s += 0.5)
+            pace.watch({vehicle, signal}, 100.0 - at_s / 2.0, core::Seconds(at_s), counts);
+    };
+    drive(one, 60.0, false);
+    EXPECT_EQ(pace.share(), 1.0) << "it waits";
+    drive(other, 20.0, true);
+    EXPECT_DOUBLE_EQ(pace.share(), (20.0 + 10.0) / (20.0 + 20.0));
+    pace.watch({other, signal}, 10.0, core::Seconds(500.0), true);
+    EXPECT_DOUBLE_EQ(pace.share(), 0.75) << "nobody knows what was between";
+}
+
+TEST(QueueModel, lets_emergency_vehicles_come_at_the_pace_of_others_before_them) {
+    CrossingScene scene = coming_from_the_west(200.0);
+    const traffic::BelievedGraph& belief = scene.belief();
+    const View view(two_crossings(), belief);
+    const Arrival arrival = first_arrival(view);
+    const auto passing_s = [&](double pace) {
+        const core::SignalIndex signal = arrival.approach.signal;
+        return QueueModel(view, arrival, {two_crossings().signal(signal), arrival.approach.links, "", 0.0},
+                          {.edge = policy::detail::edge_before(view, arrival).value(), .pace = pace})
+            .outcome(0.0)
+            .passing_s;
+    };
+    EXPECT_NEAR(passing_s(0.5), 2.0 * passing_s(1.0), 0.1);
 }
 
 TEST(HoldPlanner, foretells_the_second_signal_from_the_first) {
@@ -306,7 +340,7 @@ TEST(HoldPlanner, foretells_the_second_signal_from_the_first) {
     const auto ahead = policy::detail::approaches(view, emergency, core::Metres(600.0));
     ASSERT_EQ(ahead.size(), 2U);
     const auto second_is_due = [&](bool after_the_first) {
-        HoldPlanner planner({1000.0, 0.0, ModelSight::all});
+        HoldPlanner planner({.emergency_worth = 1000.0, .longest_early_s = 20.0});
         planner.begin(view);
         if (after_the_first) planner.is_due(view, {emergency, ahead[0], 1, 0.0, std::nullopt}, 10.0, true);
         return planner.is_due(view, {emergency, ahead[1], 2, 0.0, std::nullopt}, 10.0, false);

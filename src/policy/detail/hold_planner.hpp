@@ -11,15 +11,37 @@
 
 namespace clearway::policy::detail {
 
+/// How fast emergency vehicles that have green drive: slower than a free road allows where traffic is dense.
+/// Learnt from those of this run.
+class Pace {
+  public:
+    /// At each decision: a vehicle would reach the stop line `free_s` from now on a free road. What it covers
+    /// until the next one counts if `drives_on_green` there.
+    void watch(const RequestKey& request, double free_s, core::Seconds now, bool drives_on_green);
+    /// Of the speed on a free road, above 0, at most 1.
+    double share() const;
+
+  private:
+    struct Moment {
+        double free_s = 0.0;
+        core::Seconds time;
+    };
+    std::map<RequestKey, Moment> last_;
+    double covered_s_ = 0.0;  ///< On a free road.
+    double spent_s_ = 0.0;
+};
+
 /// Decides whether signals are held earlier than a rule would hold them, by a model of what the hold does
 /// (QueueModel): once every later beginning costs more, and not to hold too, and the emergency vehicle gains
-/// enough. The cost is its time, times its worth, plus that of the others. It leaves signals of the
-/// controller NEMA to the rule.
+/// enough, but not long before the rule does: the longer the forecast, the more a hold that comes too early
+/// costs. The cost is its time, times its worth, plus that of the others. It leaves signals of the controller
+/// NEMA to the rule.
 class HoldPlanner {
   public:
     struct Settings {
         double emergency_worth = 0.0;  ///< How many vehicle-seconds a second of an emergency vehicle counts.
         double least_gain_s = 0.0;     ///< Less is not worth an early hold.
+        double longest_early_s = 0.0;  ///< How much earlier than the rule at most.
         ModelSight sight = ModelSight::all;
     };
     explicit HoldPlanner(Settings settings) : settings_(settings) {}
@@ -38,7 +60,8 @@ class HoldPlanner {
     };
 
     Settings settings_;
-    std::vector<ProgramClock> clocks_;             ///< By signal.
+    std::vector<ProgramClock> clocks_;  ///< By signal.
+    Pace pace_;
     std::map<core::VehicleKey, Reached> reached_;  ///< The last one of each, in this decision.
 };
 

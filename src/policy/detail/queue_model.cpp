@@ -91,6 +91,7 @@ QueueModel::QueueModel(const View& view, const Arrival& arrival, SignalForecaste
       signal_(view.network().signal(arrival.approach.signal)),
       forecaster_(std::move(forecaster)),
       emergency_worth_(premises.emergency_worth),
+      pace_(premises.pace),
       own_edge_(premises.edge) {
     assert(!arrival.approach.own_links.empty());
     for (std::size_t link = 0; link < signal_.links.size(); ++link) {
@@ -98,7 +99,7 @@ QueueModel::QueueModel(const View& view, const Arrival& arrival, SignalForecaste
         for (const roads::SignalLink& way : signal_.links[link])
             if (queue_of(way.from) == nullptr) queues_.push_back({way.from, {}});
     }
-    const double free_s = free_s_to(view, arrival);
+    const double free_s = free_s_to(view, arrival) / pace_;
     arrival_s_ = std::max(premises.not_before_s, std::min(free_s, arrival.announced_s.value_or(free_s)));
     delay_s_ = std::max(0.0, premises.not_before_s - free_s);
     const bool sees = premises.sight == ModelSight::all;
@@ -190,7 +191,7 @@ void QueueModel::add_ahead(const View& view, const Arrival& arrival) {
         const roads::Lane& lane = network_.lane(vehicle.state.lane);
         if (ahead.distance_m < arrival.moved_m || is_near(lane.edge) || !comes_here(vehicle)) continue;
         const double left_m = arrival.approach.distance_m - ahead.distance_m;
-        const double free_s = travel_s(view, vehicle, left_m);
+        const double free_s = travel_s(view, vehicle, left_m) / pace_;
         const double earliest_s = std::max(free_s, std::min(free_s + delay_s_, arrival_s_ - headway_s));
         const auto away = [&](const std::pair<core::LaneIndex, std::uint16_t>& way) {
             return std::abs(static_cast<int>(network_.lane(way.first).number) -

@@ -36,6 +36,7 @@ class QueueModel {
         double not_before_s = 0.0;     ///< Earliest arrival, by what holds the vehicle up earlier on its way.
         double emergency_worth = 1.0;  ///< Vehicle-seconds that a second of any other one counts.
         ModelSight sight = ModelSight::all;
+        double pace = 1.0;  ///< Of those on the way, as a share of the speed on a free road.
     };
     /// Refers to the view's network; the arrival's links must not be empty.
     QueueModel(const View& view, const Arrival& arrival, SignalForecaster forecaster,
@@ -81,6 +82,7 @@ class QueueModel {
     const roads::Signal& signal_;
     SignalForecaster forecaster_;
     double emergency_worth_ = 0.0;
+    double pace_ = 1.0;
     double arrival_s_ = 0.0;
     double delay_s_ = 0.0;             ///< Of the emergency vehicle on its way to here.
     std::vector<double> green_share_;  ///< By link.
