@@ -251,26 +251,36 @@ const ConditionSpec* best_other(const ConditionSpec& condition, const ScenarioSu
     return best;
 }
 
+/// Gives each its p value corrected for all of them: pairs of the p value and its place.
+void correct(const std::vector<std::pair<double, std::optional<double>*>>& tests) {
+    std::vector<double> p_values;
+    for (const auto& test : tests)
+        p_values.push_back(test.first);
+    const std::vector<double> adjusted = holm(p_values);
+    for (std::size_t test = 0; test < tests.size(); ++test)
+        *tests[test].second = adjusted[test];
+}
+
 }  // namespace
 
 namespace detail {
 
 void adjust(ScenarioSummary& scenario) {
+    std::vector<std::pair<double, std::optional<double>*>> approaches;
+    for (ConditionSummary& condition : scenario.conditions)
+        for (ApproachCost& approach : condition.approaches)
+            if (approach.t_p) approaches.emplace_back(*approach.t_p, &approach.holm_p);
+    correct(approaches);
     for (std::size_t metric = 0; metric < all_metrics().size(); ++metric) {
-        std::vector<double> p_values;
-        std::vector<Comparison*> owners;
+        std::vector<std::pair<double, std::optional<double>*>> tests;
         for (ConditionSummary& condition : scenario.conditions) {
             auto& comparison = condition.metrics[metric].comparison;
             if (!comparison) continue;
             const bool counted = condition.metrics[metric].metric.kind == MetricKind::count;
             const std::optional<double> p = counted ? comparison->wilcoxon_p : comparison->t_p;
-            if (!p) continue;
-            p_values.push_back(*p);
-            owners.push_back(&*comparison);
+            if (p) tests.emplace_back(*p, &comparison->holm_p);
         }
-        const std::vector<double> adjusted = holm(p_values);
-        for (std::size_t row = 0; row < owners.size(); ++row)
-            owners[row]->holm_p = adjusted[row];
+        correct(tests);
     }
 }
 

@@ -66,6 +66,7 @@ ApproachCost cost_of(const std::string& edge, const Series& series, double level
     cost.edge = edge;
     cost.baseline_s = mean_of(baseline);
     cost.difference = estimate_difference(condition, baseline, level);
+    cost.t_p = paired_t_p(condition, baseline);
     cost.human = estimate_difference(series.human[0], series.human[1], level);
     cost.automated = estimate_difference(series.automated[0], series.automated[1], level);
     cost.waiting = estimate_difference(series.waiting[0], series.waiting[1], level);

@@ -21,6 +21,9 @@ struct ApproachCost {
     MaybeEstimate waiting;                ///< Waiting time, all classes.
     std::optional<double> vehicles;       ///< Vehicles that enter it, mean over the baseline's runs.
     std::optional<double> per_vehicle_s;  ///< Mean difference per vehicle.
+    std::optional<double> t_p = {};       ///< Of the paired t test of `difference`.
+    /// Adjusted for all approaches and conditions of a scenario (Holm); nothing before they are compared.
+    std::optional<double> holm_p = {};
 };
 
 /// Halted vehicles on the other approaches of a signal around an EV's passage, compared with the passages of

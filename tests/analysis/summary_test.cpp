@@ -316,6 +316,29 @@ TEST_F(SmallStudy, AdjustsOverTheConditionsOfAScenario) {
     EXPECT_GT(*treated.holm_p, *treated.t_p);
 }
 
+TEST_F(SmallStudy, AdjustsOverTheApproachesOfAllConditions) {
+    add_all();
+    for (std::uint32_t replication = 0; replication < 4; ++replication)
+        add("other", replication, 90.0, 100.0);
+    for (RunRecord& run : results_.runs) {
+        const double own = (run.key.condition == "other" ? 3.0 : 1.0) * run.key.replication;
+        const double more = run.key.condition == "baseline" ? 0.0 : 20.0 + own;
+        run.traffic.approaches = {{"main", VehicleClass::human, 10, 5.0, 100.0 + more, 600.0},
+                                  {"side", VehicleClass::human, 10, 5.0, 100.0 - 0.5 * more + own, 600.0}};
+    }
+    const ScenarioSummary summary = scenario();
+    std::vector<ApproachCost> all = summary.find("treated")->approaches;
+    const std::vector<ApproachCost>& others = summary.find("other")->approaches;
+    all.insert(all.end(), others.begin(), others.end());
+    ASSERT_EQ(all.size(), 4U);
+    std::vector<double> p_values;
+    for (const ApproachCost& cost : all)
+        p_values.push_back(*cost.t_p);
+    const std::vector<double> expected = holm(p_values);
+    for (std::size_t at = 0; at < all.size(); ++at)
+        EXPECT_DOUBLE_EQ(*all[at].holm_p, expected[at]);
+}
+
 TEST_F(SmallStudy, IsAllMissingBeforeAnythingRan) {
     const ScenarioSummary summary = scenario();
     EXPECT_EQ(summary.conditions.size(), 4U);

@@ -223,16 +223,17 @@ TEST(Page, explains_colours_of_signals_only_where_they_are) {
     };
     StudyFacts study = tests::study({"merge"});
     const std::string with = trip_of(study);
-    for (const char* const text : {">red</text>", ">yellow</text>", ">green</text>", "drawn twice"})
+    for (const char* const text : {">red</text>", ">yellow</text>", ">green</text>", "drawn twice",
+                                   ">Baseline, upper bars</text>", ", lower bars</text>"})
         EXPECT_THAT(with, HasSubstr(text));
     for (JourneyFacts& journey : study.scenarios[0].journeys)
         std::erase_if(journey.signals, [](const SignalSpan& span) { return span.state != "green"; });
     EXPECT_THAT(trip_of(study), AllOf(HasSubstr(">green</text>"), Not(HasSubstr(">red</text>"))));
     for (JourneyFacts& journey : study.scenarios[0].journeys)
         journey.signals.clear();
-    EXPECT_THAT(trip_of(study),
-                AllOf(HasSubstr("No signal stands on its route."), Not(HasSubstr(">green</text>")),
-                      Not(HasSubstr(">red</text>")), Not(HasSubstr("drawn twice"))));
+    EXPECT_THAT(trip_of(study), AllOf(HasSubstr("No signal stands on its route."),
+                                      Not(HasSubstr(">green</text>")), Not(HasSubstr(">red</text>")),
+                                      Not(HasSubstr("drawn twice")), Not(HasSubstr(" bars<"))));
 }
 
 TEST(Page, tells_how_the_trip_that_it_shows_stands_among_all) {
@@ -291,6 +292,33 @@ TEST(Page, says_where_a_distribution_was_thinned) {
     EXPECT_THAT(page_of(study), HasSubstr("Drawn at 200 ranks, evenly spaced"));
 }
 
+TEST(Page, ends_the_axis_of_times_before_few_trips_that_would_take_much_of_it) {
+    StudyFacts study = tests::study({"merge"});
+    EXPECT_THAT(page_of(study), HasSubstr(">EV travel time, s<"));
+    std::vector<SharePoint>& points = study.scenarios[0].conditions[1].distribution.points;
+    points[56].seconds = 1200.0;
+    points[57].seconds = 1234.0;
+    const std::string page = page_of(study);
+    EXPECT_THAT(page, HasSubstr(">EV travel time (2 trips beyond, up to 1234 s), s<"));
+    points[54].seconds = points[55].seconds = 1100.0;  // of 58, 4 are more than one in twenty
+    EXPECT_THAT(page_of(study), HasSubstr(">EV travel time, s<"));
+}
+
+TEST(Page, doubts_costs_of_approaches_that_are_shown_alone) {
+    StudyFacts study = tests::study({"merge"});
+    const auto cost = [&] {
+        const std::string page = page_of(study);
+        const std::size_t begin = page.find("id=\"cost-merge\"");
+        return page.substr(begin, page.find("</svg>", begin) - begin);
+    };
+    EXPECT_THAT(cost(), AllOf(HasSubstr(">+240<"), HasSubstr(">[180, 300]<"), Not(HasSubstr("(Holm)")),
+                              HasSubstr(">time lost by others per approach and run: difference [95 %], s<")));
+    for (ConditionFacts& condition : study.scenarios[0].conditions)
+        for (analysis::ApproachCost& approach : condition.approaches)
+            approach.holm_p = approach.edge == "edge0" ? 0.2 : 0.04;
+    EXPECT_THAT(cost(), AllOf(HasSubstr(">+240 ?<"), HasSubstr(">\u2212120<"), HasSubstr("(Holm)")));
+}
+
 TEST(Page, draws_what_is_reached_only_where_a_difference_is_shown) {
     StudyFacts study = tests::study({"city"});
     EXPECT_THAT(tests::page_of(study), HasSubstr("id=\"reach-city\""));
@@ -324,9 +352,10 @@ TEST(Page, tells_recovery_that_is_open_from_one_that_is_shown_not_to_come) {
         }
         return page_of(study);
     };
-    EXPECT_THAT(drawn(24, false), AllOf(HasSubstr(">open: about 24 seeds<"), Not(HasSubstr("recovered by"))));
-    EXPECT_THAT(drawn(900, false), HasSubstr(">open: more than 200 seeds<"));
-    EXPECT_THAT(drawn({}, false), HasSubstr(">open<"));
+    EXPECT_THAT(drawn(24, false),
+                AllOf(HasSubstr(">not told yet: about 24 seeds<"), Not(HasSubstr("recovered by"))));
+    EXPECT_THAT(drawn(900, false), HasSubstr(">not told yet: over 200 seeds<"));
+    EXPECT_THAT(drawn({}, false), HasSubstr(">not told yet<"));
     EXPECT_THAT(drawn({}, true), HasSubstr(">not recovered in this time<"));
 }
 

@@ -299,9 +299,10 @@ TEST(TradeOff, has_one_mark_for_conditions_with_the_same_runs) {
     for (const Measure measure : {Measure::emergency_restricted_time, Measure::other_time_loss})
         tests::difference(conditions[4], measure) = tests::difference(conditions[3], measure);
     EXPECT_EQ(marks(), 9u);
-    EXPECT_THAT(tests::page_of(study),
-                HasSubstr("Not drawn, as their runs equal those of another condition: " +
-                          conditions[4].label() + "."));
+    const std::string both = conditions[4].label() + " = " + conditions[3].label();
+    const Figure figure = tradeoff_figure(study, study.scenarios[0]);
+    EXPECT_THAT(figure.note, HasSubstr("Of equal runs one mark is drawn: " + both + "."));
+    EXPECT_THAT(figure.drawing, HasSubstr(">equal runs, one mark: " + both + "<"));
     EXPECT_EQ(tradeoff_figure(study, study.scenarios[0]).data.rows.size(), 10u) << "the data have all";
     conditions[4].same_as = conditions[0].name();
     EXPECT_EQ(marks(), 10u) << "the baseline has no mark";

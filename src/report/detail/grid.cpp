@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "core/terminal.hpp"
 
 namespace clearway::report::detail {
@@ -162,6 +164,28 @@ void split(const Grid& grid, std::vector<Grid>& parts) {
 }
 
 }  // namespace
+
+bool has_mark(const std::vector<Grid>& grids, std::string_view mark) {
+    return std::ranges::any_of(grids, [&](const Grid& grid) {
+        return std::ranges::any_of(grid.rows, [&](const Grid::Row& row) {
+            return std::ranges::any_of(row.cells,
+                                       [&](const GridCell& cell) { return cell.text.ends_with(mark); });
+        });
+    });
+}
+
+std::vector<LegendEntry> tone_entries(const std::vector<Grid>& grids) {
+    const auto sample = [](GridCell::Tone tone, const char* words) {
+        return LegendEntry{
+            fmt::format("<rect class=\"{}\" x=\"6\" y=\"0\" width=\"22\" height=\"11\"/>", style_of(tone)),
+            words};
+    };
+    std::vector<LegendEntry> entries = {sample(GridCell::Tone::better, "better"),
+                                        sample(GridCell::Tone::worse, "worse"),
+                                        sample(GridCell::Tone::neutral, "no effect shown or too small")};
+    if (has_mark(grids, shown_alone)) entries.push_back({"", shown_alone_words});
+    return entries;
+}
 
 Canvas draw_grids(const std::string& title, const std::vector<Grid>& wide,
                   const std::vector<std::string>& axes) {

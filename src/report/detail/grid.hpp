@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "report/detail/canvas.hpp"
@@ -16,6 +17,9 @@ struct GridCell {
 
 /// CSS classes of a cell.
 std::string style_of(GridCell::Tone tone);
+/// Behind a difference whose interval excludes 0, but not with Holm's correction, and what legends say of it.
+inline constexpr const char* shown_alone = " ?";
+inline constexpr const char* shown_alone_words = "? shown alone, not among so many comparisons (Holm)";
 
 /// Rows of coloured cells under headings. Every row has a cell for each column.
 struct Grid {
@@ -27,6 +31,11 @@ struct Grid {
     };
     std::vector<Row> rows;
 };
+
+/// Whether the text of any cell ends with a mark.
+bool has_mark(const std::vector<Grid>& grids, std::string_view mark);
+/// What the tones mean, and `shown_alone` where a cell has it.
+std::vector<LegendEntry> tone_entries(const std::vector<Grid>& grids);
 
 /// A drawing of grids below each other, under lines that say what cells, columns and rows are. A grid with
 /// more columns than there is room for becomes several.

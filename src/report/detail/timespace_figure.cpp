@@ -185,8 +185,13 @@ Figure timespace_figure(const ScenarioFacts& scenario, const Looks& looks, const
     const Series& series = looks[scenario.place_of(condition.name())];
     plot.line(way_of(trip.without), baseline_series);
     plot.line(way_of(trip.with), series);
-    std::vector<LegendEntry> legend = {line_entry(baseline_series, baseline->label()),
-                                       line_entry(series, condition.label())};
+    const bool has_bars = !without->signals.empty() || !with->signals.empty();
+    const auto named = [&](const ConditionFacts& run, const char* bars) {
+        constexpr std::size_t longest = 42;  // leaves room in the legend's line
+        return has_bars ? shortened(run.label(), longest) + bars : run.label();
+    };
+    std::vector<LegendEntry> legend = {line_entry(baseline_series, named(*baseline, ", upper bars")),
+                                       line_entry(series, named(condition, ", lower bars"))};
     add_signal_colours(*without, *with, legend);
     plot.legend(legend);
     DataTable data{{"Condition", "what", "state", "from, s", "to, s", "distance, m"}, {}};

@@ -270,7 +270,10 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
     std::vector<std::string> merged;
     std::erase_if(points, [&](const Point& point) {
         const bool is_merged = is_shown_by_another(scenario, point);
-        if (is_merged) merged.push_back(point.condition->label());
+        if (is_merged)
+            merged.push_back(
+                fmt::format("{} = {}", point.condition->label(),
+                            scenario.conditions[scenario.place_of(point.condition->same_as)].label()));
         return is_merged;
     });
     Range costs;
@@ -306,6 +309,12 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
              "5H28\"/>",
              "dot: the true place of the number at its line"});
     plot.legend(signs);
+    if (!merged.empty()) {
+        constexpr std::size_t letters = 56;  // of a legend's line
+        for (const std::string& line :
+             lines_of(fmt::format("equal runs, one mark: {}", fmt::join(merged, "; ")), letters))
+            plot.legend({{"", line}});
+    }
     std::string note = fmt::format(
         "Up is better for emergency vehicles, left is better for the others. Bars are 95 % intervals. In the "
         "grey band a gain or loss is below {} s and does not count.",
@@ -313,8 +322,7 @@ Figure tradeoff_figure(const StudyFacts& study, const ScenarioFacts& scenario) {
     note += touching_words(points, places);
     if (is_moved) note += " A number that would hide another has a line to its dot.";
     if (!merged.empty())
-        note += fmt::format(" Not drawn, as their runs equal those of another condition: {}.",
-                            fmt::join(merged, "; "));
+        note += fmt::format(" Of equal runs one mark is drawn: {}.", fmt::join(merged, "; "));
     if (std::ranges::any_of(points, &Point::turned_alone)) note += " Small dots: one setting turned alone.";
     return {"tradeoff-" + scenario.name, "Gain and cost against the baseline", plot.finish(), note,
             std::move(data)};

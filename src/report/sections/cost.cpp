@@ -67,9 +67,12 @@ GridCell cost_cell(const ConditionFacts& condition, const std::string& edge) {
     const analysis::Interval* const interval = shown_interval(found->difference);
     const bool better = interval != nullptr && interval->high < 0.0 && !condition.objections.on_others();
     const bool worse = interval != nullptr && interval->low > 0.0;
-    return {number(found->difference->mean, typeset(0, Sign::always)), better  ? GridCell::Tone::better
-                                                                       : worse ? GridCell::Tone::worse
-                                                                               : GridCell::Tone::neutral};
+    const bool is_alone = (better || worse) && found->holm_p && *found->holm_p > 1.0 - analysis::usual_level;
+    return {number(found->difference->mean, typeset(0, Sign::always)) + (is_alone ? shown_alone : ""),
+            better  ? GridCell::Tone::better
+            : worse ? GridCell::Tone::worse
+                    : GridCell::Tone::neutral,
+            interval == nullptr ? "" : interval_text(*interval, typeset(0))};
 }
 
 /// Time lost on each approach against the baseline: a row an approach, a column a condition.
@@ -89,12 +92,15 @@ Figure approach_figure(const ScenarioFacts& scenario, const Looks& looks) {
         for (std::size_t row = 0; row < shown; ++row)
             grid.rows[row].cells.push_back(cost_cell(condition, approaches[row]->edge));
     }
-    Canvas canvas =
-        draw_grids(fmt::format("{}: time lost by approach against the baseline", scenario.name), {grid});
+    const std::vector<Grid> grids = {grid};
+    Canvas canvas = draw_grids(fmt::format("{}: time lost by approach against the baseline", scenario.name),
+                               grids, {"time lost by others per approach and run: difference [95 %], s"});
+    canvas.legend(tone_entries(grids));
     canvas.legend(entries);
     std::string note =
         "Time lost on the approach against the baseline, s per run, summed over all vehicles that are not "
-        "EVs. Coloured if the 95 % interval excludes 0.";
+        "EVs. Coloured if the 95 % interval excludes 0; ? if it does not with Holm's correction for all "
+        "approaches and conditions.";
     if (approaches.size() > shown)
         note += fmt::format(" Shown are the {} of {} approaches with the largest changes.", shown,
                             approaches.size());
@@ -105,7 +111,11 @@ std::string recovery_words(const analysis::Recovery& recovery) {
     if (recovery.recovered_by_s)
         return fmt::format("recovered by {} s", number(*recovery.recovered_by_s, typeset(0)));
     if (recovery.stays_longer) return "not recovered in this time";
-    return recovery.pairs_to_tell ? "open: " + asked_words(*recovery.pairs_to_tell) + " seeds" : "open";
+    if (!recovery.pairs_to_tell) return "not told yet";
+    const std::string seeds = *recovery.pairs_to_tell > most_replications_asked
+                                  ? fmt::format("over {}", most_replications_asked)  // a panel is narrow
+                                  : asked_words(*recovery.pairs_to_tell);
+    return fmt::format("not told yet: {} seeds", seeds);
 }
 
 void draw_recovery(Plot& plot, const ConditionFacts& condition, const Series& series) {
@@ -150,7 +160,8 @@ Figure recovery_figure(const ScenarioFacts& scenario, const Looks& looks,
             "Halted vehicles on the signal's other approaches around each passage of an EV, compared with "
             "the passages of the baseline, with 95 % intervals. Recovered: from then on intervals stay below "
             "one more vehicle, the upper level line, for 30 s. Not recovered: in every 30 s one lies above "
-            "it. Open: neither is shown; so many seeds would show recovery if means and deviations stayed.",
+            "it. Not told yet: neither is shown; so many seeds would show recovery if means and deviations "
+            "stayed.",
             std::move(data)};
 }
 

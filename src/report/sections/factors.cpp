@@ -108,9 +108,7 @@ std::vector<std::string> off_the_axes(const Made& made, const std::vector<Factor
 
 // What is written behind a difference.
 constexpr const char* objected = " (!)";
-constexpr const char* shown_alone = " ?";
 constexpr const char* unsent = " (n/a)";
-constexpr const char* shown_alone_words = "? shown alone, not among so many comparisons (Holm)";
 constexpr const char* unsent_words = "(n/a) it sends no message that could be lost";
 
 const char* mark_of(const ConditionFacts& condition, Measure measure) {
@@ -287,25 +285,9 @@ DataTable data_of(const std::vector<Made>& made, const std::vector<Factor>& fact
 
 /// What the colours and marks of the cells mean.
 std::vector<LegendEntry> entries_of(const std::vector<Grid>& grids) {
-    const auto sample = [](GridCell::Tone tone, const char* words) {
-        return LegendEntry{
-            fmt::format("<rect class=\"{}\" x=\"6\" y=\"0\" width=\"22\" height=\"11\"/>", style_of(tone)),
-            words};
-    };
-    std::vector<LegendEntry> entries = {sample(GridCell::Tone::better, "better"),
-                                        sample(GridCell::Tone::worse, "worse"),
-                                        sample(GridCell::Tone::neutral, "no effect shown or too small")};
-    const auto has = [&](std::string_view mark) {
-        return std::ranges::any_of(grids, [&](const Grid& grid) {
-            return std::ranges::any_of(grid.rows, [&](const Grid::Row& row) {
-                return std::ranges::any_of(row.cells,
-                                           [&](const GridCell& cell) { return cell.text.ends_with(mark); });
-            });
-        });
-    };
-    if (has(objected)) entries.push_back({"", "(!) more EVs lost or hit, or safety checks off"});
-    if (has(shown_alone)) entries.push_back({"", shown_alone_words});
-    if (has(unsent)) entries.push_back({"", unsent_words});
+    std::vector<LegendEntry> entries = tone_entries(grids);
+    if (has_mark(grids, objected)) entries.push_back({"", "(!) more EVs lost or hit, or safety checks off"});
+    if (has_mark(grids, unsent)) entries.push_back({"", unsent_words});
     return entries;
 }
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -14,6 +16,7 @@ Points steps(const Distribution& distribution, double last) {
     Points points;
     double share = 0.0;
     for (const SharePoint& point : distribution.points) {
+        if (point.seconds > last) break;
         points.emplace_back(point.seconds, share);
         points.emplace_back(point.seconds, point.share);
         share = point.share;
@@ -116,14 +119,43 @@ DataTable slopes_data(const ScenarioFacts& scenario) {
     return table;
 }
 
-Figure distribution_figure(const ScenarioFacts& scenario, const Looks& looks) {
-    Range range;
+/// The axis of times: to the longest, or, where few trips would take much of it, to the greatest 95th
+/// percentile of a condition, with what lies beyond.
+Axis time_axis(const ScenarioFacts& scenario) {
+    constexpr double drawn_share = 0.95;
+    constexpr double worth_cutting = 0.8;  // of the whole
+    Range all;
+    Range shown;
     for (const ConditionFacts& condition : scenario.conditions) {
-        for (const SharePoint& point : condition.distribution.points) {
-            range.include(point.seconds);
-        }
+        const Distribution& distribution = condition.distribution;
+        if (distribution.points.empty()) continue;
+        for (const SharePoint& point : distribution.points)
+            all.include(point.seconds);
+        shown.include(distribution.points.front().seconds);
+        const auto last = std::ranges::lower_bound(
+            distribution.points, drawn_share * distribution.points.back().share, {}, &SharePoint::share);
+        shown.include(last->seconds);
     }
-    if (range.empty()) return {};
+    if (all.empty() || shown.high - all.low >= worth_cutting * (all.high - all.low))
+        return {all.empty() ? all : padded(all, 0.04), "EV travel time, s"};
+    shown = padded(shown, 0.04);
+    double beyond = 0.0;
+    for (const ConditionFacts& condition : scenario.conditions) {
+        const Distribution& distribution = condition.distribution;
+        if (distribution.points.empty()) continue;
+        const auto first =
+            std::ranges::upper_bound(distribution.points, shown.high, {}, &SharePoint::seconds);
+        const double share = first == distribution.points.begin() ? 0.0 : std::prev(first)->share;
+        beyond += (distribution.points.back().share - share) * static_cast<double>(distribution.all);
+    }
+    return {shown, fmt::format("EV travel time ({} beyond, up to {} s), s",
+                               counted(static_cast<std::uint64_t>(std::lround(beyond)), "trip"),
+                               number(all.high, typeset(0)))};
+}
+
+Figure distribution_figure(const ScenarioFacts& scenario, const Looks& looks) {
+    const Axis times = time_axis(scenario);
+    if (times.values.empty()) return {};
     std::vector<std::size_t> all(scenario.conditions.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     const auto draw = [&](Plot& plot, std::size_t place, std::size_t /*slot*/, const Series& series) {
@@ -133,7 +165,7 @@ Figure distribution_figure(const ScenarioFacts& scenario, const Looks& looks) {
     return {"travel-time-" + scenario.name, scenario.name,
             line_figure({fmt::format("{}: distribution of EV travel time", scenario.name),
                          300.0,
-                         {padded(range, 0.04), "EV travel time, s"},
+                         times,
                          {Range(0.0, 1.0), "share of EVs that arrived within, 0 to 1"}},
                         scenario, looks, all, draw),
             distribution_note(scenario), distribution_data(scenario)};
