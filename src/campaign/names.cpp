@@ -113,13 +113,14 @@ const std::string* level_of(const std::string& given, const std::vector<std::str
 
 }  // namespace
 
-std::string condition_called(const std::string& option, const std::string& word, const core::Settings& titles,
-                             const std::filesystem::path& folder) {
-    if (titles.contains(word)) return word;
+std::string condition_called(const std::string& word, const results::Store& store) {
+    const core::Settings titles = report::titles_of(store);
+    if (word.empty() || titles.contains(word)) return word;
     const auto titled = std::ranges::find(titles, word, [](const auto& title) { return title.second; });
     if (titled != titles.end()) return titled->first;
     const auto shown = core::texts_of(titles, [](const auto& title) { return title.second; });
-    core::Problem problem = unknown_name(option, word, shown, "clearway study status " + folder.string());
+    core::Problem problem =
+        unknown_name("--condition", word, shown, "clearway study status " + store.folder().string());
     if (!problem.allowed.empty()) problem.allowed = fmt::format("{}", fmt::join(shown, "; "));
     throw core::InputError(std::move(problem));
 }

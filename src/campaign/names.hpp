@@ -7,6 +7,7 @@
 #include "analysis/summary.hpp"
 #include "core/error.hpp"
 #include "experiment/condition.hpp"
+#include "results/store.hpp"
 
 namespace clearway::campaign {
 
@@ -16,10 +17,9 @@ core::Problem unknown_name(const std::string& where, const std::string& name,
                            const std::vector<std::string>& known,
                            const std::string& listed_by = "clearway list");
 
-/// The name of the condition that a user calls by its name or its title; `titles` are by name. Throws
-/// core::InputError for others.
-std::string condition_called(const std::string& option, const std::string& word, const core::Settings& titles,
-                             const std::filesystem::path& folder);
+/// The name of the condition of a run folder that `--condition` calls by its name or its title; empty for an
+/// empty word. Throws core::InputError for others.
+std::string condition_called(const std::string& word, const results::Store& store);
 
 /// What `--against` names: nothing, a condition or its title, or levels of factors, `policy=corridor` or
 /// `condition.policy=corridor,condition.failure=B10`. Throws core::InputError for what the study does not

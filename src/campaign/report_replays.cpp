@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "campaign/detail/replay_trips.hpp"
-#include "campaign/names.hpp"
 #include "campaign/stored_folder.hpp"
 #include "campaign/worker_jobs.hpp"
 #include "core/counted.hpp"
@@ -187,26 +186,12 @@ std::string markup_of(const results::Store& store, const std::vector<Trip>& trip
                                   markup.size(), most_bytes));
 }
 
-/// The trips of the condition that the user named, or of those of the headlines.
-std::vector<Trip> trips_of(const results::Store& store, const results::Results& results,
-                           const report::StudyFacts& study, const std::string& condition) {
-    if (condition.empty()) return trips_to_show(results, study, "");
-    const std::string name =
-        condition_called("--replay-condition", condition, report::titles_of(store), store.folder());
-    std::vector<Trip> trips = trips_to_show(results, study, name);
-    if (trips.empty())
-        throw core::InputError({"--replay-condition",
-                                fmt::format("`{}` has no trip that arrived in its baseline, too", condition),
-                                "a condition that is compared with one", "Choose another"});
-    return trips;
-}
-
 }  // namespace
 
 void require_replayable(const results::Store& store, const results::Results& results,
                         const report::StudyFacts& study, const ReplayRequest& request) {
     if (request.make == MakeReplays::no) return;
-    const std::vector<Trip> trips = trips_of(store, results, study, request.condition);
+    const std::vector<Trip> trips = trips_to_show(results, study, "");
     std::vector<experiment::ConditionSpec> conditions = store.manifest().conditions;
     std::erase_if(conditions, [&](const experiment::ConditionSpec& condition) {
         return std::ranges::none_of(trips, [&](const Trip& trip) {
@@ -223,7 +208,7 @@ ReportReplays replays_of(const results::Store& store, const results::Results& re
     const auto fits = [&](const std::vector<Trip>& trips) {
         return !trips.empty() && stored.starts_with(mark_of(trips));
     };
-    const std::vector<Trip> trips = trips_of(store, results, study, request.condition);
+    const std::vector<Trip> trips = trips_to_show(results, study, "");
     if (fits(trips)) return {stored.substr(mark_of(trips).size()), view::script_source()};
     if (request.make == MakeReplays::no) {
         // They may be of a condition that the user chose.

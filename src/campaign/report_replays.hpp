@@ -15,7 +15,6 @@ enum class MakeReplays : std::uint8_t { no, yes };
 /// Which replays a report shall have.
 struct ReplayRequest {
     MakeReplays make = MakeReplays::no;
-    std::string condition = {};  ///< Name or title; empty: of each scenario the one of its headline.
     CodeTrust trust = CodeTrust::none;
 };
 
@@ -26,8 +25,7 @@ struct ReportReplays {
     std::string script_source;  ///< What the page's policy must allow for it.
 };
 
-/// Throws core::InputError for a condition that is unknown or compared with nothing, and for code in Python
-/// that would have to run and is not trusted.
+/// Throws core::InputError for code in Python that would have to run and is not trusted.
 void require_replayable(const results::Store& store, const results::Results& results,
                         const report::StudyFacts& study, const ReplayRequest& request);
 

@@ -363,7 +363,8 @@ core::ExitCode publish(const results::Store& store, const PublishOptions& option
     const results::Results results = results::read_results(store, results::VehicleRows::emergency);
     const analysis::Summary summary =
         analysis::summarise(results, analysis::usual_level, options.response_threshold_s);
-    const report::StudyFacts facts = report::facts_of(store, results, summary, options.least_relevant_s);
+    const report::StudyFacts facts = report::facts_of(store, results, summary, options.least_relevant_s,
+                                                      condition_called(options.condition, store));
     require_replayable(store, results, facts, options.replays);
     fmt::print("{}", options.printing == Printing::json ? report::json_tables(facts)
                                                         : report::console_tables(facts, options.tables));

@@ -24,6 +24,8 @@ struct PublishOptions {
     Printing printing = Printing::text;
     report::Tables tables = report::Tables::essential;
     double least_relevant_s = report::usual_least_relevant_s;  ///< Smaller EV time differences do not count.
+    std::string condition =
+        {};  ///< That first screens show, by name or title; empty: the one that helps most.
     ReplayRequest replays = {};
     std::optional<double> response_threshold_s = {};  ///< Nothing: that of each scenario.
 };

@@ -10,6 +10,7 @@
 #include "campaign/programs.hpp"
 #include "campaign/stored_folder.hpp"
 #include "cli/detail/app.hpp"
+#include "cli/detail/common_options.hpp"
 #include "cli/verb.hpp"
 #include "core/counted.hpp"
 #include "core/error.hpp"
@@ -35,6 +36,7 @@ struct FiguresArguments {
     double least_relevant_s = report::usual_least_relevant_s;
     Formats formats = Formats::all;
     report::FigureChoice choice;
+    std::string condition;  ///< That maps and trips show; empty: as in the report.
 };
 
 constexpr const char* rasteriser = "rsvg-convert";
@@ -103,9 +105,10 @@ core::ExitCode write(const FiguresArguments& arguments) {
     const bool all = arguments.formats == Formats::all;
     const results::Store store = results::Store::open(arguments.folder);
     const results::Manifest& manifest = store.manifest();
-    const report::StudyFacts facts = report::read_facts(
-        arguments.folder, arguments.least_relevant_s,
-        campaign::reference_from(arguments.against, manifest.conditions, arguments.folder));
+    const report::StudyFacts facts =
+        report::read_facts(arguments.folder, arguments.least_relevant_s,
+                           campaign::reference_from(arguments.against, manifest.conditions, arguments.folder),
+                           campaign::condition_called(arguments.condition, store));
     const report::FigureFiles files = report::write_figures(facts, arguments.output, arguments.choice);
     report::write_index(files, arguments.output);
     if (all) {
@@ -140,6 +143,7 @@ Action configure_figures(App& app) {
                    "Condition that stands for the baseline; or levels of factors: each condition is compared "
                    "with the one that is the same but for these; or best: with the best other one")
         .option_text("NAME|FACTOR=LEVEL,...|best [the baselines]");
+    add_shown_condition_option(app, arguments->condition);
     app.add_option("--least-difference", arguments->least_relevant_s,
                    "Smallest difference of an EV's time that counts as an effect, s; 0: any")
         .range(0.0, 1e6)

@@ -26,19 +26,12 @@ Action configure_report(App& app) {
         .range(0.0, 1e6)
         .option_text(fmt::format("SECONDS, 0 to 1e6 [{}]", arguments->how.least_relevant_s));
     add_response_option(app, arguments->how.response_threshold_s);
+    add_shown_condition_option(app, arguments->how.condition);
     app.add_flag_callback(
         "--replays", [arguments] { arguments->how.replays.make = campaign::MakeReplays::yes; },
         "Show the median, best and worst trip of each scenario in the report: makes up to six runs of each "
         "again to record them, those with code in Python only with --trust-code. Later reports keep them "
         "[off]");
-    app.add_option_function<std::string>(
-           "--replay-condition",
-           [arguments](const std::string& condition) {
-               arguments->how.replays.make = campaign::MakeReplays::yes;
-               arguments->how.replays.condition = condition;
-           },
-           "Show trips of this condition, by its name or title; implies --replays")
-        .option_text("NAME [of each scenario that of the headline]");
     add_trust_option(app, arguments->how.replays.trust);
     add_json_option(app, arguments->how.printing, "the tables");
     add_tables_option(app, arguments->how.tables);

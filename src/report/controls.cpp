@@ -33,12 +33,6 @@ const char* words_of(Effect effect) {
     return ", no verdict";
 }
 
-/// EV travel time of the first minus that of the second.
-MaybeEstimate longer_in(const ConditionFacts& first, const ConditionFacts& second) {
-    return analysis::estimate_paired(first.outcome(primary).values, second.outcome(primary).values,
-                                     analysis::MetricKind::quantity);
-}
-
 /// `, the same EV times in 9 of 10 runs`, or empty where none has.
 std::string same_times_words(const ConditionFacts& condition, const ConditionFacts& control) {
     const analysis::Values& mine = condition.outcome(primary).values;
@@ -77,8 +71,8 @@ double report_interval_s(const ConditionFacts& condition) {
 std::string rates_sentence(const ConditionFacts& condition, const ConditionFacts& working) {
     const double interval_s = report_interval_s(condition);
     const double usual_s = report_interval_s(working);
-    const Effect cost =
-        effect_of(longer_in(condition, working), Better::lower, condition.least_relevant(primary));
+    const Effect cost = effect_of(paired_difference(condition, working, primary), Better::lower,
+                                  condition.least_relevant(primary));
     if (interval_s == usual_s || are_same(condition, working) || !is_clear(cost)) return {};
     const auto often = [](double seconds) {
         return seconds > 0.0 ? fmt::format("every {:g} s", seconds) : std::string("at every step");
@@ -96,7 +90,7 @@ std::string failing_words(const ScenarioFacts& scenario, const ConditionFacts& c
     if (working.objections.on_emergency())
         return fmt::format("cannot be said, as while nothing fails it {}",
                            analysis::emergency_objections(working.objections));
-    const MaybeEstimate longer = longer_in(condition, working);
+    const MaybeEstimate longer = paired_difference(condition, working, primary);
     if (!longer) return "no complete pair of runs";
     const Effect cost = effect_of(longer, Better::lower, condition.least_relevant(primary));
     const bool can_tell = is_clear(cost) || is_clear(effect_of(working, primary));
@@ -132,7 +126,7 @@ std::vector<Control> controls_of(const ScenarioFacts& scenario, const ConditionF
     std::vector<Control> controls;
     for (const ConditionFacts& other : scenario.conditions) {
         if (other.control_of != condition.name()) continue;
-        controls.push_back({&other, longer_in(other, condition)});
+        controls.push_back({&other, paired_difference(other, condition, primary)});
     }
     return controls;
 }

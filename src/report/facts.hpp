@@ -248,6 +248,7 @@ struct ScenarioFacts {
     double horizon_s = 0.0;  ///< What an EV that did not arrive counts with, likewise.
     Blockers blockers = Blockers::respected;
     std::uint64_t replications = 0;
+    std::string chosen = {};  ///< Name of the condition that the user wants shown; empty: none.
     double least_relevant_s = usual_least_relevant_s;
     double response_threshold_s = 0.0;       ///< Of an EV trip that is in time; 0 if no EV arrived.
     std::vector<FlowFacts> flows;            ///< In the order of the counts; empty without counts.

@@ -172,6 +172,62 @@ std::size_t parts_of(const ConditionFacts& facts) {
     return parts;
 }
 
+/// Whether a headline may be about it in place of the leader: it helps and was made likewise.
+bool may_replace(const StudyFacts& study, const ScenarioFacts& scenario, const ConditionFacts& leader,
+                 const ConditionFacts& condition) {
+    return can_be_featured(scenario, condition) && effect_of(condition, primary) == Effect::better &&
+           (reference_of(study, scenario, condition) != nullptr) ==
+               (reference_of(study, scenario, leader) != nullptr);
+}
+
+/// What the others lose more under a condition than under another.
+MaybeEstimate cost_between(const ConditionFacts& condition, const ConditionFacts& other) {
+    return paired_difference(condition, other, Measure::other_time_loss);
+}
+
+/// Whether its gain is not shown to be smaller than the leader's, and its cost is shown to be lower.
+bool is_cheaper(const ConditionFacts& condition, const ConditionFacts& leader) {
+    const Effect time = effect_of(paired_difference(condition, leader, primary), Better::lower,
+                                  leader.least_relevant(primary));
+    return (time == Effect::none_shown || time == Effect::negligible) &&
+           condition.baseline == leader.baseline && !condition.objections.on_others() &&
+           effect_of(cost_between(condition, leader), Better::lower) == Effect::better;
+}
+
+/// Of those that are cheaper than the leader the cheapest, then the simplest; the leader if none is.
+const ConditionFacts* cheapest(const StudyFacts& study, const ScenarioFacts& scenario,
+                               const ConditionFacts& leader) {
+    const auto rank = [](const ConditionFacts& one) {
+        return std::pair(mean_of(one.value(Measure::other_time_loss)).value_or(0.0), parts_of(one));
+    };
+    const ConditionFacts* best = &leader;
+    for (const ConditionFacts& condition : scenario.conditions) {
+        if (may_replace(study, scenario, leader, condition) && is_cheaper(condition, leader) &&
+            (best == &leader || rank(condition) < rank(*best)))
+            best = &condition;
+    }
+    return best;
+}
+
+/// How the condition that is shown stands to the one with the largest mean gain.
+std::string choice_words(const ScenarioFacts& scenario, const ConditionFacts& shown,
+                         const ConditionFacts& leader, bool some_fail) {
+    constexpr NumberStyle style{.decimals = 1, .script = Script::typeset, .sign = Sign::always};
+    const std::string among = some_fail ? " of those in which nothing fails" : "";
+    if (&shown == &leader)
+        return fmt::format(
+            "; this one has the largest mean gain{}, which usually overstates its true gain a little", among);
+    if (!scenario.chosen.empty()) return fmt::format("; {} has the largest mean gain{}", leader.title, among);
+    if (is_cheaper(shown, leader))
+        return fmt::format(
+            "; the gain of {} is as large (EV travel time against this one {} s), and it costs other drivers "
+            "{} s more each",
+            leader.title, estimate(paired_difference(leader, shown, primary), style),
+            estimate(cost_between(leader, shown), style));
+    return "; this one is the simplest of those whose mean gain is as large but for less than what counts as "
+           "a difference";
+}
+
 }  // namespace
 
 std::string objection_without_failure(const ScenarioFacts& scenario, const ConditionFacts& condition) {
@@ -182,16 +238,18 @@ std::string objection_without_failure(const ScenarioFacts& scenario, const Condi
 }
 
 const ConditionFacts* featured_condition(const StudyFacts& study, const ScenarioFacts& scenario) {
-    const ConditionFacts* const leader = largest_gain(study, scenario);
+    const std::size_t chosen = scenario.place_of(scenario.chosen);
+    if (chosen < scenario.conditions.size() && scenario.conditions[chosen].is_compared())
+        return &scenario.conditions[chosen];
+    const ConditionFacts* leader = largest_gain(study, scenario);
     if (leader == nullptr || effect_of(*leader, primary) != Effect::better) return leader;
-    const bool varied = reference_of(study, scenario, *leader) != nullptr;
+    leader = cheapest(study, scenario, *leader);
     const double enough_s = leader->difference(primary)->mean + leader->least_relevant_s;
     const ConditionFacts* simplest = leader;
     for (const ConditionFacts& condition : scenario.conditions) {
-        const bool level = can_be_featured(scenario, condition) &&
-                           effect_of(condition, primary) == Effect::better &&
+        const bool level = may_replace(study, scenario, *leader, condition) &&
                            condition.difference(primary)->mean <= enough_s &&
-                           (reference_of(study, scenario, condition) != nullptr) == varied;
+                           effect_of(cost_between(condition, *leader), Better::lower) != Effect::worse;
         if (level && parts_of(condition) < parts_of(*simplest)) simplest = &condition;
     }
     return simplest;
@@ -208,7 +266,8 @@ std::string scenario_headline(const ScenarioFacts& scenario, const ConditionFact
     words = joined(std::move(words), missing_clause(condition));
     if (condition.is_unchecked()) words = joined(std::move(words), "the simulator's safety checks were off");
     return (cut_off.empty() ? cut_off : cut_off + ". ") + (unmet.empty() ? unmet : unmet + " ") +
-           (working.empty() ? working : working + ". ") + words + ".";
+           (working.empty() ? working : working + ". ") + words + "." +
+           (condition.name() == scenario.chosen ? " Shown by your choice." : "");
 }
 
 std::string worst_trips(const ScenarioFacts& scenario, const ConditionFacts& condition, Script script) {
@@ -261,14 +320,10 @@ std::string among_conditions(const StudyFacts& study, const ScenarioFacts& scena
     if (help > 0 && corrected < help)
         words += fmt::format(", {} with Holm's correction for so many comparisons",
                              corrected == 0 ? "none" : std::to_string(corrected));
-    if (help > 1)
-        words += featured_condition(study, scenario) == largest_gain(study, scenario)
-                     ? fmt::format(
-                           "; this one has the largest mean gain{}, which usually overstates its true "
-                           "gain a little",
-                           some_fail ? " of those in which nothing fails" : "")
-                     : "; this one is the simplest of those whose mean gain is as large but for less than "
-                       "what counts as a difference";
+    const ConditionFacts* const shown = featured_condition(study, scenario);
+    const ConditionFacts* const leader = largest_gain(study, scenario);
+    if (leader != nullptr && help > (shown == leader ? 1 : 0))
+        words += choice_words(scenario, *shown, *leader, some_fail);
     if (objected > 0)
         words += fmt::format("; {} lost or hit emergency vehicles, or ran without safety checks", objected);
     return words + ".";

@@ -8,11 +8,13 @@
 
 namespace clearway::report {
 
-/// The condition that a scenario's first screen is about: of those with a shown gain for emergency vehicles
-/// (EV) the one with the largest, or the simplest of those that are less than the least relevant difference
-/// behind it (fewest policies, settings, failures, repairs); else the one with the smallest EV travel time to
-/// which nothing is objected; else the first that is compared. Conditions with a setting turned alone come
-/// last, and controls are left out. Null if none is compared.
+/// The condition that a scenario's first screen is about: the chosen one (ScenarioFacts::chosen); else of
+/// those with a shown gain for emergency vehicles (EV) the one with the largest, or the cheapest of those
+/// that gain as much, as far as pairs show, and are shown to cost the others less, or the simplest of those
+/// that are less than the least relevant difference behind that and not shown to cost more (fewest policies,
+/// settings, failures, repairs); else the one with the smallest EV travel time to which nothing is objected;
+/// else the first that is compared. Conditions with a setting turned alone come last, and controls are left
+/// out. Null if none is compared.
 const ConditionFacts* featured_condition(const StudyFacts& study, const ScenarioFacts& scenario);
 
 /// One sentence made from the figures of a condition: `corridor saves ambulances 26 s a trip (24 %); other

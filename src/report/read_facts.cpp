@@ -232,6 +232,19 @@ void add_files(const results::Store& store, const results::Results& results, Sce
     }
 }
 
+void choose(const std::string& chosen, StudyFacts& study) {
+    bool is_compared = chosen.empty();
+    for (ScenarioFacts& scenario : study.scenarios) {
+        scenario.chosen = chosen;
+        const std::size_t place = scenario.place_of(chosen);
+        is_compared =
+            is_compared || (place < scenario.conditions.size() && scenario.conditions[place].is_compared());
+    }
+    if (!is_compared)
+        throw core::InputError({"--condition", fmt::format("`{}` is compared with nothing here", chosen),
+                                "a condition that is compared with another", "Choose another"});
+}
+
 /// As analysis::to_text, with titles in place of names and levels.
 std::string titled(analysis::Reference reference, const std::vector<ConditionFacts>& conditions) {
     const analysis::Reference by_name = reference;
@@ -275,11 +288,12 @@ core::Settings given_titles_of(const results::Store& store) {
 }
 
 StudyFacts facts_of(const results::Store& store, const results::Results& results,
-                    const analysis::Summary& summary, double least_relevant_s) {
+                    const analysis::Summary& summary, double least_relevant_s, const std::string& chosen) {
     StudyFacts study;
     study.title = fmt::format("Clearway: {}", summary.manifest.study);
     for (const analysis::ScenarioSummary& scenario : summary.scenarios)
         study.scenarios.push_back(scenario_facts(scenario, summary, least_relevant_s));
+    choose(chosen, study);
     Conditions conditions;
     const experiment::ConditionTitles titles(given_titles_of(store));
     for (ScenarioFacts& scenario : study.scenarios) {
@@ -314,11 +328,12 @@ StudyFacts facts_of(const results::Store& store, const results::Results& results
     return study;
 }
 
-StudyFacts read_facts(const fs::path& folder, double least_relevant_s, const analysis::Reference& reference) {
+StudyFacts read_facts(const fs::path& folder, double least_relevant_s, const analysis::Reference& reference,
+                      const std::string& chosen) {
     const results::Store store = results::Store::open(folder);
     const results::Results results = results::read_results(store, results::VehicleRows::emergency);
     const analysis::Summary summary = analysis::summarise(results, analysis::usual_level, {}, reference);
-    StudyFacts facts = facts_of(store, results, summary, least_relevant_s);
+    StudyFacts facts = facts_of(store, results, summary, least_relevant_s, chosen);
     if (!facts.scenarios.empty()) facts.reference = titled(reference, facts.scenarios[0].conditions);
     return facts;
 }

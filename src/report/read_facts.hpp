@@ -27,14 +27,16 @@ namespace clearway::report {
 ///     command.txt                                    the command that made the study; optional
 ///     study.toml                                     its file; optional
 ///
-/// Reads only. Smaller differences of EV times than `least_relevant_s` do not count. Throws core::InputError
-/// for a folder that is not a run folder and for damaged files.
+/// Reads only. Smaller differences of EV times than `least_relevant_s` do not count. `chosen` is the
+/// condition that first screens and their figures show, by name. Throws core::InputError for a folder that is
+/// not a run folder, for damaged files, and for a chosen condition that is compared with nothing.
 StudyFacts read_facts(const std::filesystem::path& folder, double least_relevant_s = usual_least_relevant_s,
-                      const analysis::Reference& reference = {});
+                      const analysis::Reference& reference = {}, const std::string& chosen = {});
 
 /// The same from results that have been read and summarised already.
 StudyFacts facts_of(const results::Store& store, const results::Results& results,
-                    const analysis::Summary& summary, double least_relevant_s = usual_least_relevant_s);
+                    const analysis::Summary& summary, double least_relevant_s = usual_least_relevant_s,
+                    const std::string& chosen = {});
 
 /// What tables and figures call the conditions of a run folder, by scenario and name, and what they are
 /// compared with: `Ours`, `its counterpart with policy Ours`.

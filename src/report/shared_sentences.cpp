@@ -52,6 +52,11 @@ bool is_held_up(const analysis::Comparison& comparison) {
     return 2 * comparison.held_up_pairs > comparison.complete_pairs;
 }
 
+MaybeEstimate paired_difference(const ConditionFacts& first, const ConditionFacts& second, Measure measure) {
+    return analysis::estimate_paired(first.outcome(measure).values, second.outcome(measure).values,
+                                     analysis::MetricKind::quantity);
+}
+
 bool is_shown_alone(const ConditionFacts& condition, Measure measure) {
     const auto& comparison = condition.outcome(measure).comparison;
     return comparison && is_shown_alone(effect_of(condition, measure), *comparison);
@@ -212,8 +217,7 @@ std::string privilege_sentence(const ScenarioFacts& scenario, const ConditionFac
     });
     if (passing == scenario.conditions.end() || &*passing == &condition || !condition.is_compared())
         return {};
-    const MaybeEstimate difference = analysis::estimate_paired(
-        condition.outcome(primary).values, passing->outcome(primary).values, analysis::MetricKind::quantity);
+    const MaybeEstimate difference = paired_difference(condition, *passing, primary);
     if (!difference) return {};
     return fmt::format("Against EVs that pass red ({}), s: {}.", passing->title,
                        estimate(difference, {1, script, Sign::always}));

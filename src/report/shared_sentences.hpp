@@ -17,6 +17,9 @@ std::string signed_seconds(double value, Script script);
 /// Both with a semicolon between them; the one if the other is empty.
 std::string joined(std::string words, const std::string& more);
 
+/// A measure under the first condition minus that under the second, in the same replications.
+MaybeEstimate paired_difference(const ConditionFacts& first, const ConditionFacts& second, Measure measure);
+
 /// Whether the interval ends so near 0 that the first digits of its ends would not tell them apart.
 bool is_barely_shown(const MaybeEstimate& difference);
 

@@ -167,11 +167,13 @@ TEST_F(ReplayTest, a_report_shows_the_median_best_and_worst_trip_when_asked) {
 
     ASSERT_EQ(clearway({"report", "out"}).code, 0);
     EXPECT_EQ(read("out/report.html"), report) << "later reports keep them";
-    const Ended unknown = clearway({"report", "out", "--replay-condition", "Ours"});
+    const Ended unknown = clearway({"report", "out", "--condition", "Our"});
     EXPECT_EQ(unknown.code, 3);
-    EXPECT_THAT(unknown.err, AllOf(HasSubstr("`Ours` is unknown"), HasSubstr("Baseline; mine")));
+    EXPECT_THAT(unknown.err, AllOf(HasSubstr("`Our` is unknown"), HasSubstr("Baseline; mine")));
     EXPECT_THAT(unknown.out, IsEmpty());
-    EXPECT_EQ(clearway({"report", "out", "--replay-condition", "baseline"}).code, 3);
+    const Ended baseline = clearway({"report", "out", "--condition", "baseline"});
+    EXPECT_EQ(baseline.code, 3);
+    EXPECT_THAT(baseline.err, HasSubstr("compared with nothing"));
     const std::string stored = read("out/replays.html");
     core::write_atomically(folder() / "out/replays.html", "<!-- clearway replays 0 -->\n" + stored);
     const Ended stale = clearway({"report", "out"});
@@ -187,13 +189,22 @@ TEST_F(ReplayTest, a_report_shows_trips_of_the_condition_that_was_chosen_by_its_
           "B10 = \"outages\"\n");
     ASSERT_EQ(clearway({"study", "study.toml", "--out", "out"}).code, 0);
     for (const char* const title : {"Ours, outages", "Ours, perfect sensors"}) {
-        const Ended made = clearway({"report", "out", "--replay-condition", title});
+        const Ended made = clearway({"report", "out", "--replays", "--condition", title});
         ASSERT_EQ(made.code, 0) << made.err;
         const std::string report = read("out/report.html");
         EXPECT_THAT(report, AllOf(HasSubstr(std::string("\"title\":\"") + title + "\""),
-                                  HasSubstr(std::string(" with ") + title + "\"")));
-        ASSERT_EQ(clearway({"report", "out"}).code, 0);
+                                  HasSubstr(std::string(" with ") + title + "\""),
+                                  HasSubstr("Shown by your choice.")));
+        ASSERT_EQ(clearway({"report", "out", "--condition", title}).code, 0);
         EXPECT_EQ(read("out/report.html"), report) << "later reports keep them";
+        ASSERT_EQ(clearway({"report", "out"}).code, 0);
+        EXPECT_THAT(read("out/report.html"), AllOf(HasSubstr(std::string(" with ") + title + "\""),
+                                                   testing::Not(HasSubstr("by your choice"))));
+        ASSERT_EQ(
+            clearway({"export", "figures", "out", "--out", "figures", "--svg-only", "--condition", title})
+                .code,
+            0);
+        EXPECT_THAT(read("figures/trip-line.csv"), HasSubstr(title));
     }
 }
 

@@ -358,6 +358,70 @@ TEST_F(Overview, LetsTheSimplestOfEqualGainsSpeak) {
     EXPECT_THAT(among_conditions(study_, scenario_), HasSubstr("largest mean gain"));
 }
 
+/// With values of each run: what a pair of runs differs in varies with `noise`.
+void set_runs(ConditionFacts& condition, double time_s, double loss_s, double noise) {
+    analysis::Values times;
+    analysis::Values losses;
+    for (int run = 0; run < 20; ++run) {
+        const double own = run % 2 == 0 ? noise : -noise;
+        times.emplace_back(time_s + 3.0 * run + own);
+        losses.emplace_back(loss_s + run + 0.1 * own);
+    }
+    tests::metric(condition, info(primary).field).values = times;
+    tests::metric(condition, info(Measure::other_time_loss).field).values = losses;
+    condition.least_relevant_s = 1.0;
+}
+
+TEST_F(Overview, LetsTheCheapestOfEqualGainsSpeak) {
+    ConditionFacts costly = tests::condition("costly", "preempt signals", 73.5);
+    tests::compare(costly, around(-26.5, 4.0), around(9.0, 1.0));
+    scenario_.conditions.push_back(costly);
+    const auto shown = [&](double gain_s, double cost_s, double noise) {
+        set_runs(corridor(), 74.0, 4.6, 0.0);
+        set_runs(scenario_.conditions[2], 74.0 - gain_s, 4.6 + cost_s, noise);
+        return featured_condition(study_, scenario_);
+    };
+    const auto* const costly_one = &scenario_.conditions[2];
+    EXPECT_EQ(shown(0.5, 4.4, 0.2), &corridor()) << "0.5 s does not count";
+    EXPECT_EQ(shown(3.0, 4.4, 10.0), &corridor()) << "3.0 s is not shown";
+    EXPECT_THAT(
+        among_conditions(study_, scenario_),
+        AllOf(HasSubstr("; the gain of preempt signals is as large (EV travel time against this one "),
+              HasSubstr("and it costs other drivers +4.4 ["), Not(HasSubstr("this one has the"))));
+    EXPECT_EQ(shown(3.0, 4.4, 0.2), costly_one) << "its gain is shown to be larger";
+    EXPECT_EQ(shown(0.5, 0.0, 0.2), costly_one) << "its cost is not shown to be higher";
+    EXPECT_EQ(shown(0.5, -4.4, 0.2), costly_one) << "it costs less";
+    corridor().objections.unchecked = true;
+    EXPECT_EQ(shown(0.5, 4.4, 0.2), costly_one);
+}
+
+TEST_F(Overview, LetsNoSimplerConditionSpeakThatCostsMore) {
+    ConditionFacts larger = tests::condition("larger", "corridor and more", 73.9);
+    larger.condition.policies = {"corridor", "more"};
+    tests::compare(larger, around(-26.1, 4.0), around(4.6, 1.0));
+    scenario_.conditions.push_back(larger);
+    set_runs(corridor(), 74.0, 8.0, 0.0);
+    set_runs(scenario_.conditions[2], 73.9, 4.6, 0.2);
+    EXPECT_EQ(featured_condition(study_, scenario_), &scenario_.conditions[2]);
+}
+
+TEST_F(Overview, IsAboutTheConditionThatTheUserChose) {
+    ConditionFacts own = tests::condition("own", "Ours", 95.0);
+    tests::compare(own, around(-5.0, 4.0), around(0.0, 1.0));
+    own.condition.failure = "B10";
+    scenario_.conditions.push_back(own);
+    scenario_.chosen = "own";
+    EXPECT_EQ(featured_condition(study_, scenario_), &scenario_.conditions[2]);
+    EXPECT_THAT(scenario_headline(scenario_, scenario_.conditions[2], Script::plain),
+                EndsWith(" Shown by your choice."));
+    EXPECT_THAT(headline(), Not(HasSubstr("your choice"))) << "the other one";
+    EXPECT_EQ(among_conditions(study_, scenario_),
+              "2 of 2 conditions are shown to help; corridor has the largest mean gain of those in which "
+              "nothing fails.");
+    scenario_.chosen = "baseline";
+    EXPECT_EQ(featured_condition(study_, scenario_), &corridor()) << "it is compared with nothing";
+}
+
 TEST_F(Overview, IsAboutAConditionInWhichNothingFails) {
     ConditionFacts failing = tests::condition("failing", "corridor with failing sensors", 60.0);
     failing.condition.policies = corridor().condition.policies;

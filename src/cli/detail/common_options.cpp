@@ -54,6 +54,12 @@ void add_response_option(App& app, std::optional<double>& threshold_s) {
         .option_text("SECONDS, 0.1 to 86400 [100 s per km of the mean EV route]");
 }
 
+void add_shown_condition_option(App& app, std::string& condition) {
+    app.add_option("--condition", condition,
+                   "Condition, by name or title, that headline, map, trip, journeys and replays show")
+        .option_text("NAME [of each scenario the one that helps most]");
+}
+
 void add_record_option(App& app, experiment::StepRecording& recording) {
     app.add_flag_callback(
         "--record", [&recording] { recording = experiment::StepRecording::on; },

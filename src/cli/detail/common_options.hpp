@@ -39,6 +39,8 @@ void add_json_option(App& app, Printing& printing, const std::string& what);
 void add_tables_option(App& app, report::Tables& tables);
 /// Declares `--response-threshold`.
 void add_response_option(App& app, std::optional<double>& threshold_s);
+/// Declares `--condition`: the one that first screen, map, trip, journeys and replays show.
+void add_shown_condition_option(App& app, std::string& condition);
 /// Declares `--record`: every step of every run is kept in a file.
 void add_record_option(App& app, experiment::StepRecording& recording);
 /// Declares `--jobs`: worker processes at a time, 0 for one per core.
