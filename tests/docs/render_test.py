@@ -123,7 +123,7 @@ class Rendered(Tree):
         self.assertIn("| new | -25.2", text)
         self.assertIn("| old \N{DAGGER} | -25.2", text)
         self.assertIn("| taken \N{DAGGER} | -25.2", text)
-        self.assertIn("\N{DAGGER} Taken over from an earlier page: tree 2222222, 2026-11-24.\\\n"
+        self.assertIn("\N{DAGGER} Measured earlier and not repeated with this version: tree 2222222, 2026-11-24.\\\n"
                       "\N{DAGGER} Clearway's behaviour has changed since: tree 1111111, 2026-11-24.\n", text)
 
     def test_a_change_of_a_golden_run_makes_rows_old(self):
