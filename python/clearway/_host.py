@@ -5,6 +5,7 @@ It loads the file, makes the part and answers questions until its pipe ends. Wha
 """
 from __future__ import annotations
 
+import bdb
 import contextlib
 import ctypes
 import importlib.util
@@ -35,6 +36,8 @@ GIVEN = {"act": "belief", "predict": "observation"}
 #: In which a part answers, s of wall time. A loop without end is told, with its place, and not waited for until the run's own limit.
 ANSWER_LIMIT_S = 60.0
 PR_SET_CHILD_SUBREAPER = 36
+NO_TERMINAL = (": a part runs in a process of its own, without a terminal, where no debugger can ask. print(belief) there goes to the run's "
+               "log; step through clearway.env, whose loop is in your own process")
 
 
 #: Types of defaults that make an argument of ``__init__`` a setting.
@@ -275,6 +278,7 @@ def told(error: BaseException) -> str:
     else:
         text = in_full(error)
     first, _, others = cause.strip()[:1000].partition("\n")
+    first += NO_TERMINAL if isinstance(error, bdb.BdbQuit) else ""
     return "\n".join([first + place, *filter(None, [others, text.rstrip()[-100_000:]])])
 
 

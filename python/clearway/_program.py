@@ -11,12 +11,13 @@ import numbers
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import threading
 import warnings
 from pathlib import Path
-from typing import IO, Any, Callable, Iterable, Sequence, TypeVar
+from typing import IO, Any, Callable, Iterable, Iterator, Sequence, TypeVar
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -262,7 +263,7 @@ _INTERRUPTED = "clearway: interrupted"
 
 
 def _listen(stream: IO[str], said: collections.deque[str], progress: bool) -> None:
-    with contextlib.suppress(ValueError):  # a second Ctrl-C closes the stream
+    with contextlib.suppress(ValueError):  # what a handler of the user's raises a second time closes the stream
         for line in stream:
             said.append(line)
             progress = progress and not line.startswith(_INTERRUPTED)  # what follows is told by what is raised
@@ -285,6 +286,31 @@ def command(arguments: Iterable[str]) -> list[str]:
     return [str(programs() / "clearway"), *map(without_null, arguments)]
 
 
+@contextlib.contextmanager
+def _running(words: list[str]) -> Iterator[tuple[subprocess.Popen[str], list[int]]]:
+    """A program, and the signals of Ctrl-C that came since, each of which ends it: raised, a second one would meet the lines that tell
+    the first. Where the user handles them, and outside of the main thread, that stays as it is."""
+    process: subprocess.Popen[str] | None = None
+    came: list[int] = []
+
+    def note(number: int, _: Any) -> None:
+        came.append(number)
+        if process is not None:
+            process.terminate()
+    is_ours = threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if is_ours:
+        signal.signal(signal.SIGINT, note)
+    try:
+        with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, env=environment(),
+                              encoding="utf-8", errors="replace") as process:
+            if came:
+                process.terminate()
+            yield process, came
+    finally:
+        if is_ours:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 def call(arguments: Sequence[str], *, progress: bool | None = False, accept: Sequence[int] = (),
          kept: str | Path | None = None) -> tuple[int, str]:
     """Calls ``clearway ARGUMENTS``; returns exit code and standard output.
@@ -296,8 +322,7 @@ def call(arguments: Sequence[str], *, progress: bool | None = False, accept: Seq
     said: collections.deque[str] = collections.deque(maxlen=60)
     if progress is None:
         progress = sys.stderr is not None and sys.stderr.isatty()
-    with subprocess.Popen([*_owned(), *command(arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          stdin=subprocess.DEVNULL, env=environment(), encoding="utf-8", errors="replace") as process:
+    with _running([*_owned(), *command(arguments)]) as (process, came):
         assert process.stdout is not None and process.stderr is not None
         listener = threading.Thread(target=_listen, args=(process.stderr, said, progress), daemon=True)
         listener.start()
@@ -306,11 +331,13 @@ def call(arguments: Sequence[str], *, progress: bool | None = False, accept: Seq
         except BaseException as error:
             process.terminate()
             listener.join()  # before its stream is closed
-            if isinstance(error, KeyboardInterrupt):
+            if isinstance(error, KeyboardInterrupt):  # of a handler of the user's
                 raise _interruption(said, kept) from None
             raise
         listener.join()
         code = process.wait()
+    if came:
+        raise _interruption(said, kept)
     if code != 0 and code not in accept:
         message = "".join(said).strip().removeprefix("clearway: ")
         raise error_of(code, message or f"clearway {arguments[0]} ended with {code}")

@@ -6,20 +6,36 @@ import functools
 import math
 import numbers
 import os
+import reprlib
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeVar
 
 import numpy as np
 
 from ._channel import Moment, Sheet
-from ._program import Told, keywords_of, no_attribute, no_keyword
+from ._program import ClearwayError, Told, keywords_of, no_attribute, no_keyword
 
 F = TypeVar("F", bound=Callable[..., Any])
 
 #: Lane of a vehicle whose lane is not known.
 NO_LANE = 4294967295
 HUMAN, AUTOMATED, EMERGENCY = 0, 1, 2
+
+
+#: What is shown of vehicles.
+_PLACE = ("key", "speed_mps", "lane", "lane_position_m", "x_m", "y_m")
+
+
+def _shown(owner: Told, names: Iterable[str]) -> str:
+    """``NAME(key=3, speed_mps=4.2)``, of arrays a few elements; names alone where the memory holds another decision."""
+    try:
+        values = {name: getattr(owner, name) for name in names}
+    except ClearwayError:
+        return Told.__repr__(owner)
+    texts = (np.array2string(value, precision=1, threshold=6, separator=", ") if isinstance(value, np.ndarray)
+             else f"{value:.1f}" if isinstance(value, float) else repr(value) for value in values.values())
+    return f"{type(owner).__name__}({', '.join(map('='.join, zip(values, texts)))})"
 
 
 class Network(Told):
@@ -98,6 +114,9 @@ class Vehicles(_Rows):
     def __len__(self) -> int:
         return len(self.key)
 
+    def __repr__(self) -> str:
+        return _shown(self, _PLACE)
+
     @property
     def lane_number(self) -> np.ndarray:
         """The number of each vehicle's lane on its edge, 0 the outermost; ``NO_LANE`` where it is not known."""
@@ -166,6 +185,9 @@ class EmergencyVehicle(Told):
     lane = property(lambda self: self._one("lane"), doc="Row in ``network.lane_ids``, as ``Vehicles.lane``.")
     lane_position_m = property(lambda self: self._one("lane_position_m"), doc="From the start of the lane.")
 
+    def __repr__(self) -> str:
+        return _shown(self, _PLACE)
+
     def _bounds(self, name: str) -> slice:
         first = self._sheet[name]
         return slice(int(first[self._number]), int(first[self._number + 1]))
@@ -221,6 +243,9 @@ class Belief(Told):
         self.time_s = float(sheet["time_s"][0])
         self.vehicles = Vehicles(self._sheet, network)
         self.links = Links(self._sheet)
+
+    def __repr__(self) -> str:
+        return _shown(self, ("time_s", "vehicles", "emergency_vehicles"))
 
     def _end(self) -> None:
         """To be called when ``act`` has answered."""
@@ -505,6 +530,8 @@ def checked_leases(answer: Any) -> list[dict[str, Any]]:
     """The fields of leases that ``act`` returned."""
     if answer is None:
         raise TypeError("act returned None: return a list of leases, empty if there is nothing to ask for")
+    if isinstance(answer, (str, bytes, Mapping)):
+        raise TypeError(f"act returned a {type(answer).__name__}, not a list of clearway.Lease: {reprlib.repr(answer)}")
     try:
         leases = list(answer)
     except TypeError:

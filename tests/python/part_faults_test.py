@@ -129,6 +129,20 @@ class Orphan(Policy):
 class Interrupts(Policy):
     def act(self, belief):
         raise KeyboardInterrupt
+class Stops(Policy):
+    def act(self, belief):
+        breakpoint()
+        return []
+class Text(Policy):
+    def act(self, belief):
+        return "green please"
+class Shows(Policy):
+    before = None
+    def act(self, belief):
+        if belief.emergency_vehicles:
+            print(belief.emergency_vehicles[0], "then", belief, "before", self.before)
+            self.before = belief
+        return []
 class Endless(Policy):
     def __init__(self):
         (sys.modules.get("clearway._host") or sys.modules["__main__"]).ANSWER_LIMIT_S = 2.0
@@ -324,7 +338,8 @@ class FaultTest(FolderCase):
 
     def test_an_exception_is_that_runs_failure_and_the_study_goes_on(self) -> None:
         says = {"Raises": "ZeroDivisionError: division by zero", "Leaves": "SystemExit: 0", "Dies": "killed by signal 9",
-                "Interrupts": "KeyboardInterrupt",
+                "Interrupts": "KeyboardInterrupt", "Text": "act returned a str, not a list of clearway.Lease: 'green please'",
+                "Stops": "BdbQuit: a part runs in a process of its own, without a terminal",
                 "NotANumber": "speed_mps is nan (allowed: 0 to 200)", "NotALease": "'hold_green' in its list, which is not a",
                 "Nothing": "act returned None", "Writes": "read-only", "OwnFields": "made by its class methods", "Important": "priority is 1000",
                 "TooMuch": "bytes (allowed", "Number": "act returned 3, which is not a list", "Slowly": "speed_mps is -5",
@@ -337,17 +352,17 @@ class FaultTest(FolderCase):
             self.assertIn(message, found)
             if name != "Dies":
                 first, *others = found.splitlines()
-                self.assertRegex(first, r"bad.py: ([\w.]*Error|SystemExit|KeyboardInterrupt).* \(bad.py, line \d+(, \w+\.act)?\)$")
+                self.assertRegex(first, r"bad.py: ([\w.]*Error|bdb.BdbQuit|SystemExit|KeyboardInterrupt).* \(bad.py, line \d+(, \w+\.act)?\)$")
                 line = int(re.search(r"line (\d+)", first)[1])
                 class_line = next(number for number, text in enumerate(FAULTS.splitlines(), 1) if text.startswith(f"class {name}("))
                 self.assertTrue(class_line < line < class_line + 25, first)
                 self.assertNotIn(str(Path(clearway.__file__).parent), found)
-                answered = ("NotALease", "Nothing", "TooMuch", "Number")  # `act` has returned, so that no line of it is running
+                answered = ("NotALease", "Nothing", "TooMuch", "Number", "Text")  # `act` has returned, so that no line of it is running
                 self.assertEqual("Traceback" in found, name not in answered, found)
                 self.assertEqual((name in answered, f"{name}.act" in first), (not others,) * 2, found)
                 if others and name != "Caught":
                     self.assertEqual(others[-1].strip(), FAULTS.splitlines()[line - 1].strip())
-                if name not in ("Caught", "Interrupts"):  # another error was raised before; the line has its word
+                if name not in ("Caught", "Interrupts", "Stops"):  # another error was raised before; the line has its word
                     self.assertEqual(found.count(message), 1, found)
             # Who killed a process cannot be seen, so it counts as the system, which does so where memory is short.
             self.assertEqual(failed["cause"][0], "signal" if name == "Dies" else "python")
@@ -372,6 +387,15 @@ class FaultTest(FolderCase):
         ended = subprocess.run(study, capture_output=True, text=True, check=False)
         self.assertIn("line 7", ended.stderr)
         self.assertNotIn("no connection", ended.stderr)
+
+    def test_what_is_believed_prints_with_its_values(self) -> None:
+        clearway.run("intersection", [clearway.Condition("Shows", policy="bad.py:Shows")], seeds=1, out="runs")
+        (log,) = [file.read_text() for file in Path("runs/logs").glob("*.log")]
+        vehicle = r"EmergencyVehicle\(key=\d+, speed_mps=[\d.]+, lane=\d+, lane_position_m=[\d.]+, x_m=[\d.-]+, y_m=[\d.-]+\)"
+        line = next(line for line in log.replace("\nShows| ", " ").splitlines() if line.startswith("Shows| Emerg") or " Emerg" in line)
+        self.assertRegex(line, rf"{vehicle} then Belief\(time_s=[\d.]+, vehicles=Vehicles\(key=\[.*speed_mps=\[.*\), "
+                               rf"emergency_vehicles=\[{vehicle}.*\]\) before None")
+        self.assertIn("before <Belief: edge_times_s, emergency_vehicles, ", log)  # of an earlier decision
 
     def test_what_a_part_prints_is_in_the_log_of_its_run(self) -> None:
         clearway.run("intersection", [clearway.Condition("Prints", policy="bad.py:Prints")], seeds=1, out="runs")

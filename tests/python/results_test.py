@@ -444,6 +444,23 @@ class ResultsTest(FolderCase):
         self.assertEqual(self.interrupted(str(self.folder), "begun"),
                          "KeyboardInterrupt: interrupted. What is complete is kept in runs/c. The same call continues")
 
+    def test_ctrl_c_that_comes_twice_says_it_once(self) -> None:
+        code = "from clearway import run; print('begun', flush=True); run('intersection', ['corridor'], seeds=40, jobs=1)"
+        for after_s in (0.05, 0.1, 0.3, 1.0, 2.0):
+            with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                  start_new_session=True) as process:
+                process.stdout.readline()
+                time.sleep(after_s)
+                for _ in range(2):  # as timeout -s INT does: to the process, then to its group
+                    process.send_signal(signal.SIGINT)
+                    os.killpg(process.pid, signal.SIGINT)
+                said = process.communicate(timeout=60)[1]
+            self.assertNotIn("During handling", said)
+            self.assertEqual(said.count("Traceback"), 1, said)
+            self.assertRegex(said.splitlines()[-1], r"^KeyboardInterrupt: interrupted.* The same call (continues|starts again)$")
+            if after_s >= 1.0:
+                self.assertRegex(said.splitlines()[-1], r"kept in runs/intersection-\w{6}\. The same call continues$")
+
     def test_damaged_and_closed_recordings_are_told(self) -> None:
         with self.results.recording("intersection", "corridor") as recording:
             whole = recording.file.read_bytes()
