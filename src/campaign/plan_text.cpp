@@ -35,6 +35,7 @@ namespace {
 /// One row of the plan: a condition in a scenario.
 struct Cell {
     std::string scenario;
+    std::string variant;  ///< `, dense`; empty: the standard one.
     experiment::ConditionSpec condition;
     std::size_t runs = 0;
     std::size_t complete = 0;
@@ -50,16 +51,10 @@ std::optional<results::Store> existing_store(const study::Plan& plan, const std:
     return store;
 }
 
-/// The runs that are taken over from the folder `from`; none where that is empty.
-std::set<experiment::RunKey> reused_runs(const study::Plan& plan, const std::filesystem::path& from) {
-    if (from.empty()) return {};
-    const auto runs = study::reusable_runs(plan.manifest, results::Store::open(from));
-    return {runs.begin(), runs.end()};
-}
-
 std::vector<Cell> cells_of(const study::Plan& plan, const std::filesystem::path& folder,
                            const std::filesystem::path& from = {}) {
-    const std::set<experiment::RunKey> reused = reused_runs(plan, from);
+    std::map<experiment::RunKey, std::string> reused;
+    if (!from.empty()) reused = study::reusable_runs(plan.manifest, results::Store::open(from));
     const std::optional<results::Store> store = existing_store(plan, folder);
     const CostBook book(folder);
     std::vector<Cell> cells;
@@ -67,12 +62,16 @@ std::vector<Cell> cells_of(const study::Plan& plan, const std::filesystem::path&
     for (std::size_t row = 0; row < plan.scenarios.size(); ++row) {
         const scenario::ScenarioConfig& config = plan.scenarios[row];
         const std::string& hash = plan.manifest.scenarios[row].configuration_hash;
+        const std::string& variant = plan.manifest.scenarios[row].variant;
         std::map<experiment::TrafficModel, RunCost> costs;
         for (const experiment::ConditionSpec& condition : plan.manifest.conditions) {
             const auto [cost, is_new] = costs.try_emplace(condition.traffic_model);
             if (is_new) cost->second = book.of(config, hash, condition.traffic_model);
             rows[{config.name, condition.name}] = cells.size();
-            cells.push_back({.scenario = config.name, .condition = condition, .cost = cost->second});
+            cells.push_back({.scenario = config.name,
+                             .variant = variant.empty() ? "" : ", " + variant,
+                             .condition = condition,
+                             .cost = cost->second});
         }
     }
     for (const study::PlannedUnit& planned : plan.units) {
@@ -185,11 +184,15 @@ std::string policy_of(const experiment::ConditionSpec& condition) {
 }
 
 Table table_of(const std::vector<Cell>& cells, const core::Settings& titles) {
+    const bool all_standard = std::ranges::all_of(cells, [](const Cell& cell) {
+        return cell.condition.traffic_model == experiment::TrafficModel::standard;
+    });
     Table table{"cells",
-                {{"scenario", "scenario"},
+                {{"scenario", ""},
+                 {"", "scenario"},
                  {"condition", ""},
                  {"", "condition"},
-                 {"traffic_model", "traffic"},
+                 {"traffic_model", all_standard ? "" : "traffic model"},
                  {"failure", ""},
                  {"settings", ""},
                  {"model", ""},
@@ -205,7 +208,7 @@ Table table_of(const std::vector<Cell>& cells, const core::Settings& titles) {
                 {}};
     for (const Cell& cell : cells) {
         const experiment::ConditionSpec& condition = cell.condition;
-        Row row{{cell.scenario, condition.name, titles.at(condition.name),
+        Row row{{cell.scenario, cell.scenario + cell.variant, condition.name, titles.at(condition.name),
                  experiment::name(condition.traffic_model), condition.failure, condition.settings,
                  condition.model_file, condition.predictor, condition.policies,
                  experiment::name(condition.safety_checks), cell.runs, cell.complete, cell.reused,

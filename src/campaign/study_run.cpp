@@ -176,7 +176,8 @@ void take_over(const results::Store& store, const std::filesystem::path& from) {
     for (const std::string& damaged : reused.damaged)
         fmt::print(stderr, "clearway: {}\n", damaged);
     fmt::print(
-        stderr, "clearway: {} taken over from {}{}\n", core::counted(reused.runs, "run"), from.string(),
+        stderr, "clearway: {} taken over from {}{}{}\n", core::counted(reused.runs, "run"), from.string(),
+        reused.renamed.empty() ? "" : fmt::format(", also of {}", fmt::join(reused.renamed, ", ")),
         reused.other_conditions.empty()
             ? ""
             : fmt::format("; not those of {}, which differ", fmt::join(reused.other_conditions, ", ")));

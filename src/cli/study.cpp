@@ -56,9 +56,10 @@ Action configure_study(App& app) {
     app.add_option("--scenario", arguments->scenarios,
                    "Scenario in place of those of the file, into runs/NAME-SCENARIO; can be repeated")
         .option_text("SCENARIO ... [those of the file]");
-    app.add_option("--reuse", arguments->run.reused,
-                   "Run folder whose runs are taken over where scenario, condition and seed are the same, as "
-                   "after a change of one condition")
+    app.add_option(
+           "--reuse", arguments->run.reused,
+           "Run folder whose runs are taken over where scenario, seed and condition, whatever its name, "
+           "are the same, as after a change of another condition")
         .option_text("DIR [none]");
     app.add_option("--shard", arguments->shard,
                    "Run only the I-th of N shards, into --out; `clearway study merge` merges them")

@@ -306,8 +306,9 @@ void append_head(const ScenarioFacts& scenario, std::string& text) {
     for (const ConditionFacts& condition : scenario.conditions)
         complete = std::max<std::uint64_t>(complete, condition.complete_runs);
     fmt::format_to(
-        std::back_inserter(text), "{:=<{}}\n{}: {}{}, {} (EV) per condition\n", "", page_width,
-        printable(scenario.name), counted(scenario.replications, "replication"),
+        std::back_inserter(text), "{:=<{}}\n{}{}: {}{}, {} (EV) per condition\n", "", page_width,
+        printable(scenario.name), scenario.variant.empty() ? "" : ", " + printable(scenario.variant),
+        counted(scenario.replications, "replication"),
         complete < scenario.replications ? fmt::format(" planned, {} complete at most", complete) : "",
         counted(emergency, "emergency vehicle"));
     append_wrapped(scenario.assumptions, text);

@@ -233,6 +233,7 @@ struct ScenarioFacts {
     /// Scenario of the dissertation whose published numbers are shown; empty in other studies.
     std::string published_as;
     std::string title;
+    std::string variant;  ///< `dense`; empty: the standard one.
     /// What its emergency vehicles are called: `ambulances` where all are, else `emergency vehicles`.
     std::string emergency_noun = "emergency vehicles";
     std::string attribution;  ///< Credit that the map data requires; may be empty.

@@ -228,6 +228,7 @@ void add_files(const results::Store& store, const results::Results& results, Sce
     for (const results::ScenarioEntry& entry : results.manifest.scenarios) {
         if (entry.name != scenario.name) continue;
         scenario.attribution = entry.attribution;
+        scenario.variant = entry.variant;
         add_configuration(entry.configuration, scenario);
     }
 }

@@ -1,6 +1,10 @@
 #include "results/manifest.hpp"
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -63,6 +67,7 @@ core::Json to_object(const Manifest& manifest) {
         core::Json entry;
         core::write_fields(entry, scenario);
         if (!scenario.factors.empty()) entry["factors"] = scenario.factors;
+        if (!scenario.variant.empty()) entry["variant"] = scenario.variant;
         object["scenarios"].push_back(std::move(entry));
     }
     object["conditions"] = core::Json::array();
@@ -83,6 +88,7 @@ ScenarioEntry scenario_from(const core::Json& object, const std::string& where,
     core::ObjectReader reader(object, where, problems);
     reader.read_fields(scenario);
     reader.read_if_there("factors", scenario.factors);
+    reader.read_if_there("variant", scenario.variant);
     core::check_folder_name(where + ": name", scenario.name, problems);
     return scenario;
 }
@@ -96,11 +102,102 @@ void check_format(const core::Json& object, const std::string& where) {
          fmt::format("{}", known.format), "Read this folder with the version of Clearway that wrote it"});
 }
 
+/// `conditions (old is not asked for; and 3 more)`, the first three.
+std::string with_some(const char* what, std::vector<std::string> found) {
+    constexpr std::size_t most = 3;
+    const std::size_t more = found.size() - std::min(found.size(), most);
+    found.resize(std::min(found.size(), most));
+    return fmt::format("{} ({}{})", what, fmt::join(found, "; "),
+                       more > 0 ? fmt::format("; and {} more", more) : "");
+}
+
+/// Values by table and key of a configuration that Clearway wrote; those of lists joined.
+std::map<std::string, core::Settings> values_of(const std::string& configuration) {
+    std::map<std::string, core::Settings> tables;
+    std::string table;
+    std::istringstream lines(configuration);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t equals = line.find(" = ");
+        if (line.starts_with("[")) {
+            table = line.substr(line.find_first_not_of('['));
+            table = table.substr(0, table.find(']')) + ".";
+        } else if (equals != std::string::npos) {
+            std::string& value = tables[table][line.substr(0, equals)];
+            value += (value.empty() ? "" : ", ") + line.substr(equals + 3);
+        }
+    }
+    return tables;
+}
+
+/// What the dense variant sets, and so is told with it.
+bool is_of_variant(const std::string& key) {
+    constexpr std::array keys = {"demand.density", "demand.emergency", "time.warm_up_s", "time.window_s"};
+    return key.starts_with("dense.") || std::ranges::find(keys, key) != keys.end();
+}
+
+/// `friction 0.5, speed_factor 1`.
+std::string in_words(const core::Settings& values) {
+    std::vector<std::string> words;
+    for (const auto& [key, value] : values)
+        words.push_back(key + " " + value);
+    return core::listed(words);
+}
+
+void add_differing_values(const ScenarioEntry& left, const ScenarioEntry& right,
+                          std::vector<std::string>& found) {
+    const auto or_none = [](const std::string& text) { return text.empty() ? std::string("none") : text; };
+    const auto add = [&](const std::string& key, const std::string& there, const std::string& now) {
+        if (there != now)
+            found.push_back(
+                fmt::format("{}: {}: {} there, {} now", left.name, key, or_none(there), or_none(now)));
+    };
+    const auto variant = [](const ScenarioEntry& one) {
+        return one.variant.empty() ? std::string("standard") : one.variant;
+    };
+    add("variant", variant(left), variant(right));
+    auto before = values_of(left.configuration);
+    auto after = values_of(right.configuration);
+    std::set<std::string> keys;
+    for (auto* const tables : {&before, &after})
+        for (const auto& [table, values] : *tables)
+            for (const auto& [key, value] : values)
+                keys.insert(table + key);
+    std::set<std::string> told;  // Tables that one lacks, once as a whole.
+    for (const std::string& key : keys) {
+        if (left.variant != right.variant && is_of_variant(key)) continue;
+        const std::string table = key.substr(0, key.find('.') + 1);
+        core::Settings& there = before[table];
+        core::Settings& now = after[table];
+        if (!there.empty() && !now.empty())
+            add(key, there[key.substr(table.size())], now[key.substr(table.size())]);
+        else if (told.insert(table).second)
+            add(table.substr(0, table.size() - 1), in_words(there), in_words(now));
+    }
+}
+
+/// `scenarios (line: variant: standard there, dense now)`.
+std::string differing_scenarios(const Manifest& left, const Manifest& right) {
+    std::vector<std::string> found;
+    for (const ScenarioEntry& one : left.scenarios) {
+        const auto same = std::ranges::find(right.scenarios, one.name, &ScenarioEntry::name);
+        const std::size_t before = found.size();
+        if (same == right.scenarios.end()) {
+            found.push_back(one.name + " is not asked for");
+        } else if (*same != one) {
+            add_differing_values(one, *same, found);
+            if (found.size() == before) found.push_back(one.name + ": its files");
+        }
+    }
+    for (const ScenarioEntry& one : right.scenarios)
+        if (std::ranges::find(left.scenarios, one.name, &ScenarioEntry::name) == left.scenarios.end())
+            found.push_back(one.name + " is new");
+    return found.empty() ? "order of scenarios" : with_some("scenarios", std::move(found));
+}
+
 /// `conditions (old is not asked for; Soft: soft.py has changed)`, at most three of them. New ones, which a
 /// folder may take, are told only where nothing else differs.
 std::string differing_conditions(const Manifest& left, const Manifest& right,
                                  const experiment::ConditionTitles& titles) {
-    constexpr std::size_t most = 3;
     core::Settings named = titles.of(left.conditions);
     named.merge(titles.of(right.conditions));
     std::vector<std::string> found;
@@ -124,10 +221,7 @@ std::string differing_conditions(const Manifest& left, const Manifest& right,
     }
     if (found.empty() && next != order.end()) return "order of conditions";
     if (found.empty()) found = std::move(added);
-    const std::size_t more = found.size() - std::min(found.size(), most);
-    found.resize(std::min(found.size(), most));
-    return fmt::format("conditions ({}{})", fmt::join(found, "; "),
-                       more > 0 ? fmt::format("; and {} more", more) : "");
+    return with_some("conditions", std::move(found));
 }
 
 }  // namespace
@@ -176,7 +270,7 @@ std::string differences(const Manifest& left, const Manifest& right, const core:
     add(left.sumo_version != right.sumo_version, "SUMO version");
     add(left.study_seed != right.study_seed, "seed");
     add(left.replications != right.replications, "replications");
-    add(left.scenarios != right.scenarios, "scenarios");
+    if (left.scenarios != right.scenarios) add(true, differing_scenarios(left, right));
     const bool others = left.conditions != right.conditions;
     add(others, others ? differing_conditions(left, right, experiment::ConditionTitles(titles)) : "");
     add(left.precision != right.precision, "precision");

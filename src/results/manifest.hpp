@@ -22,6 +22,7 @@ struct ScenarioEntry {
     std::string configuration_hash;  ///< Of `configuration` and the scenario's own files.
     std::string attribution;         ///< Credit that the map data requires; may be empty.
     core::Settings factors = {};     ///< Of the study: `scenario.demand.human` -> `80`.
+    std::string variant = {};        ///< `dense`; empty: the standard one.
 
     bool operator==(const ScenarioEntry&) const = default;
 

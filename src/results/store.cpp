@@ -252,18 +252,31 @@ Store::Written Store::write(const RunRecord& record, const RunTiming& timing) co
 }
 
 Store::Written Store::adopt(const Store& other, const experiment::RunKey& key) const {
-    other.check_record(key);
-    const fs::path source = other.run_folder(key);
+    return adopt(other, key, key.condition);
+}
+
+Store::Written Store::adopt(const Store& other, const experiment::RunKey& key,
+                            const std::string& condition_there) const {
+    const experiment::RunKey there{key.scenario, condition_there, key.replication};
+    other.check_record(there);
+    const fs::path source = other.run_folder(there);
     const fs::path target = run_folder(key);
     bool first = false;
     if (!complete(key)) {
         core::PartFolder part(target);
         for (const auto& entry : fs::directory_iterator(source))
             core::copy_file(entry.path(), part.path() / entry.path().filename(), core::Copying::links);
+        if (there != key) {
+            const auto condition =
+                std::ranges::find(manifest_.conditions, key.condition, &experiment::ConditionSpec::name);
+            core::write_atomically(part.path() / "run.json",
+                                   detail::run_named(core::read_file(source / "run.json"), key, *condition));
+        }
         first = part.put_in_place();
     }
     for (const char* const name : {"run.json", "vehicles.csv"}) {
-        if (first || core::read_file(source / name) == core::read_file(target / name)) continue;
+        if (first || there != key || core::read_file(source / name) == core::read_file(target / name))
+            continue;
         throw core::ConflictError(
             fmt::format("run {} differs between {} and {} ({}). Equal inputs must give equal bytes; keep "
                         "both folders and compare versions and machines",

@@ -77,6 +77,10 @@ class Store {
     /// flushed if they cannot be linked; `flush` flushes their entries. Throws core::InputError for a damaged
     /// record, which is not adopted. As with `write`, the first wins and a second must be equal.
     Written adopt(const Store& other, const experiment::RunKey& key) const;
+    /// Likewise one whose condition has the same content and another name in that store, as a run of this
+    /// study's condition.
+    Written adopt(const Store& other, const experiment::RunKey& key,
+                  const std::string& condition_there) const;
     /// Likewise its recording, unless this store has one. Throws core::InputError for one that is damaged.
     void adopt_recording(const Store& other, const experiment::RunKey& key) const;
     bool has_recording(const experiment::RunKey& key) const;

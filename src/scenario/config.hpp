@@ -489,7 +489,8 @@ struct ScenarioConfig {
     std::vector<Call> calls;
     std::optional<Measured> measured;
 
-    std::filesystem::path folder;  ///< Relative paths start here. Not part of the configuration.
+    Variant variant = Variant::standard;  ///< Already in the rest. Not part of the configuration.
+    std::filesystem::path folder;         ///< Relative paths start here. Not part of the configuration.
     /// Where each key was set: `time.window_s` -> `merge/scenario.toml:14:1: time.window_s`.
     std::map<std::string, std::string> origins;
 

@@ -52,6 +52,7 @@ void apply_variant(const Override&, const Given& given, ScenarioConfig& config, 
           std::pair{"demand.emergency", "dense.emergency"}, std::pair{"demand.density", "dense.factor"}})
         config.origins[key] = config.where(source);
     config.dense.reset();
+    config.variant = Variant::dense;
 }
 
 /// Multiplies the density of the file and of the dense variant.

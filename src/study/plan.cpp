@@ -138,7 +138,9 @@ results::Manifest manifest_of(const StudyConfig& config, const Versions& version
         manifest.scenarios.push_back(
             {scenario.name, scenario.version, scenario.title, scenario::to_toml(scenario),
              scenario::scenario_hash(scenario), scenario.network.attribution,
-             factors == config.scenario_factors.end() ? core::Settings{} : factors->second});
+             factors == config.scenario_factors.end() ? core::Settings{} : factors->second,
+             scenario.variant == scenario::Variant::standard ? ""
+                                                             : std::string(core::name(scenario.variant))});
     }
     manifest.conditions = config.conditions;
     manifest.precision = config.precision;

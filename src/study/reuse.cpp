@@ -1,7 +1,6 @@
 #include "study/reuse.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -12,12 +11,20 @@
 namespace clearway::study {
 namespace {
 
-/// Names of the elements that both studies have in the same words.
-template <class Element>
-std::set<std::string> shared(const std::vector<Element>& ours, const std::vector<Element>& theirs) {
-    std::set<std::string> names;
-    for (const Element& element : ours)
-        if (std::ranges::find(theirs, element) != theirs.end()) names.insert(element.name);
+using Conditions = std::vector<experiment::ConditionSpec>;
+
+/// Names of our conditions that both studies have, with those of theirs: the same name if it is one of them.
+core::Settings shared(const Conditions& ours, const Conditions& theirs) {
+    core::Settings names;
+    for (const experiment::ConditionSpec& condition : ours) {
+        for (const experiment::ConditionSpec& other : theirs) {
+            experiment::ConditionSpec renamed = other;
+            renamed.name = condition.name;
+            if (renamed != condition) continue;
+            if (other.name == condition.name) names[condition.name] = other.name;
+            names.try_emplace(condition.name, other.name);
+        }
+    }
     return names;
 }
 
@@ -37,23 +44,27 @@ void require_comparable(const results::Manifest& ours, const results::Manifest& 
 
 }  // namespace
 
-std::vector<experiment::RunKey> reusable_runs(const results::Manifest& study, const results::Store& source) {
+std::map<experiment::RunKey, std::string> reusable_runs(const results::Manifest& study,
+                                                        const results::Store& source) {
     const results::Manifest& theirs = source.manifest();
     const std::string from = source.folder().string();
     require_comparable(study, theirs, from);
-    const std::set<std::string> scenarios = shared(study.scenarios, theirs.scenarios);
-    const std::set<std::string> conditions = shared(study.conditions, theirs.conditions);
-    for (const auto& [names, what] : {std::pair(&scenarios, "scenario"), std::pair(&conditions, "condition")})
-        if (names->empty())
+    std::vector<results::ScenarioEntry> scenarios = study.scenarios;
+    std::erase_if(scenarios, [&](const results::ScenarioEntry& scenario) {
+        return std::ranges::find(theirs.scenarios, scenario) == theirs.scenarios.end();
+    });
+    const core::Settings conditions = shared(study.conditions, theirs.conditions);
+    for (const auto& [none, what] :
+         {std::pair(scenarios.empty(), "scenario"), std::pair(conditions.empty(), "condition")})
+        if (none)
             throw core::InputError({from, fmt::format("has no {} of this study", what),
                                     "the run folder of a study that shares some",
                                     "Leave --reuse out, or name another folder"});
-    std::vector<experiment::RunKey> runs = source.complete_runs();
-    std::erase_if(runs, [&](const experiment::RunKey& key) {
-        return !scenarios.contains(key.scenario) || !conditions.contains(key.condition) ||
-               key.replication >= study.replications;
-    });
-    std::ranges::sort(runs);
+    std::map<experiment::RunKey, std::string> runs;
+    for (const results::ScenarioEntry& scenario : scenarios)
+        for (const auto& [condition, there] : conditions)
+            for (std::uint32_t at = 0; at < std::min(study.replications, theirs.replications); ++at)
+                if (source.complete({scenario.name, there, at})) runs[{scenario.name, condition, at}] = there;
     return runs;
 }
 
@@ -61,20 +72,25 @@ Reused reuse(const results::Store& store, const std::filesystem::path& from) {
     core::require_plain_files(from);
     const results::Store source = results::Store::open(from);
     const results::Manifest& theirs = source.manifest();
-    const std::vector<experiment::RunKey> runs = reusable_runs(store.manifest(), source);
+    const std::map<experiment::RunKey, std::string> runs = reusable_runs(store.manifest(), source);
+    const core::Settings conditions = shared(store.manifest().conditions, theirs.conditions);
     Reused result;
     for (const experiment::ConditionSpec& condition : store.manifest().conditions) {
-        const auto named =
-            std::ranges::find(theirs.conditions, condition.name, &experiment::ConditionSpec::name);
-        if (named != theirs.conditions.end() && *named != condition)
-            result.other_conditions.push_back(condition.name);
+        const std::string& name = condition.name;
+        if (const auto same = conditions.find(name); same != conditions.end()) {
+            if (same->second != name)
+                result.renamed.push_back(fmt::format("{} ({} there)", name, same->second));
+        } else if (std::ranges::find(theirs.conditions, name, &experiment::ConditionSpec::name) !=
+                   theirs.conditions.end()) {
+            result.other_conditions.push_back(name);
+        }
     }
     const FolderLock lock(store.folder());
     std::vector<experiment::RunKey> adopted;
-    for (const experiment::RunKey& key : runs) {
+    for (const auto& [key, condition_there] : runs) {
         if (store.complete(key)) continue;
         try {
-            store.adopt(source, key);
+            store.adopt(source, key, condition_there);
             adopted.push_back(key);
         } catch (const core::InputError& error) {
             result.damaged.push_back(fmt::format("{}. It is left out", error.what()));

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,14 @@ namespace clearway::study {
 struct Reused {
     std::size_t runs = 0;
     std::vector<std::string> other_conditions;  ///< Names that both have for conditions that differ.
+    std::vector<std::string> renamed;           ///< `ours (mine2 there)`.
     std::vector<std::string> damaged;           ///< Whole sentences on runs that were left out.
 };
 
-/// Complete runs of `source` of which scenario and condition are the same in a study, sorted. Throws
-/// core::InputError as `reuse` does.
-std::vector<experiment::RunKey> reusable_runs(const results::Manifest& study, const results::Store& source);
+/// Runs of a study of which scenario and condition, whatever its name, are the same in `source` and complete
+/// there, each with the condition's name there. Throws core::InputError as `reuse` does.
+std::map<experiment::RunKey, std::string> reusable_runs(const results::Manifest& study,
+                                                        const results::Store& source);
 
 /// Adopts the complete runs of the run folder `from` of which scenario and condition are the same in the
 /// study of `store`; what `store` has already stays. Throws core::InputError when seed, SUMO or the build of

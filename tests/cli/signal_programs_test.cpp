@@ -108,7 +108,7 @@ TEST_F(SignalProgramsTest, that_have_changed_make_it_another_run) {
     write_programs(25);
     const Ended changed = run("out");
     EXPECT_EQ(changed.code, 3);
-    EXPECT_THAT(changed.err, HasSubstr("holds another study: different scenarios"));
+    EXPECT_THAT(changed.err, HasSubstr("holds another study: different scenarios (crossings: its files)"));
 }
 
 TEST_F(SignalProgramsTest, of_another_network_are_refused_before_anything_runs) {

@@ -65,6 +65,33 @@ TEST(Manifest, NamesTheConditionsThatDifferAndWhatDiffersInThem) {
     EXPECT_EQ(differences(manifest, changed), "order of conditions");
 }
 
+TEST(Manifest, NamesWhatDiffersInScenarios) {
+    Manifest stored = synthetic::manifest();
+    ScenarioEntry& before = stored.scenarios[0];
+    before.configuration =
+        "name = \"alpha\"\n\n[demand]\ndensity = 1.0\n\n[road]\nfriction = 1.0\n\n[dense]\nfactor = 7.0\n";
+    Manifest wanted = stored;
+    ScenarioEntry& now = wanted.scenarios[0];
+    now.configuration = "name = \"alpha\"\n\n[demand]\ndensity = 7.0\n\n[road]\nfriction = 1.0\n";
+    now.variant = "dense";
+    EXPECT_EQ(differences(stored, wanted), "scenarios (alpha: variant: standard there, dense now)");
+    EXPECT_EQ(manifest_from_json(to_json(wanted), "m"), wanted);
+    now = before;
+    now.configuration =
+        "name = \"alpha\"\n\n[demand]\ndensity = 2.0\n\n[road]\nfriction = 0.5\n\n[dense]\nfactor = 7.0\n";
+    EXPECT_EQ(
+        differences(stored, wanted),
+        "scenarios (alpha: demand.density: 1.0 there, 2.0 now; alpha: road.friction: 1.0 there, 0.5 now)");
+    now.configuration = before.configuration + "\n[limits]\na_kmh = 1\nb_kmh = 2\n";
+    EXPECT_EQ(differences(stored, wanted), "scenarios (alpha: limits: none there, a_kmh 1, b_kmh 2 now)");
+    now = before;
+    now.configuration_hash = std::string(32, 'b');
+    EXPECT_EQ(differences(stored, wanted), "scenarios (alpha: its files)");
+    now = before;
+    now.name = "gamma";
+    EXPECT_EQ(differences(stored, wanted), "scenarios (alpha is not asked for; gamma is new)");
+}
+
 TEST(Manifest, ContinuesAStudyWithFewerReplicationsOrConditions) {
     const Manifest stored = synthetic::manifest();
     Manifest wanted = stored;

@@ -58,6 +58,21 @@ TEST_F(Reuse, takes_the_runs_of_conditions_and_scenarios_that_are_the_same) {
     EXPECT_EQ(reuse(now, old_.folder()).runs, 0U) << "once is enough";
 }
 
+TEST_F(Reuse, takes_the_runs_of_a_condition_that_has_another_name_there) {
+    wanted_.conditions[1].name = "ours";
+    const Store now = store();
+    const Reused reused = reuse(now, old_.folder());
+    EXPECT_EQ(reused.runs, wanted_.run_count());
+    EXPECT_THAT(reused.renamed, ElementsAre("ours (treated there)"));
+    EXPECT_THAT(reused.other_conditions, IsEmpty());
+    const results::RunRecord taken = *now.read({"alpha", "ours", 2});
+    const results::RunRecord there = *old_.read({"alpha", "treated", 2});
+    EXPECT_EQ(taken.condition, wanted_.conditions[1]);
+    EXPECT_EQ(taken.metrics.emergency_travel_time_s, there.metrics.emergency_travel_time_s);
+    EXPECT_EQ(there.condition.name, "treated") << "files may be shared, names not";
+    now.check({"alpha", "ours", 2});
+}
+
 TEST_F(Reuse, leaves_out_a_damaged_run_and_says_so) {
     core::write_atomically(old_.run_folder({"alpha", "baseline", 1}) / "run.json", "{}");
     const Store now = store();

@@ -129,6 +129,16 @@ std::string run_to_json(const RunRecord& record, const std::string& vehicles_csv
     return core::to_text(object);
 }
 
+std::string run_named(const std::string& run_json, const experiment::RunKey& key,
+                      const experiment::ConditionSpec& condition) {
+    core::Json object = core::parse_object(run_json, to_text(key));
+    write_key(object, key);
+    object["condition_spec"] = to_json(condition);
+    object.erase(hash_key);
+    object[hash_key] = core::content_hash(core::to_text(object));
+    return core::to_text(object);
+}
+
 RunRecord run_from_json(const std::string& text, const std::string& vehicles_csv, const std::string& where) {
     const core::Json object = core::parse_object(text, where);
     RunRecord record;

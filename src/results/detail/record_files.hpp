@@ -22,6 +22,9 @@ inline constexpr const char* signal_events_hash_key = "signal_events_hash";
 /// `run.json`: everything but the vehicles, with the build that made it, the hash of vehicles.csv and a hash
 /// of itself.
 std::string run_to_json(const RunRecord& record, const std::string& vehicles_csv, const std::string& build);
+/// The `run.json` of the same run as one of this key and condition.
+std::string run_named(const std::string& run_json, const experiment::RunKey& key,
+                      const experiment::ConditionSpec& condition);
 /// The record without vehicles. `vehicles_csv` must have the hash stored in `text`.
 RunRecord run_from_json(const std::string& text, const std::string& vehicles_csv, const std::string& where);
 
