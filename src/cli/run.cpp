@@ -89,7 +89,17 @@ std::filesystem::path window_settings(const std::string& file) {
                             "view settings of sumo-gui (its Edit Visualization window saves them)", ""});
 }
 
+/// Several policies are one condition, which who wants to compare them does not see.
+void tell_combined(const std::vector<std::string>& policies) {
+    if (policies.size() < 2) return;
+    fmt::print(stderr,
+               "clearway: one condition of {} policies: {}; to compare them: a study file with a "
+               "[[condition]] for each (docs/guides/your-study.md)\n",
+               policies.size(), core::listed(policies));
+}
+
 core::ExitCode run(const RunArguments& arguments, const Invocation& invocation) {
+    tell_combined(arguments.conditions.own.condition.policies);
     std::optional<core::InterruptionNotice> notice;
     if (!arguments.is_shown) notice.emplace(campaign::interrupted_between_runs(invocation.command));
     campaign::RunOptions options = arguments.run;

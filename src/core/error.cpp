@@ -122,7 +122,7 @@ std::size_t edit_distance(const std::string& left, const std::string& right) {
 }
 
 /// `Did you mean 'a', 'b' or 'c'?` with candidates that contain all parts of the word, but for a letter of a
-/// long one; three at most. Empty without one.
+/// long one or of a short one beside others; three at most. Empty without one.
 std::string question_of_parts(const std::string& word, const std::vector<std::string>& candidates) {
     constexpr std::size_t least_letters = 4;
     constexpr std::size_t most_candidates = 3;
@@ -132,9 +132,9 @@ std::string question_of_parts(const std::string& word, const std::vector<std::st
         const std::vector<std::string> own = parts_of(candidate);
         const bool has_all = !parts.empty() && std::ranges::all_of(parts, [&](const std::string& part) {
             return candidate.find(part) != std::string::npos ||
-                   (part.size() > least_letters && std::ranges::any_of(own, [&](const std::string& one) {
-                        return edit_distance(part, one) <= 1;
-                    }));
+                   (part.size() > (parts.size() > 1 ? 2 : least_letters) &&
+                    std::ranges::any_of(
+                        own, [&](const std::string& one) { return edit_distance(part, one) <= 1; }));
         });
         if (word.size() >= least_letters && has_all && found.size() < most_candidates)
             found.push_back("'" + candidate + "'");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -154,7 +155,7 @@ const char* cure_of(traffic::Refusal reason) {
         case Refusal::vehicle_gone:
             return ": not on the road; name vehicles by belief.vehicles.key, not by row";
         case Refusal::no_such_lane:
-            return ": lane numbers count from the outermost, 0";
+            return ": lane numbers count from the outermost, 0: belief.vehicles.lane_number, not lane";
         case Refusal::outranked:
             return ": other leases for the same target go first; see priority";
         default:
@@ -206,7 +207,15 @@ std::string refusals_sentence(const ConditionFacts& condition) {
 }
 
 std::string idle_sentence(const ConditionFacts& condition) {
-    return sentence_of_parts("Never acted", condition.idle_parts, &analysis::IdlePart::idle_runs);
+    std::string text = sentence_of_parts("Never acted", condition.idle_parts, &analysis::IdlePart::idle_runs);
+    std::set<traffic::Refusal> told;
+    for (const analysis::IdlePart& part : condition.idle_parts) {
+        if (part.idle_runs == 0 || part.refused.empty()) continue;
+        const traffic::Refusal most = most_frequent(part.refused)->first;
+        const std::string cure = cure_of(most);
+        if (!cure.empty() && told.insert(most).second) text += fmt::format(" {}{}.", name(most), cure);
+    }
+    return text;
 }
 
 std::string own_lane_sentence(const ConditionFacts& condition) {

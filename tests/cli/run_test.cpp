@@ -59,6 +59,20 @@ TEST_F(RunTest, settings_change_the_usual_condition_or_the_one_that_is_named) {
                 ElementsAre("baseline_compliance_1", "no_policy_compliance_1"));
 }
 
+TEST_F(RunTest, several_policies_are_told_to_be_one_condition_and_a_dense_plan_its_variant) {
+    const auto planned = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), {"run", "intersection", "--seeds", "1", "--dry-run", "--no-solo"});
+        return clearway(words);
+    };
+    const Ended two = planned({"--policy", "clear_lane", "preempt_signals", "--dense"});
+    EXPECT_THAT(two.err, HasSubstr("clearway: one condition of 2 policies: clear_lane, preempt_signals; to "
+                                   "compare them: a study file with a [[condition]] for each"));
+    EXPECT_THAT(two.out, AllOf(HasSubstr("intersection, dense "), Not(HasSubstr("traffic model"))));
+    const Ended one = planned({"--policy", "clear_lane", "--traffic-model", "sublane"});
+    EXPECT_THAT(one.err, Not(HasSubstr("one condition of")));
+    EXPECT_THAT(one.out, AllOf(HasSubstr("  traffic model"), Not(HasSubstr(", dense"))));
+}
+
 TEST_F(RunTest, a_condition_of_ones_own_cannot_take_the_name_of_a_built_in_one) {
     for (const std::string name : {"baseline", "solo", "graph_simulation"}) {
         const Ended ended =

@@ -79,6 +79,7 @@ TEST(DidYouMean, NamesWhatContainsTheWordWhereNothingIsNear) {
               "Did you mean 'emergency_travel_time_s' or 'others_travel_time_s'?");
     EXPECT_EQ(did_you_mean("tim", metrics, "no"), "no") << "three letters are in too many words";
     EXPECT_EQ(did_you_mean("ev_time", metrics), "Did you mean 'emergency_travel_time_s'?");
+    EXPECT_EQ(did_you_mean("emergency_tme", metrics), "Did you mean 'emergency_travel_time_s'?");
     EXPECT_EQ(did_you_mean("travl", metrics), did_you_mean("travel", metrics)) << "but for a letter";
 }
 

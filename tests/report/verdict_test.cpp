@@ -357,6 +357,11 @@ TEST(Verdict, says_in_how_many_runs_a_part_never_acted) {
         HasSubstr("Never acted: Rows (7,407 leases, all refused as vehicle_gone, 1 as lockout), Humans (90 "
                   "leases, most refused as not_controllable), Elsewhere (4 leases, all refused as "
                   "on_a_junction, all as route_elsewhere), Late (1 lease, none carried out) in 20 of 20"));
+    scenario.conditions[1].idle_parts = {{"Lane", 20, 20, 0, 72, {{Refusal::no_such_lane, 60}}},
+                                         {"Row", 20, 20, 0, 9, {{Refusal::no_such_lane, 9}}}};
+    EXPECT_THAT(verdict(scenario, scenario.conditions[1], Script::plain).text(),
+                HasSubstr("in 20 of 20 runs. no_such_lane: lane numbers count from the outermost, 0: "
+                          "belief.vehicles.lane_number, not lane."));
 }
 
 TEST(Verdict, says_that_most_of_a_policys_requests_were_refused_and_what_helps) {

@@ -199,7 +199,7 @@ void add_own_condition_options(App& app, DescribedCondition& described) {
 void add_condition_options(App& app, DescribedCondition& described, const std::string& usual_policy) {
     experiment::ConditionSpec& condition = described.condition;
     app.add_option("--policy", condition.policies,
-                   "Policies, in this order; none: the car-following model alone")
+                   "Policies of one condition, in this order; none: the car-following model alone")
         .option_text("NAME ... [" + usual_policy + "]");
     app.add_option("--failure", condition.failure, "How sensors fail").option_text("NAME [perfect]");
     app.add_option("--predictor", condition.predictor, "How the graph is repaired")
