@@ -103,9 +103,11 @@ Json phases_json(const SignalSheet& sheet) {
     return phases;
 }
 
-/// The green phases and what is set, in words.
+/// The streets in full, the green phases and what is set, in words.
 std::vector<std::string> lines_of(const SignalSheet& sheet) {
     std::vector<std::string> lines;
+    if (const std::string streets = scenario::streets_of(sheet); !streets.empty())
+        lines.push_back(report::printable(fmt::format("{}; id {}", streets, sheet.signal)));
     for (const scenario::SignalPhase& phase : sheet.phases)
         if (phase.green)
             lines.push_back(fmt::format("phase {}  {:>5g} s  {}", phase.number, phase.duration_s,
@@ -141,27 +143,28 @@ campaign::Table table_of(const std::vector<SignalSheet>& sheets) {
                            {"set", ""}},
                           {}};
     for (const SignalSheet& sheet : sheets)
-        table.rows.push_back({{table.rows.size() + 1,
-                               sheet.signal,
-                               report::short_signal_name(sheet.signal),
-                               sheet.place.x_m,
-                               sheet.place.y_m,
-                               sheet.controller,
-                               sheet.program,
-                               sheet.coordinated,
-                               sheet.cycle_s,
-                               sheet.offset_s,
-                               range_json(sheet.yellow),
-                               range_json(sheet.red_clearance),
-                               range_json(sheet.least_green),
-                               text_of(sheet.yellow),
-                               text_of(sheet.red_clearance),
-                               text_of(sheet.least_green),
-                               sheet.crossings,
-                               approaches_json(sheet),
-                               phases_json(sheet),
-                               set_json(sheet.set)},
-                              lines_of(sheet)});
+        table.rows.push_back(
+            {{table.rows.size() + 1,
+              sheet.signal,
+              report::short_signal_name(report::signal_words(sheet.signal, scenario::streets_of(sheet))),
+              sheet.place.x_m,
+              sheet.place.y_m,
+              sheet.controller,
+              sheet.program,
+              sheet.coordinated,
+              sheet.cycle_s,
+              sheet.offset_s,
+              range_json(sheet.yellow),
+              range_json(sheet.red_clearance),
+              range_json(sheet.least_green),
+              text_of(sheet.yellow),
+              text_of(sheet.red_clearance),
+              text_of(sheet.least_green),
+              sheet.crossings,
+              approaches_json(sheet),
+              phases_json(sheet),
+              set_json(sheet.set)},
+             lines_of(sheet)});
     return table;
 }
 

@@ -103,6 +103,32 @@ class Spreader {
 
 }  // namespace
 
+void Extent::add(double x, double y) {
+    left = std::min(left, x);
+    bottom = std::min(bottom, y);
+    right = std::max(right, x);
+    top = std::max(top, y);
+}
+
+Extent drawn_part(const Extent& all, const Extent& signals) {
+    constexpr double least_margin_m = 100.0;
+    constexpr double margin_share = 0.2;
+    constexpr double flattest = 0.5;
+    constexpr double largest_share = 1.0 / 3.0;
+    if (signals.right < signals.left) return all;
+    const double margin_m =
+        std::max(least_margin_m, margin_share * std::max(signals.width(), signals.height()));
+    double across = signals.width() + 2.0 * margin_m;
+    double high = signals.height() + 2.0 * margin_m;
+    across = std::max(across, flattest * high);
+    high = std::max(high, flattest * across);
+    const double x = (signals.left + signals.right) / 2.0;
+    const double y = (signals.bottom + signals.top) / 2.0;
+    const Extent part{std::max(all.left, x - across / 2.0), std::max(all.bottom, y - high / 2.0),
+                      std::min(all.right, x + across / 2.0), std::min(all.top, y + high / 2.0)};
+    return part.width() * part.height() < largest_share * all.width() * all.height() ? part : all;
+}
+
 std::vector<Spot> spread(const std::vector<Spot>& places, const std::vector<Mark>& marks, Spot size) {
     return Spreader(places, marks, size).spots();
 }

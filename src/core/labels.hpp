@@ -24,6 +24,22 @@ enum class Mark : std::uint8_t {
 inline constexpr double disc_radius = 8.0;
 inline constexpr double dot_radius = 4.0;
 
+/// A rectangle of a plane, m, y up.
+struct Extent {
+    double left = 1e30;
+    double bottom = 1e30;
+    double right = -1e30;
+    double top = -1e30;
+
+    void add(double x, double y);
+    double width() const { return right - left; }
+    double height() const { return top - bottom; }
+};
+
+/// What to draw of a network that takes up `all`, so that its signals can be told apart: where they and a
+/// margin take less than a third of it, that part; otherwise all.
+Extent drawn_part(const Extent& all, const Extent& signals);
+
 /// Of words that are to fit into a disc: `7`, `#12`, `#123`.
 inline double disc_text_size(const std::string& words) {
     return words.size() < 2 ? 11.0 : words.size() == 2 ? 10.0 : words.size() == 3 ? 8.5 : 6.5;

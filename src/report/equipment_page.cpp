@@ -258,7 +258,8 @@ Figure candidates_figure(const EquipmentFacts& facts) {
 
 Figure equipment_map_figure(const EquipmentFacts& facts) {
     if (!facts.roads || !is_drawable(*facts.roads)) return {};
-    MapCanvas canvas(fmt::format("{}: which signals to equip first", facts.title), *facts.roads);
+    MapCanvas canvas =
+        MapCanvas::of_signals(fmt::format("{}: which signals to equip first", facts.title), *facts.roads);
     canvas.edges(all_edges(*facts.roads), "road");
     canvas.scale_bar();
     canvas.stations(*facts.roads);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <set>
 
@@ -21,6 +20,7 @@ namespace {
 constexpr double picture_width = 960.0;   // user units of the SVG
 constexpr double picture_height = 540.0;  // at most; flat networks get less
 constexpr double margin = 30.0;
+constexpr double bar_height = 20.0;
 
 /// A network with a smaller ratio of height to width is stretched in y, or its lanes would merge into one
 /// line; at most by the factor below.
@@ -40,29 +40,32 @@ struct Frame {
     double y(double metres) const { return margin + (top_m - metres) * scale * stretch; }
 };
 
-Frame frame_of(const roads::Network& network) {
-    double left = 1e30;
-    double right = -1e30;
-    double bottom = 1e30;
-    double top = -1e30;
-    for (const roads::Lane& lane : network.lanes()) {
-        for (const roads::Point& point : lane.shape) {
-            left = std::min<double>(left, point.x_m);
-            right = std::max<double>(right, point.x_m);
-            bottom = std::min<double>(bottom, point.y_m);
-            top = std::max<double>(top, point.y_m);
-        }
-    }
+core::Extent extent_of(const roads::Network& network) {
+    core::Extent extent;
+    for (const roads::Lane& lane : network.lanes())
+        for (const roads::Point& point : lane.shape)
+            extent.add(point.x_m, point.y_m);
+    return extent;
+}
+
+core::Extent extent_of(const std::vector<SignalSheet>& sheets) {
+    core::Extent extent;
+    for (const SignalSheet& sheet : sheets)
+        extent.add(sheet.place.x_m, sheet.place.y_m);
+    return extent;
+}
+
+Frame frame_of(const core::Extent& extent) {
     Frame frame;
-    const double width_m = std::max(1.0, right - left);
-    const double height_m = std::max(1.0, top - bottom);
+    const double width_m = std::max(1.0, extent.width());
+    const double height_m = std::max(1.0, extent.height());
     frame.stretch = std::clamp(flattest * width_m / height_m, 1.0, largest_stretch);
     frame.scale = std::min((picture_width - 2 * margin) / width_m,
                            (picture_height - 2 * margin) / (height_m * frame.stretch));
     frame.left = 0.5 * (picture_width - width_m * frame.scale);
-    frame.left_m = left;
-    frame.top_m = top;
-    frame.height = height_m * frame.stretch * frame.scale + 2 * margin + 20.0;
+    frame.left_m = extent.left;
+    frame.top_m = extent.top;
+    frame.height = height_m * frame.stretch * frame.scale + 2 * margin + bar_height;
     return frame;
 }
 
@@ -142,12 +145,11 @@ std::string roads_of(const roads::Network& network, const Frame& frame) {
     std::string svg;
     draw_lanes(network, frame, svg);
     draw_signals(network, frame, svg);
-    draw_scale_bar(frame, svg);
     return svg;
 }
 
-/// Names that are longer would lie upon something nearly always; units of the picture.
-constexpr std::size_t longest_name = 28;
+/// Of a name that has no room in full; units of the picture.
+constexpr std::size_t longest_cut = 25;
 constexpr double width_of_letter = 7.0;
 constexpr double height_of_text = 12.0;
 
@@ -174,37 +176,13 @@ struct SignalMarks {
     std::vector<core::Spot> spots;
 };
 
-SignalMarks marks_of(const roads::Network& network, const Frame& frame) {
-    SignalMarks marks{signal_sheets(network, {}), {}, {}};
+SignalMarks marks_of(const std::vector<SignalSheet>& sheets, const Frame& frame) {
+    SignalMarks marks{sheets, {}, {}};
     for (const SignalSheet& sheet : marks.sheets)
         marks.places.push_back({frame.x(sheet.place.x_m), frame.y(sheet.place.y_m)});
     marks.spots = core::spread(marks.places, std::vector(marks.places.size(), core::Mark::disc),
-                               {picture_width, frame.height});
+                               {picture_width, frame.height - bar_height});
     return marks;
-}
-
-/// How many signals have each street.
-std::map<std::string, std::size_t> street_counts(const std::vector<SignalSheet>& sheets) {
-    std::map<std::string, std::size_t> counts;
-    for (const SignalSheet& sheet : sheets) {
-        std::set<std::string> streets;
-        for (const SignalApproach& approach : sheet.approaches)
-            streets.insert(approach.street);
-        for (const std::string& street : streets)
-            ++counts[street];
-    }
-    return counts;
-}
-
-/// Of its streets that fit, the first that fewest signals have, or its id; empty if that is too long.
-std::string short_name(const SignalSheet& sheet, const std::map<std::string, std::size_t>& counts) {
-    std::string name;
-    for (const SignalApproach& approach : sheet.approaches) {
-        const std::string& street = approach.street;
-        if (street.empty() || core::characters_in(street) > longest_name) continue;
-        if (name.empty() || counts.at(street) < counts.at(name)) name = street;
-    }
-    return name.empty() && sheet.signal.size() <= longest_name ? sheet.signal : name;
 }
 
 /// Where the name of a signal lies upon no number and no name in `taken`; nothing if there is no such place.
@@ -224,10 +202,9 @@ std::optional<NameBox> room_for_name(const SignalMarks& marks, std::size_t row, 
 }
 
 /// A line leads from a disc that had to give way to its signal.
-void draw_labels(const roads::Network& network, const Frame& frame, std::string& svg) {
+void draw_labels(const std::vector<SignalSheet>& sheets, const Frame& frame, std::string& svg) {
     auto out = std::back_inserter(svg);
-    const SignalMarks marks = marks_of(network, frame);
-    const std::map<std::string, std::size_t> counts = street_counts(marks.sheets);
+    const SignalMarks marks = marks_of(sheets, frame);
     std::vector<NameBox> names;
     for (std::size_t row = 0; row < marks.sheets.size(); ++row) {
         const core::Spot& place = marks.places[row];
@@ -246,12 +223,17 @@ void draw_labels(const roads::Network& network, const Frame& frame, std::string&
                        "style=\"font-size:{4:g}px;fill:#fff\">{5}</text>",
                        spot.x, spot.y, core::disc_radius, spot.y + 3.5, 0.9 * core::disc_text_size(number),
                        number);
-        const std::string name = short_name(marks.sheets[row], counts);
-        const std::size_t letters = core::characters_in(name);
-        if (const auto box = room_for_name(marks, row, letters, names); box && letters > 0) {
-            fmt::format_to(out, "<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", box->left,
-                           box->bottom, core::escaped(name));
+        const std::string streets = streets_of(marks.sheets[row]);
+        const std::string& full = streets.empty() ? marks.sheets[row].signal : streets;
+        for (const std::string& name : {full, core::cut_to_columns(full, longest_cut) + "..."}) {
+            const auto box = room_for_name(marks, row, core::characters_in(name), names);
+            if (!box) continue;
+            const bool is_left = box->left < spot.x;
+            fmt::format_to(out, "<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\"{}>{}</text>",
+                           box->left + (is_left ? box->width : 0.0), box->bottom,
+                           is_left ? " text-anchor=\"end\"" : "", core::escaped(name));
             names.push_back(*box);
+            break;
         }
         svg += "</g>\n";
     }
@@ -261,18 +243,25 @@ void draw_labels(const roads::Network& network, const Frame& frame, std::string&
 
 std::string network_picture(const roads::Network& network, const std::string& title,
                             const std::string& credit) {
-    const Frame frame = frame_of(network);
-    return opened(frame, title) + roads_of(network, frame) + credit_of(frame, credit) + "</svg>\n";
+    const Frame frame = frame_of(extent_of(network));
+    std::string svg = opened(frame, title) + roads_of(network, frame);
+    draw_scale_bar(frame, svg);
+    return svg + credit_of(frame, credit) + "</svg>\n";
 }
 
 std::string signals_picture(const roads::Network& network, const std::string& title,
                             const std::string& credit) {
-    const Frame frame = frame_of(network);
+    const std::vector<SignalSheet> sheets = signal_sheets(network, {});
+    const Frame frame = frame_of(core::drawn_part(extent_of(network), extent_of(sheets)));
     std::string svg = opened(frame, title);
     svg += fmt::format("<rect width=\"{:.0f}\" height=\"{:.0f}\" fill=\"#fff\"/>\n<g color=\"#444\">\n",
                        picture_width, frame.height);
-    svg += roads_of(network, frame) + credit_of(frame, credit) + "</g>\n";
-    draw_labels(network, frame, svg);
+    // Roads that go on beyond the frame are cut off above the scale bar.
+    svg += fmt::format("<svg width=\"{:.0f}\" height=\"{:.0f}\">\n{}</svg>\n", picture_width,
+                       frame.height - bar_height, roads_of(network, frame));
+    draw_scale_bar(frame, svg);
+    svg += credit_of(frame, credit) + "</g>\n";
+    draw_labels(sheets, frame, svg);
     return svg + "</svg>\n";
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <map>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "roads/own_clearance.hpp"
 #include "traffic/signal.hpp"
 
@@ -101,6 +104,14 @@ SignalSheet sheet_of(const roads::Network& network, const roads::Signal& signal)
 }
 
 }  // namespace
+
+std::string streets_of(const SignalSheet& sheet) {
+    std::vector<std::string> names;
+    for (const SignalApproach& approach : sheet.approaches)
+        if (!approach.street.empty() && std::ranges::find(names, approach.street) == names.end())
+            names.push_back(approach.street);
+    return fmt::format("{}", fmt::join(names, " / "));
+}
 
 std::vector<SignalSheet> signal_sheets(const roads::Network& network,
                                        const std::vector<traffic::Preemption>& preemption) {

@@ -53,6 +53,10 @@ struct SignalSheet {
     traffic::Preemption set;  ///< In the scenario's file.
 };
 
+/// `Via Po / Via Roma`: the streets that lead to it, each once; empty where none has a name. Text from a
+/// file.
+std::string streets_of(const SignalSheet& sheet);
+
 /// All signals of a network, by core::SignalIndex. `preemption` is as long, or empty.
 std::vector<SignalSheet> signal_sheets(const roads::Network& network,
                                        const std::vector<traffic::Preemption>& preemption);

@@ -35,6 +35,16 @@ TEST_F(SignalsTest, are_listed_with_their_phases_and_what_their_programs_show) {
     EXPECT_TRUE(first.at("set").at("dwell_s").is_null());
 }
 
+TEST_F(SignalsTest, are_named_by_their_streets_with_the_id_below) {
+    std::string net = read("crossings/net.net.xml");
+    const std::string edge = "<edge id=\"north_a_A\"";
+    net.replace(net.find(edge), edge.size(), edge + " name=\"Side Street\"");
+    write("crossings/net.net.xml", net);
+    const std::string text = clearway({"scenario", "signals", "./crossings"}).out;
+    EXPECT_THAT(text, testing::ContainsRegex("1  Side Street +static"));
+    EXPECT_THAT(text, testing::ContainsRegex("\n +Side Street; id A\n"));
+}
+
 TEST_F(SignalsTest, are_drawn_with_their_numbers) {
     ASSERT_EQ(clearway({"scenario", "signals", "./crossings", "--svg", "map.svg"}).code, 0);
     EXPECT_THAT(read("map.svg"), AllOf(HasSubstr("Two crossings"), HasSubstr(">#2</text>")));

@@ -61,5 +61,16 @@ TEST(Labels, WithoutAnyRoomStayToo) {
     EXPECT_EQ(spread(places, {Mark::disc, Mark::disc}, {10.0, 10.0}), places);
 }
 
+TEST(DrawnPart, is_that_of_the_signals_where_it_is_small) {
+    const Extent all{0.0, 0.0, 3000.0, 2000.0};
+    const Extent part = drawn_part(all, {1000.0, 900.0, 1600.0, 1200.0});  // and 120 m on each side
+    EXPECT_DOUBLE_EQ(part.left, 880.0);
+    EXPECT_DOUBLE_EQ(part.right, 1720.0);
+    EXPECT_DOUBLE_EQ(part.bottom, 780.0);
+    EXPECT_DOUBLE_EQ(part.top, 1320.0);
+    EXPECT_DOUBLE_EQ(drawn_part(all, {100.0, 100.0, 2000.0, 1500.0}).right, 3000.0) << "a large part";
+    EXPECT_DOUBLE_EQ(drawn_part(all, {}).right, 3000.0) << "no signal";
+}
+
 }  // namespace
 }  // namespace clearway::core

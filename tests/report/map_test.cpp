@@ -52,6 +52,21 @@ TEST(MapCanvas, keeps_the_credit_clear_of_what_stands_beside_the_scale_bar) {
     EXPECT_GE(number_of(svg, "Map data", " y") - number_of(svg, "100 m", " y"), 14.0);
 }
 
+TEST(MapCanvas, of_signals_that_stand_close_together_draws_them_apart) {
+    RoadMap map;
+    map.edges = {edge("along", 4000.0, {})};
+    map.edges.front().shape = {{0.0, 0.0}, {4000.0, 3000.0}};
+    map.signals = {{"a", {1000.0, 800.0}}, {"b", {1200.0, 900.0}}};
+    map.stations = {{"along", "hospital", "Far away"}};
+    const auto apart = [&](const detail::MapCanvas& canvas) {
+        return canvas.place(map.signals[1].place).first - canvas.place(map.signals[0].place).first;
+    };
+    detail::MapCanvas canvas = detail::MapCanvas::of_signals("t", map);
+    EXPECT_GT(apart(canvas), 5.0 * apart(detail::MapCanvas("t", map)));
+    canvas.stations(map);
+    EXPECT_THAT(canvas.finish(), ::testing::Not(::testing::HasSubstr("Far away")));
+}
+
 TEST(MapCanvas, breaks_a_long_credit_into_two_lines_below_the_scale_bar) {
     detail::MapCanvas canvas("t", diamond());
     canvas.scale_bar();

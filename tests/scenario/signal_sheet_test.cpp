@@ -68,11 +68,13 @@ TEST(SignalsPicture, has_a_number_and_a_name_at_each_signal) {
     EXPECT_THAT(svg, HasSubstr("Map (c) A &amp; B</text>"));
     EXPECT_THAT(svg, HasSubstr(">#1</text>"));
     EXPECT_THAT(svg, HasSubstr(">#2</text>"));
+    EXPECT_THAT(svg, ::testing::AllOf(HasSubstr("cx=\"210.0\""), HasSubstr("cx=\"750.0\"")))
+        << "300 m apart and 100 m from the sides, which 900 units show; the roads are longer";
     EXPECT_THAT(svg, HasSubstr("<title>#1: A</title>"));
     EXPECT_THAT(network_picture(network, "two", ""), ::testing::Not(HasSubstr(">#1</text>")));
 }
 
-TEST(SignalsPicture, names_a_signal_by_the_street_that_fewest_have) {
+TEST(SignalsPicture, names_a_signal_by_its_streets_as_equip_does) {
     std::string text = core::read_file(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml");
     const auto name = [&](const std::string& edge, const std::string& street) {
         const std::string begin = "<edge id=\"" + edge + "\"";
@@ -84,7 +86,7 @@ TEST(SignalsPicture, names_a_signal_by_the_street_that_fewest_have) {
     const core::TemporaryFolder folder;
     core::write_output(folder.path() / "net.net.xml", text);
     const std::string svg = signals_picture(roads::Network::read(folder.path() / "net.net.xml"), "two", "");
-    EXPECT_THAT(svg, HasSubstr(">Side Street</text>")) << "A, on both streets";
+    EXPECT_THAT(svg, HasSubstr(">Side Street / Main Road</text>")) << "A, on both streets";
     EXPECT_THAT(svg, HasSubstr(">Main Road</text>")) << "B";
 }
 

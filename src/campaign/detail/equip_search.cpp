@@ -44,16 +44,6 @@ void check_condition(const experiment::ConditionSpec& base) {
              "Leave out --condition and --policy to use corridor"});
 }
 
-/// `Via Po / Via Roma`, each once.
-std::string streets_of(const scenario::SignalSheet& sheet) {
-    std::vector<std::string> names;
-    for (const scenario::SignalApproach& approach : sheet.approaches) {
-        if (!approach.street.empty() && std::ranges::find(names, approach.street) == names.end())
-            names.push_back(approach.street);
-    }
-    return fmt::format("{}", fmt::join(names, " / "));
-}
-
 Signals signals_of(const study::StudyConfig& config, const EquipRequest& request,
                    const scenario::BuiltNetwork& built) {
     Signals signals{built, {}, {}, {}};
@@ -65,7 +55,7 @@ Signals signals_of(const study::StudyConfig& config, const EquipRequest& request
     if (signals.ids_of_today().size() == signals.built.network.signals().size()) refuse_all_equipped();
     signals.candidates = equip_candidates(config, signals.built, signals.today, request.most_candidates);
     for (const scenario::SignalSheet& sheet : scenario::signal_sheets(signals.built.network, {}))
-        signals.all_streets.push_back(streets_of(sheet));
+        signals.all_streets.push_back(scenario::streets_of(sheet));
     return signals;
 }
 

@@ -56,6 +56,14 @@ struct StationLabel {
     }
 };
 
+core::Extent extent_of(const RoadMap& map) {
+    core::Extent extent;
+    for (const MapEdge& edge : map.edges)
+        for (const auto& [x, y] : edge.shape)
+            extent.add(x, y);
+    return extent;
+}
+
 }  // namespace
 
 std::string station_words(const RoadMap& map) {
@@ -77,36 +85,40 @@ std::vector<const MapEdge*> all_edges(const RoadMap& map) {
     return edges;
 }
 
-MapCanvas::Frame MapCanvas::frame_of(const RoadMap& map) {
-    double left = 1e30;
-    double right = -1e30;
-    double bottom = 1e30;
-    double top = -1e30;
-    for (const MapEdge& edge : map.edges) {
-        for (const auto& [x, y] : edge.shape) {
-            left = std::min(left, x);
-            right = std::max(right, x);
-            bottom = std::min(bottom, y);
-            top = std::max(top, y);
-        }
-    }
+MapCanvas::Frame MapCanvas::frame_of(const core::Extent& extent) {
     Frame frame;
-    const double width_m = std::max(1.0, right - left);
-    const double height_m = std::max(1.0, top - bottom);
+    const double width_m = std::max(1.0, extent.width());
+    const double height_m = std::max(1.0, extent.height());
     frame.stretch = std::clamp(flattest * width_m / height_m, 1.0, largest_stretch);
     frame.scale =
         std::min((width - 2 * margin) / width_m, (most_height - 2 * margin) / (height_m * frame.stretch));
     frame.left = 0.5 * (width - width_m * frame.scale);
-    frame.left_m = left;
-    frame.top_m = top;
+    frame.left_m = extent.left;
+    frame.top_m = extent.top;
     frame.height = height_m * frame.stretch * frame.scale + 2 * margin + bar_space;
     return frame;
 }
 
-MapCanvas::MapCanvas(const std::string& title, const RoadMap& map) : MapCanvas(title, frame_of(map)) {}
+MapCanvas::MapCanvas(const std::string& title, const RoadMap& map)
+    : MapCanvas(title, frame_of(extent_of(map))) {}
+
+MapCanvas MapCanvas::of_signals(const std::string& title, const RoadMap& map) {
+    core::Extent signals;
+    for (const MapSignal& signal : map.signals)
+        signals.add(signal.place.first, signal.place.second);
+    const core::Extent all = extent_of(map);
+    const core::Extent part = core::drawn_part(all, signals);
+    Frame frame = frame_of(part);
+    frame.is_part = part.width() < all.width() || part.height() < all.height();
+    return {title, frame};
+}
 
 MapCanvas::MapCanvas(const std::string& title, const Frame& frame)
     : Canvas(title, frame.height), frame_(frame) {}
+
+bool MapCanvas::is_inside(double x, double y) const {
+    return x >= 0.0 && x <= width && y >= 0.0 && y <= frame_.height - bar_space;
+}
 
 std::pair<double, double> MapCanvas::place(const MapPlace& place) const {
     return {frame_.left + (place.first - frame_.left_m) * frame_.scale,
@@ -128,7 +140,11 @@ void MapCanvas::edges(std::span<const MapEdge* const> edges, const std::string& 
             command = "L";
         }
     }
-    if (!way.empty()) add(fmt::format("<path class=\"{}\" d=\"{}\"/>\n", style, way));
+    if (way.empty()) return;
+    const std::string path = fmt::format("<path class=\"{}\" d=\"{}\"/>", style, way);
+    add(frame_.is_part ? fmt::format("<svg width=\"{:g}\" height=\"{:.1f}\">{}</svg>\n", width,
+                                     frame_.height - bar_space, path)
+                       : path + "\n");
 }
 
 void MapCanvas::scale_bar() {
@@ -159,6 +175,7 @@ void MapCanvas::stations(const RoadMap& map) {
         const auto at = place_of(station);
         if (!at) continue;
         const auto [x, y] = *at;
+        if (!is_inside(x, y)) continue;
         add(fmt::format("<path class=\"station\" d=\"M{:.1f} {:.1f}l6 6l-6 6l-6 -6z\"/>\n", x, y - 6.0));
         taken.push_back({x - 6.0, y - 6.0, x + 6.0, y + 6.0});
         labelled.push_back(&station);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/labels.hpp"
 #include "report/detail/canvas.hpp"
 #include "report/map.hpp"
 
@@ -14,6 +15,8 @@ namespace clearway::report::detail {
 class MapCanvas : public Canvas {
   public:
     MapCanvas(const std::string& title, const RoadMap& map);
+    /// The part of the map where its signals are, where that is small; what goes on beyond it is cut off.
+    static MapCanvas of_signals(const std::string& title, const RoadMap& map);
 
     /// One line through the shape of an edge, with CSS classes.
     void edge(const MapEdge& edge, const std::string& style);
@@ -22,7 +25,8 @@ class MapCanvas : public Canvas {
     /// In figure units.
     std::pair<double, double> place(const MapPlace& place) const;
     void scale_bar();
-    /// A diamond at the start of the edge of each station, with its name or, where there is room, its kind.
+    /// A diamond at the start of the edge of each station on the drawing, with its name or, where there is
+    /// room, its kind.
     void stations(const RoadMap& map);
     /// No entry in the middle of each blocked edge.
     void incidents(const RoadMap& map);
@@ -39,9 +43,12 @@ class MapCanvas : public Canvas {
         double left_m = 0.0;
         double top_m = 0.0;
         double height = 0.0;
+        bool is_part = false;  ///< Roads go on beyond it.
     };
-    static Frame frame_of(const RoadMap& map);
+    static Frame frame_of(const core::Extent& extent);
     MapCanvas(const std::string& title, const Frame& frame);
+
+    bool is_inside(double x, double y) const;
 
     Frame frame_;
 };
