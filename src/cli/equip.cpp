@@ -133,6 +133,8 @@ Action configure_equip(App& app) {
     add_study_options(app, arguments);
     add_own_condition_options(app, arguments->conditions.own);
     add_scenario_options(app, arguments->options);
+    app.set_everyday({"--budget", "--condition", "--policy", "--failure", "--seeds", "--within", "--density",
+                      "--av-share", "--out", "--dry-run"});
     return [arguments](const Invocation& invocation) {
         const core::InterruptionNotice notice(campaign::interrupted_between_runs(invocation.command));
         campaign::EquipRequest& request = arguments->request;

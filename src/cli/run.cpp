@@ -179,6 +179,8 @@ Action configure_run(App& app) {
     add_own_condition_options(app, arguments->conditions.own);
     add_scenario_options(app, arguments->options);
     add_window_options(app, arguments);
+    app.set_everyday({"--condition", "--policy", "--failure", "--seeds", "--within", "--density",
+                      "--av-share", "--out", "--dry-run", "--record"});
     return [arguments, seeds](const Invocation& invocation) {
         if (arguments->is_shown && seeds.count() == 0) arguments->seeds = 1;
         return run(*arguments, invocation);

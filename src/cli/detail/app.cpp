@@ -129,6 +129,16 @@ std::string App::set_group(const std::string& name) {
     return before;
 }
 
+void App::set_everyday(const std::vector<std::string>& names) {
+    const std::string everyday = "Everyday options (names: clearway list)";
+    const std::string usual = app_->get_help_ptr()->get_group();
+    for (CLI::Option* const option : app_->get_options())
+        if (option->get_group() == usual) option->group("Further options");
+    app_->get_help_ptr()->group(everyday);
+    for (const std::string& name : names)
+        app_->get_option(name)->group(everyday);
+}
+
 void App::footer(const std::string& text) {
     app_->footer(text);
 }

@@ -91,6 +91,8 @@ class App {
 
     /// Options that are added later stand in this group of the help. Returns the group before.
     std::string set_group(const std::string& name);
+    /// These options and --help become the first group of the help, apart from all others. Call it last.
+    void set_everyday(const std::vector<std::string>& names);
     void footer(const std::string& text);
     std::string get_footer() const;
 
