@@ -74,18 +74,21 @@ Tile time_tile(const TileWords& words, const ConditionFacts& condition, Measure 
     return tile;
 }
 
-/// `. Likely (80 %), about 24 show the 5.2 s seen`; empty where these are less than what counts.
+/// ` If the difference is really the 5.2 s seen, about 24 pairs show it in four studies of five.`; empty
+/// where these are less than what counts.
 std::string what_shows_the_seen(const analysis::Estimate& difference, double counts_s, Script script) {
     const double seen_s = std::abs(difference.mean);
     if (seen_s <= (counts_s > 0.0 ? counts_s : usual_least_relevant_s)) return "";
     const std::size_t pairs =
         std::max(analysis::fewest_replications, analysis::replications_to_show(difference.deviation, seen_s));
-    return fmt::format(". Likely (80 %), {} show the {} s seen", asked_words(pairs),
-                       number(seen_s, {1, script}));
+    return fmt::format(
+        " If the difference is really the {} s seen, {} pairs show it in four studies of five.",
+        number(seen_s, {1, script}), asked_words(pairs));
 }
 
-/// `; likely (80 %), about 24 do`: so many show the effect that is seen among all comparisons of the
-/// scenario, each at its share of the level (Bonferroni, which is no less strict than Holm).
+/// `. If the difference is really as seen, about 24 do in four studies of five`: so many show the effect that
+/// is seen among all comparisons of the scenario, each at its share of the level (Bonferroni, which is no
+/// less strict than Holm).
 std::string what_shows_it_among_all(const ScenarioFacts& scenario, const analysis::Estimate& difference) {
     const auto is_tested = [](const ConditionFacts& condition) {
         const auto& comparison = condition.outcome(primary).comparison;
@@ -95,7 +98,7 @@ std::string what_shows_it_among_all(const ScenarioFacts& scenario, const analysi
     if (tests == 0.0 || difference.mean == 0.0) return "";
     const double level = 1.0 - (1.0 - analysis::usual_level) / tests;
     return fmt::format(
-        "; likely (80 %), {} do",
+        ". If the difference is really as seen, {} pairs do in four studies of five",
         asked_words(analysis::replications_to_show(difference.deviation, std::abs(difference.mean), level)));
 }
 
@@ -232,8 +235,8 @@ Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, S
                         fmt::format("Enough runs: {} tell the mean to within {} s", pairs, least)};
             return {
                 Badge::Runs::too_few,
-                fmt::format("Not enough runs: {}{}; {} tell the mean to within {} s", pairs,
-                            what_shows_the_seen(*difference, counts_s, script), asked_words(needed), least)};
+                fmt::format("Not enough runs: {}.{} To tell the mean to within {} s takes {}.", pairs,
+                            what_shows_the_seen(*difference, counts_s, script), least, asked_words(needed))};
         }
         case Effect::too_few:
             return {Badge::Runs::too_few, fmt::format("Not enough runs: {}, at least {} for any verdict",
