@@ -27,6 +27,7 @@
 #include "scenario/map_age.hpp"
 #include "scenario/network.hpp"
 #include "scenario/outlook.hpp"
+#include "scenario/overrides.hpp"
 #include "scenario/prepare.hpp"
 
 namespace clearway::campaign {
@@ -34,15 +35,6 @@ namespace {
 
 double share(std::uint64_t part, std::uint64_t whole) {
     return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
-}
-
-/// `--density 0.45`, which multiplies the scenario's own, and how to keep it. Measured demand cannot grow.
-std::string density_advice(const Checked& checked, double factor) {
-    if (checked.config.measured && checked.config.demand.density * factor > 1.0)
-        return "measured demand cannot be made denser";
-    const auto text = [&](double density) { return fmt::format("{:.{}f}", density, density < 1.0 ? 2 : 1); };
-    return fmt::format("--density {} (to keep it: density = {} in [demand] of scenario.toml)",
-                       text(checked.asked_density * factor), text(checked.config.demand.density * factor));
 }
 
 Finding insertion_finding(const metrics::RunMetrics& run, const std::string& less) {
@@ -156,7 +148,7 @@ Finding jams_finding(const metrics::RunMetrics& run, const RoadUse& use, const C
         : is_full && is_blocked
             ? "the incidents make queues: check it without them, " +
                   std::string(is_called ? "and without the calls to them" : "--incident none")
-            : density_advice(checked, use.factor)};
+            : density_advice(checked.config, use.factor)};
 }
 
 /// `outlook`: scenario::outlook_json.
@@ -228,11 +220,8 @@ std::string conclusion_of(const std::string& scenario, const std::vector<Finding
     std::vector<std::string> failed;
     std::vector<std::string> short_of;
     std::vector<std::string> noted;
-    std::string first;
     bool has_trials = false;
     for (const Finding& finding : findings) {
-        if (finding.name == detail::trials_name && finding.grade == Grade::note && !finding.advice.empty())
-            first = finding.advice;
         if (finding.grade == Grade::failed) failed.push_back(finding.name);
         if (finding.grade == Grade::falls_short) short_of.push_back(finding.name);
         if (finding.grade == Grade::note) noted.push_back(finding.name);
@@ -244,12 +233,9 @@ std::string conclusion_of(const std::string& scenario, const std::vector<Finding
         return fmt::format("{} is not fit for a study as it is: {}.", scenario, core::listed(short_of));
     if (!has_trials && std::ranges::find(noted, detail::locks_name) != noted.end())
         return fmt::format(
-            "{} may be fit for a study: its one run locks, and others may lock more; --lock-trials 6 tells. "
-            "Noted: {}.",
+            "{} is fit for a study as far as its one run tells, which locks; others may lock more: "
+            "--lock-trials 6 tells. Noted: {}.",
             scenario, core::listed(noted));
-    if (!first.empty())
-        return fmt::format("{} is fit for a study only after this: {}. Noted: {}.", scenario, first,
-                           core::listed(noted));
     return fmt::format("{} is fit for a study, with what is noted: {}.", scenario, core::listed(noted));
 }
 
@@ -292,6 +278,16 @@ RoadUse road_use(const metrics::RunMetrics& run, const scenario::Times& time, do
     return use;
 }
 
+std::string density_advice(const scenario::ScenarioConfig& config, double factor) {
+    const double density = config.demand.density;
+    if (config.measured && density * factor > 1.0) return "measured demand cannot be made denser";
+    const auto text = [&](double number) { return fmt::format("{:.{}f}", number, number < 1.0 ? 2 : 1); };
+    return fmt::format("--density {}{} (to keep it: density = {} in [demand] of scenario.toml)",
+                       text(config.density_factor * factor),
+                       density == config.density_factor ? "" : ", which multiplies the scenario's own",
+                       text(density * factor));
+}
+
 /// Finest step that a scenario may have.
 constexpr double finest_step_s = 0.1;
 
@@ -302,7 +298,10 @@ Finding collisions_finding(const metrics::RunMetrics& run, double step_length_s,
     if (run.collisions == 0) return {"collisions", Grade::ok, count};
     if (report::collide_by_model(run.collisions, run.vehicle_count))
         return {"collisions", Grade::note, count,
-                "many: this scenario says nothing about safety; less traffic makes fewer: " + less};
+                "many: this scenario says nothing about safety. Less traffic makes fewer, step by step; no "
+                "level is "
+                "known to be enough: " +
+                    less};
     const std::string compare = "compare conditions, not counts";
     return {"collisions", Grade::note, count,
             step_length_s > finest_step_s
@@ -336,11 +335,13 @@ std::vector<Finding> findings_of(const results::RunRecord& record, const Checked
                                  const std::vector<detail::EmergencyTrip>& of_seeds) {
     const metrics::RunMetrics& run = record.metrics;
     const RoadUse use = road_use(run, checked.config.time, lane_km(checked.network));
-    const std::string less = density_advice(checked, use.factor < 1.0 ? use.factor : 0.8);
+    const std::string density = scenario::density_words(checked.config);
+    const std::string less = density_advice(checked.config, use.factor < 1.0 ? use.factor : 0.8);
     const auto trips = detail::emergency_trips_in(core::read_file(checked.demand / "emergency.csv"));
     const auto queueing = detail::queueing_trips(checked.config, checked.network, of_seeds);
     std::vector<Finding> findings = {
-        {"loads", Grade::ok, "SUMO loads the network and the demand"},
+        {"loads", Grade::ok,
+         "SUMO loads the network and the demand" + (density.empty() ? "" : "; " + density)},
         insertion_finding(run, less),
         emergency_finding(record, checked, less, queueing),
         detail::sites_finding(checked.config),
@@ -404,8 +405,8 @@ detail::LockTrials try_locks(const scenario::ScenarioConfig& scenario, std::uint
 
 }  // namespace
 
-core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double asked_density,
-                              std::uint64_t seed, std::uint32_t lock_trials, RunOptions options) {
+core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, std::uint64_t seed,
+                              std::uint32_t lock_trials, RunOptions options) {
     const study::StudyConfig config =
         study_of(scenario, {experiment::built_in_condition("baseline", "check")}, seed, 1);
     options.folder = std::filesystem::path("runs") / ("check-" + scenario.name);
@@ -427,7 +428,7 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double a
         const std::vector<detail::EmergencyTrip> of_seeds = planned_trips(scenario, built, seed);
         const std::filesystem::path home = store.scenario_folder(scenario.name);
         findings = findings_of(*record,
-                               {scenario, built.network, asked_density, home / "demand" / "0",
+                               {scenario, built.network, home / "demand" / "0",
                                 core::parse_object(core::read_file(home / "outlook.json"), "outlook.json")},
                                of_seeds);
         if (!scenario.incidents.empty())

@@ -48,10 +48,12 @@ RoadUse road_use(const metrics::RunMetrics& run, const scenario::Times& time, do
 struct Checked {
     const scenario::ScenarioConfig& config;
     const roads::Network& network;
-    double asked_density = 1.0;    ///< `--density` of the check.
     std::filesystem::path demand;  ///< Folder of the run's demand.
     core::Json outlook = {};       ///< scenario::outlook_json of it.
 };
+
+/// `--density 0.45`, which multiplies the scenario's own, and how to keep it. Measured demand cannot grow.
+std::string density_advice(const scenario::ScenarioConfig& config, double factor);
 
 /// The collisions of a run. `less`: how to get less traffic, where they are more than one to a hundred
 /// vehicles.
@@ -66,9 +68,8 @@ Finding error_finding(const results::RunError& error, const std::filesystem::pat
 /// Makes one run of the baseline in `runs/check-SCENARIO`, which is kept only if the run fails, judges it and
 /// prints the findings. With `lock_trials` above 0 it makes as many runs more with each choice about
 /// `time.ignore_junction_blocker_s`.
-/// `asked_density` is that of the options by which the scenario was loaded. Returns ok,
-/// fell_short or runs_failed, or how the run was interrupted.
-core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, double asked_density,
-                              std::uint64_t seed, std::uint32_t lock_trials, RunOptions options);
+/// Returns ok, fell_short or runs_failed, or how the run was interrupted.
+core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, std::uint64_t seed,
+                              std::uint32_t lock_trials, RunOptions options);
 
 }  // namespace clearway::campaign

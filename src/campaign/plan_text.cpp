@@ -24,6 +24,7 @@
 #include "report/read_facts.hpp"
 #include "results/store.hpp"
 #include "scenario/network.hpp"
+#include "scenario/overrides.hpp"
 #include "scenario/road_limits.hpp"
 #include "scenario/site.hpp"
 #include "study/reuse.hpp"
@@ -249,6 +250,9 @@ Printout plan_printout(const study::Plan& plan, const RunOptions& options) {
                             : "");
     text = "\n" + core::wrapped(head, 4) + "\n" + core::wrapped(text, 4) + "\n";
     text += roads_text(plan.scenarios);
+    for (const scenario::ScenarioConfig& config : plan.scenarios)
+        if (const std::string density = scenario::density_words(config); !density.empty())
+            text += core::wrapped(fmt::format("{}: {}", config.name, density), 4) + "\n";
     if (plan.manifest.precision) text += core::wrapped(precision_text(*plan.manifest.precision), 4) + "\n";
     const core::Settings titles = experiment::ConditionTitles(plan.titles).of(plan.manifest.conditions);
     if (plan.manifest.plan) text += analysis_plan_text(*plan.manifest.plan, titles);

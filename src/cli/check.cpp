@@ -31,8 +31,7 @@ Action configure_check(App& app) {
     return [arguments](const Invocation& invocation) {
         arguments->run.command = invocation.command;
         return campaign::check_scenario(scenario::load(arguments->scenario, arguments->options),
-                                        arguments->options.number("density", 1.0), arguments->seed,
-                                        arguments->lock_trials, arguments->run);
+                                        arguments->seed, arguments->lock_trials, arguments->run);
     };
 }
 

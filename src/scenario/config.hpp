@@ -490,6 +490,7 @@ struct ScenarioConfig {
     std::optional<Measured> measured;
 
     Variant variant = Variant::standard;  ///< Already in the rest. Not part of the configuration.
+    double density_factor = 1.0;          ///< Of an override, contained in demand.density. Likewise.
     std::filesystem::path folder;         ///< Relative paths start here. Not part of the configuration.
     /// Where each key was set: `time.window_s` -> `merge/scenario.toml:14:1: time.window_s`.
     std::map<std::string, std::string> origins;

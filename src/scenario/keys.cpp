@@ -54,8 +54,8 @@ core::FieldTable override_table() {
         {}};
     for (const Override& override : overrides()) {
         core::SettingInfo& row = table.rows.emplace_back(override.value);
-        row.preset = "by scenario";
-        row.source = fmt::format("`{}` sets `{}`", override.option, override.key);
+        row.source = fmt::format("`{}` {} `{}`", override.option,
+                                 override.replaced.empty() ? "multiplies" : "sets", override.key);
     }
     return table;
 }

@@ -57,7 +57,8 @@ void apply_variant(const Override&, const Given& given, ScenarioConfig& config, 
 
 /// Multiplies the density of the file and of the dense variant.
 void apply_density(const Override& row, const Given& given, ScenarioConfig& config, Problems&) {
-    config.demand.density *= number_in(given);
+    config.density_factor = number_in(given);
+    config.demand.density *= config.density_factor;
     config.origins[row.key] = given.where;
 }
 
@@ -134,15 +135,22 @@ void apply_emergency_kinds(const Override& row, const Given& given, ScenarioConf
              "of each [[emergency_trip]]"});
 }
 
+constexpr const char* by_scenario = "by scenario";
+
 /// An override that has the type, range and meaning of a key, and sets it.
 Override of_key(const char* name, const char* option, const char* key) {
     core::SettingInfo value = detail::key_info(key);
     value.name = name;
+    value.preset = by_scenario;
     return {std::move(value), option, key, {key}};
 }
 
 Override density_factor() {
     Override density = of_key("density", "--density", "demand.density");
+    density.value.preset = "1";
+    density.value.doc =
+        "Multiplies the density of the scenario, which 1 leaves as it is; measured demand "
+        "has at most 1 in all";
     density.replaced.clear();
     density.apply = apply_density;
     return density;
@@ -160,6 +168,7 @@ Override of_text(const char* name, const char* option, const char* key, const ch
                  decltype(Override::apply) apply) {
     core::SettingInfo value;
     value.name = name;
+    value.preset = by_scenario;
     value.doc = doc;
     return {std::move(value), option, key, {key}, apply};
 }
@@ -226,6 +235,13 @@ bool replaces(const std::string& name, const std::string& value, const std::stri
     return std::ranges::any_of(override->replaced, [&](const std::string& replaced) {
         return key == replaced || key.starts_with(replaced + ".");
     });
+}
+
+std::string density_words(const ScenarioConfig& config) {
+    const double factor = config.density_factor;
+    if (factor == 1.0 || factor == 0.0) return "";
+    return fmt::format("density {:.3g} x {:.3g} = {:.3g}", config.demand.density / factor, factor,
+                       config.demand.density);
 }
 
 void read_overrides(core::StrictTable& table, Options& options) {

@@ -35,6 +35,10 @@ bool is_override(const std::string& name);
 /// Whether override `name` with this value replaces whatever else sets `key` of a scenario.
 bool replaces(const std::string& name, const std::string& value, const std::string& key);
 
+/// `density 0.8 x 0.8 = 0.64`, what the scenario has, what an override multiplies it by and what is run;
+/// empty without such an override.
+std::string density_words(const ScenarioConfig& config);
+
 /// Reads those that the table sets. Values are checked when a scenario is loaded; problems then name the
 /// place in this table.
 void read_overrides(core::StrictTable& table, Options& options);

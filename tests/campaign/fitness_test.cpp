@@ -81,8 +81,9 @@ TEST(LockFinding, weighs_what_stands_in_locks_and_not_how_many_runs_lock) {
         "in locks a vehicle; 43 collisions a run. Without, 3 of 6 runs lock, 2 held up by it; 8.8 s in "
         "locks a vehicle; 11 collisions a run");
     EXPECT_EQ(detail::trials_finding(trials).grade, Grade::note);
-    EXPECT_EQ(detail::trials_finding(trials).advice,
-              "less traffic first: 0.8 times the present --density, or less")
+    EXPECT_EQ(
+        detail::trials_finding(trials).advice,
+        "these locks hold no run up; less traffic makes fewer: 0.8 times the present --density, or less")
         << "what the scenario has is the better choice, and most runs lock all the same";
     trials.with.locked = 3;
     EXPECT_EQ(detail::trials_finding(trials).advice, "");
@@ -129,19 +130,33 @@ TEST(LockFinding, counts_a_run_that_holds_up_an_emergency_vehicle_or_many_others
 TEST(Conclusion, knows_nothing_of_a_scenario_whose_one_run_locks) {
     std::vector<Finding> findings = {{detail::locks_name, Grade::note, "1 lock in this run"},
                                      {"collisions", Grade::note, "2"}};
-    EXPECT_EQ(
-        conclusion_of("town", findings),
-        "town may be fit for a study: its one run locks, and others may lock more; --lock-trials 6 tells. "
-        "Noted: locks, collisions.");
+    EXPECT_EQ(conclusion_of("town", findings),
+              "town is fit for a study as far as its one run tells, which locks; others may lock more: "
+              "--lock-trials 6 tells. Noted: locks, collisions.");
     findings.push_back({detail::trials_name, Grade::ok, "none of 6 runs locks"});
     EXPECT_EQ(conclusion_of("town", findings),
               "town is fit for a study, with what is noted: locks, collisions.");
     findings.back() = {detail::trials_name, Grade::note, "5 of 6 runs lock", "less traffic first"};
-    EXPECT_EQ(
-        conclusion_of("town", findings),
-        "town is fit for a study only after this: less traffic first. Noted: locks, collisions, trials.");
+    EXPECT_EQ(conclusion_of("town", findings),
+              "town is fit for a study, with what is noted: locks, collisions, trials.")
+        << "a note makes no scenario unfit";
     findings.back().grade = Grade::falls_short;
     EXPECT_EQ(conclusion_of("town", findings), "town is not fit for a study as it is: trials.");
+}
+
+TEST(DensityAdvice, says_that_the_option_multiplies_what_the_scenario_has) {
+    scenario::ScenarioConfig config;
+    EXPECT_EQ(density_advice(config, 0.8),
+              "--density 0.80 (to keep it: density = 0.80 in [demand] of scenario.toml)");
+    config.demand.density = 0.8;
+    EXPECT_EQ(
+        density_advice(config, 0.8),
+        "--density 0.80, which multiplies the scenario's own (to keep it: density = 0.64 in [demand] of "
+        "scenario.toml)");
+    config.density_factor = 0.5;
+    config.demand.density = 0.4;
+    EXPECT_THAT(density_advice(config, 0.8),
+                AllOf(StartsWith("--density 0.40, "), HasSubstr("density = 0.32")));
 }
 
 TEST(CollisionsFinding, tells_many_from_few) {
@@ -149,7 +164,8 @@ TEST(CollisionsFinding, tells_many_from_few) {
     run.collisions = 4;
     EXPECT_THAT(collisions_finding(run, 0.25, "--density 0.80").advice, HasSubstr("compare conditions"));
     run.collisions = 5;
-    EXPECT_THAT(collisions_finding(run, 0.25, "--density 0.80").advice, HasSubstr("--density 0.80"));
+    EXPECT_THAT(collisions_finding(run, 0.25, "--density 0.80").advice,
+                HasSubstr("no level is known to be enough: --density 0.80"));
 }
 
 TEST(SitesFinding, says_what_stands_in_for_a_kind_that_is_missing) {

@@ -59,7 +59,7 @@ class WayFindings : public testing::Test {
         const std::vector<metrics::LockRow> rows = {
             {"gate", "a", 0.0, 90.0, 1, 0}, {"main", "b", 0.0, 70.0, 1, 0}, {"main", "b", 200.0, 70.0, 1, 0}};
         record.metrics.locks = locked == 0 ? 0 : rows.size();
-        return locks_finding(record, rows, {way.config, way.built.network, 1.0, {}}, "--density 0.80");
+        return locks_finding(record, rows, {way.config, way.built.network, {}}, "--density 0.80");
     }
 
   private:

@@ -1,5 +1,7 @@
 #include "cli/detail/scenario_options.hpp"
 
+#include <algorithm>
+
 #include <CLI/App.hpp>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -57,6 +59,27 @@ TEST(ScenarioOptions, show_unit_and_range_in_the_help) {
     add_scenario_options(app, options);
     EXPECT_THAT(parser.help(), testing::HasSubstr("--friction NUMBER, 0.1 to 1 [by scenario]"));
     EXPECT_THAT(parser.help(), testing::HasSubstr("--warm-up NUMBER, 0 to 86400 s [by scenario]"));
+    EXPECT_THAT(parser.help(), testing::HasSubstr("--density NUMBER, 0 to 20 [1]")) << "a factor";
+}
+
+TEST(EverydayOptions, stand_first_and_apart_from_the_others) {
+    CLI::App parser;
+    App app(parser);
+    bool flag = false;
+    app.add_flag("--rare", flag, "Seldom");
+    {
+        const OptionGroup group(app, "Scenario");
+        app.add_flag("--usual", flag, "Often");
+        app.add_flag("--third", flag, "Third");
+    }
+    app.set_everyday({"--usual"});
+    const std::string help = parser.help();
+    std::vector<std::size_t> places;
+    for (const char* const words :
+         {"Everyday options", "--usual", "Further options", "--rare", "Scenario:", "--third"})
+        places.push_back(help.find(words));
+    EXPECT_TRUE(std::ranges::is_sorted(places)) << help;
+    EXPECT_NE(places.back(), std::string::npos) << help;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "core/files.hpp"
+#include "scenario/overrides.hpp"
 #include "scratch.hpp"
 
 namespace clearway::scenario {
@@ -310,6 +311,14 @@ TEST_F(Config, a_negative_zero_is_written_as_zero) {
     options.set("warm_up_s", "-0.0");
     const std::string text = to_toml(load("merge", options));
     EXPECT_THAT(text, AllOf(HasSubstr("density = 0\n"), Not(HasSubstr("= -0\n"))));
+}
+
+TEST_F(Config, says_what_a_density_multiplies) {
+    const std::string text = "[demand]\ndensity = 0.8\n";
+    EXPECT_EQ(density_words(load_text(text)), "");
+    Options options;
+    options.set("density", "0.5");
+    EXPECT_EQ(density_words(load_text(text, options)), "density 0.8 x 0.5 = 0.4");
 }
 
 TEST_F(Config, density_above_one_is_refused_for_measured_demand) {

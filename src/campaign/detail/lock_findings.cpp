@@ -65,7 +65,8 @@ Finding trials_finding(const LockTrials& trials) {
         advice.emplace_back(
             "less traffic, or a look at the junctions that traffic.locks of a run's run.json names");
     else if (advice.empty() && 2 * own.locked > trials.trials)
-        advice.push_back(fmt::format("less traffic first: {}", report::less_traffic));
+        advice.push_back(
+            fmt::format("these locks hold no run up; less traffic makes fewer: {}", report::less_traffic));
     const Grade grade = own.held_up > 0 ? Grade::falls_short : own.locked > 0 ? Grade::note : Grade::ok;
     return {trials_name, grade, text, fmt::format("{}", fmt::join(advice, "; "))};
 }

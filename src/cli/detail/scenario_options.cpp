@@ -20,9 +20,9 @@ const char* const group_name = "Scenario (the defaults are those of the scenario
 /// `NUMBER, 0 to 86400 s [by scenario]`, or the words.
 std::string value_text(const scenario::Override& override) {
     const core::SettingInfo& value = override.value;
-    if (!value.words.empty()) return fmt::format("{} [by scenario]", fmt::join(value.words, "|"));
-    if (!override.is_number()) return "NAME=VALUE,... [by scenario]";
-    return fmt::format("NUMBER, {} [by scenario]", core::range_text(value));
+    if (!value.words.empty()) return fmt::format("{} [{}]", fmt::join(value.words, "|"), value.preset);
+    if (!override.is_number()) return fmt::format("NAME=VALUE,... [{}]", value.preset);
+    return fmt::format("NUMBER, {} [{}]", core::range_text(value), value.preset);
 }
 
 void add_override(App& app, const scenario::Override& override, scenario::Options& options) {
