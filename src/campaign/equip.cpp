@@ -16,6 +16,7 @@
 #include "campaign/detail/equip_search.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
+#include "core/interruption.hpp"
 #include "core/leftovers.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
@@ -73,10 +74,7 @@ void add_outcomes(const analysis::EquipPlan& plan, const Signals& signals, const
         const EquipOutcome& after = fresh.chosen.at(rank);
         facts.ranked.push_back({signals.number(step.candidate), signals.id(step.candidate),
                                 signals.streets(step.candidate),
-                                less_time(before.emergency_s, after.emergency_s, together),
-                                // That of rank 1 is its gain: two intervals would judge it twice.
-                                less_time(fresh.none.emergency_s, after.emergency_s,
-                                          rank + 1 < plan.steps.size() ? together : analysis::usual_level),
+                                less_time(before.emergency_s, after.emergency_s, together), gain(after),
                                 loss(after), step.gain});
     }
 }
@@ -133,6 +131,7 @@ report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipReq
     facts.condition = request.condition.name;
     facts.command = request.run.command;
     facts.study = request.study;
+    facts.more_seeds = request.more_seeds;
     facts.density = request.density;
     facts.other_parts = experiment::policies_with(request.condition, traffic::Trait::renews_requests);
     facts.seed = config.seed;
@@ -142,6 +141,7 @@ report::EquipmentFacts facts_of(const study::StudyConfig& config, const EquipReq
     facts.signals = signals.built.network.signals().size();
     facts.met = signals.candidates.met;
     facts.outlook = scenario::outlook_sentence(signals.candidates.outlook);
+    facts.red_s = signals.candidates.outlook.red_s;
     facts.not_passed = signals.candidates.not_passed;
     facts.switched_off = signals.candidates.switched_off;
     facts.equipped_today = signals.ids_of_today();
@@ -217,10 +217,14 @@ std::pair<analysis::EquipPlan, FreshOutcomes> measured(const EquipRequest& reque
 }  // namespace
 
 core::ExitCode equip(EquipRequest request) {
+    std::optional<core::InterruptionNotice> notice(std::in_place,
+                                                   interrupted_between_runs(request.run.command));
     const core::TemporaryFolder network_folder;
     const scenario::BuiltNetwork built = detail::roads_of(request, network_folder.path());
     request = detail::fitted(std::move(request), built);
+    notice.emplace(interrupted_between_runs(request.run.command));
     Search search = search_of(request, built);
+    core::print_message(search.rounds.same_with_other_seeds());
     EquipRounds& rounds = search.rounds;
     const auto [plan, fresh] = measured(request, search);
     report::EquipmentFacts facts = facts_of(search.config, request, search.signals);

@@ -26,10 +26,12 @@ struct EquipRequest {
     /// Words of a command that runs a study of this scenario and condition, but for seeds and equipped
     /// signals.
     std::vector<std::string> study = {};
-    double density = 1.0;     ///< `--density` of the command.
-    std::string calmer = {};  ///< The command with less traffic, for where vehicles lock each other.
-    double within_s = 0.0;    ///< Time that decides on `replications`, by a forecast; 0: none is given.
-    RunOptions run;           ///< Its folder is that of the result and of the rounds.
+    double density = 1.0;  ///< `--density` of the command.
+    // Words of the command itself, with less traffic, for where vehicles lock each other, and for more seeds,
+    // but for their number.
+    std::vector<std::string> words = {}, calmer = {}, more_seeds = {};
+    double within_s = 0.0;  ///< Time that decides on `replications`, by a forecast; 0: none is given.
+    RunOptions run;         ///< Its folder is that of the result and of the rounds.
 };
 
 /// Chooses signals from runs in rounds, estimates their gains from runs on fresh seeds, writes report.html,

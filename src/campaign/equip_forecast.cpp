@@ -14,10 +14,12 @@
 #include "campaign/printout.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "core/process.hpp"
 #include "core/supervisor.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"
 #include "experiment/related_conditions.hpp"
+#include "report/equipment.hpp"
 #include "report/text.hpp"
 #include "report/verdict.hpp"
 
@@ -134,11 +136,20 @@ std::string short_plan(const EquipRounds& rounds, const EquipRequest& request, s
                        candidates > 1 ? " Fewer --candidates take less." : "");
 }
 
+/// The words with a number of seeds in place of the time.
+std::vector<std::string> timeless(std::vector<std::string> words, std::uint32_t seeds) {
+    const auto found = std::ranges::find_if(
+        words, [](const std::string& word) { return word == "--within" || word.starts_with("--within="); });
+    if (found != words.end()) words.erase(found, found + (*found == "--within" ? 2 : 1));
+    return core::with_option(std::move(words), "--seeds", std::to_string(seeds));
+}
+
 /// How many runs, and what speaks against so few seeds or so large a budget.
 std::string amount_words(const EquipRequest& request, const EquipForecast& runs, std::size_t held,
-                         std::size_t candidates) {
-    std::string words = fmt::format("{} likely, {} at most, into {}", report::counted(runs.likely(), "run"),
-                                    runs.most(), request.run.folder.string());
+                         std::size_t candidates, const std::string& small_map) {
+    std::string words =
+        fmt::format("{} likely, {} at most, of --seeds {}, into {}", report::counted(runs.likely(), "run"),
+                    runs.most(), request.replications, request.run.folder.string());
     if (held > 0)
         words +=
             fmt::format(", which holds {} of earlier calls; those that it needs are not made again", held);
@@ -148,13 +159,14 @@ std::string amount_words(const EquipRequest& request, const EquipForecast& runs,
                              report::counted(candidates, "signal"));
     if (request.replications < analysis::fewest_for_interval)
         words += fmt::format(" Nothing can be shown by fewer than {} seeds.", analysis::fewest_for_interval);
+    if (!small_map.empty()) words += fmt::format(" Little to rank on this map: {}.", small_map);
     return words;
 }
 
 /// What held runs say of locks; without any, what would.
 std::string lock_words(const EquipRounds& rounds, const EquipRequest& request) {
     const report::UnsoundRuns unsound = rounds.first_unsound();
-    if (unsound.runs > 0) return lock_warning(unsound, request.calmer);
+    if (unsound.runs > 0) return lock_warning(unsound, core::shell_text(request.calmer));
     return core::wrapped(
                "Whether vehicles lock each other, runs alone tell: clearway scenario check with "
                "--lock-trials 6 "
@@ -168,6 +180,9 @@ std::string lock_words(const EquipRounds& rounds, const EquipRequest& request) {
 EquipRequest detail::fitted(EquipRequest request, const scenario::BuiltNetwork& built) {
     if (request.within_s <= 0.0) return request;
     request.replications = seeds_within(request, built);
+    for (std::vector<std::string>* const words : {&request.words, &request.calmer, &request.more_seeds})
+        *words = timeless(*words, request.replications);
+    request.run.command = core::shell_text(request.words);
     if (request.replications > analysis::fewest_for_interval)
         core::print_message(fmt::format("clearway: {} allow about --seeds {}\n",
                                         clock_words(request.within_s), request.replications));
@@ -179,6 +194,7 @@ core::ExitCode equip_dry_run(EquipRequest request) {
     const scenario::BuiltNetwork built = detail::roads_of(request, network_folder.path());
     request = detail::fitted(std::move(request), built);
     const Search search = search_of(request, built);
+    core::print_message(search.rounds.same_with_other_seeds());
     search.rounds.require_fits();
     const EquipForecast runs = search.rounds.forecast();
     const RunCost cost = cost_of(search, request);
@@ -232,12 +248,15 @@ core::ExitCode equip_dry_run(EquipRequest request) {
     const std::string shorter =
         cost.wall_s && request.within_s <= 0.0 ? short_plan(search.rounds, request, candidates, run_s) : "";
     const report::SignalsMet& met = search.signals.candidates.met;
+    const std::string small_map = report::small_map_words(
+        std::min(request.budget, candidates), candidates + search.signals.candidates.less_red, met);
     const std::string outlook = scenario::outlook_sentence(search.signals.candidates.outlook);
     print({{{"folder", request.run.folder.string()},
             {"share_of_trips_with_signals", core::to_json_value(met.share())},
             {"signals_per_trip", core::to_json_value(met.mean())},
             {"outlook", outlook},
             {"candidates", candidates},
+            {"replications", request.replications},
             {"runs", runs.likely()},
             {"most_runs", runs.most()},
             {"held_runs", held},
@@ -245,7 +264,7 @@ core::ExitCode equip_dry_run(EquipRequest request) {
             {"estimated_time_s", seconds(runs.likely())},
             {"estimate_measured", cost.basis == CostBasis::measured}},
            {table},
-           core::wrapped(amount_words(request, runs, held, candidates), 0) + "\n" +
+           core::wrapped(amount_words(request, runs, held, candidates, small_map), 0) + "\n" +
                core::wrapped(time + shorter, 0) + "\n" + lock_words(search.rounds, request),
            core::wrapped(met.words(), 0) + "\n" + core::wrapped(report::printable(outlook), 0) + "\n\n"},
           request.run.publish.printing);

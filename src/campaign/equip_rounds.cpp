@@ -254,6 +254,28 @@ void EquipRounds::require_fits() const {
     results::Store::require_fits(options.folder, plan.manifest);
 }
 
+std::string EquipRounds::same_with_other_seeds() const {
+    RunOptions options = options_;
+    const results::Manifest own = plan_for(round_of({{{}, {0}}}), options).manifest;
+    const auto same = [&](const results::Manifest& other) {
+        results::Manifest alike = own;
+        alike.replications = other.replications;
+        alike.conditions = other.conditions;
+        return alike == other && other.replications != own.replications &&
+               std::ranges::find(other.conditions, own.conditions.back()) != other.conditions.end();
+    };
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(options_.folder.parent_path() / ".", none)) {
+        const std::filesystem::path folder = options_.folder.parent_path() / entry.path().filename();
+        if (!std::filesystem::exists(folder / first_round / "manifest.json", none)) continue;
+        const results::Manifest other = results::Store::open(folder / first_round).manifest();
+        if (same(other))
+            return fmt::format("clearway: {} holds the same search with {} seeds: --seeds {} continues it\n",
+                               folder.string(), other.replications, other.replications);
+    }
+    return "";
+}
+
 report::UnsoundRuns EquipRounds::first_unsound() const {
     const std::filesystem::path folder = options_.folder / first_round;
     if (!std::filesystem::exists(folder / "manifest.json")) return {};

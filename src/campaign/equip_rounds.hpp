@@ -97,6 +97,10 @@ class EquipRounds {
     /// Throws core::InputError where the folder of the first round holds another search.
     void require_fits() const;
 
+    /// Names a folder beside that of the search, or itself, which holds the same one with another number of
+    /// seeds; empty without one.
+    std::string same_with_other_seeds() const;
+
     /// Makes the missing runs of these sets of candidates, of which the first has those that are chosen.
     /// Throws as prepare_run_folder and run_part do, and core::Error with its exit code when interrupted.
     std::vector<analysis::Values> measure(const std::vector<analysis::SignalSet>& sets,

@@ -14,7 +14,6 @@
 #include "cli/detail/condition_options.hpp"
 #include "cli/detail/scenario_options.hpp"
 #include "cli/verb.hpp"
-#include "core/interruption.hpp"
 #include "core/process.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/equipped_signals.hpp"
@@ -44,14 +43,11 @@ std::string value_behind(const std::string& word) {
     return equals == std::string::npos ? "" : word.substr(equals + 1);
 }
 
-/// The command with less traffic, in a folder of its own where it names one: the other holds another search.
-std::string calmer_command(const std::vector<std::string>& command, const campaign::EquipRequest& request) {
-    const std::string density = report::less_density(request.density);
-    std::vector<std::string> words = core::with_option(command, "--density", density);
-    if (!request.run.folder.empty())
-        words = core::with_option(std::move(words), "--out",
-                                  fmt::format("{}-density-{}", request.run.folder.string(), density));
-    return core::shell_text(words);
+/// The command, in a folder of its own where it names one: the other holds another search.
+std::vector<std::string> moved(const std::vector<std::string>& command, const campaign::EquipRequest& request,
+                               const std::string& ending) {
+    if (request.run.folder.empty()) return command;
+    return core::with_option(command, "--out", request.run.folder.string() + ending);
 }
 
 /// The command as one of `clearway run`: without what only equip takes, seeds, where it writes, its name and
@@ -92,7 +88,8 @@ void add_study_options(App& app, const std::shared_ptr<EquipArguments>& argument
     campaign::EquipRequest& request = arguments->request;
     app.add_option("--budget", request.budget,
                    "How many signals to equip. Gains count from none equipped, where the "
-                   "policy's other parts, such as clear_lane, work all the same")
+                   "policy's other parts, such as clear_lane, work all the same; for signals alone in "
+                   "today's traffic: --policy preempt_signals --av-share 0")
         .required()
         .range(std::size_t{1}, most_signals)
         .option_text(fmt::format("N, 1 to {} (required)", most_signals));
@@ -136,14 +133,17 @@ Action configure_equip(App& app) {
     app.set_everyday({"--budget", "--condition", "--policy", "--failure", "--seeds", "--within", "--density",
                       "--av-share", "--out", "--dry-run"});
     return [arguments](const Invocation& invocation) {
-        const core::InterruptionNotice notice(campaign::interrupted_between_runs(invocation.command));
         campaign::EquipRequest& request = arguments->request;
         request.condition = shown_condition(chosen_conditions(arguments->conditions), "equip");
         request.scenario = scenario::load(arguments->scenario, arguments->options);
         request.run.command = invocation.command;
         request.density = arguments->options.number("density", 1.0);
         request.study = study_words(invocation.words, arguments->scenario);
-        request.calmer = calmer_command(invocation.words, request);
+        request.words = invocation.words;
+        request.more_seeds = moved(invocation.words, request, "-more-seeds");
+        const std::string density = report::less_density(request.density);
+        request.calmer =
+            core::with_option(moved(invocation.words, request, "-density-" + density), "--density", density);
         return arguments->mode == Mode::dry_run ? campaign::equip_dry_run(request) : campaign::equip(request);
     };
 }

@@ -228,6 +228,8 @@ std::string equipment_text(const EquipmentFacts& facts) {
         paragraph({fmt::format("{}: which signals to equip first, {}, {}", printable(facts.title),
                                facts.condition, counted(facts.replications, "replication"))}) +
         paragraph({facts.met.words()}) + paragraph({printable(facts.outlook)});
+    if (const std::string alone = detail::signals_alone_sentence(facts); !alone.empty())
+        text += paragraph({alone});
     if (const std::string coarse = coarse_step_sentence(facts.step_length_s); !coarse.empty())
         text += paragraph({coarse});
     if (!facts.candidates.empty())
@@ -241,6 +243,8 @@ std::string equipment_text(const EquipmentFacts& facts) {
     if (!facts.events.empty())
         text += "\n" + detail::text_of(detail::event_sheet(facts)) + paragraph({detail::event_legend(facts)});
     text += "\n" + paragraph(detail::circumstances_of(facts)) + "\n" + lines(detail::findings_of(facts));
+    if (const std::string command = detail::more_seeds_command(facts); !command.empty())
+        text += lines({detail::more_seeds_words}) + command + "\n";
     if (const std::string command = detail::study_command(facts); !command.empty())
         text += lines({detail::study_words}) + command + "\n";
     return text;
@@ -252,6 +256,7 @@ std::string equipment_json(const EquipmentFacts& facts) {
     const auto rank = rank_with_share(facts, great_share);
     const Json json = {{"scenario", facts.scenario},
                        {"condition", facts.condition},
+                       {"command", facts.command},
                        {"seed", facts.seed},
                        {"fresh_seed", facts.fresh_seed},
                        {"replications", facts.replications},

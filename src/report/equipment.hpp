@@ -22,8 +22,7 @@ struct EquippedSignal {
         streets;  ///< Names of those that lead to it, with ` / ` between; text from a file. May be empty.
     /// Over those of better rank, s of EV time. The intervals of all ranks hold together (Bonferroni).
     analysis::MaybeEstimate gain;
-    /// Over no signal equipped. The intervals of all ranks but the last hold together, as those of `gain`;
-    /// that of the last holds alone.
+    /// Over no signal equipped, with an interval that holds alone.
     analysis::MaybeEstimate so_far;
     analysis::MaybeEstimate others;          ///< Time loss of the others over no signal equipped, s each.
     analysis::MaybeEstimate chosen_by = {};  ///< `gain` in the runs that decided; too high by the choice.
@@ -65,6 +64,9 @@ struct SignalsMet {
     std::string words() const;
 };
 
+/// Why a map leaves little to choose for that many signals of those that are passed; empty where it does not.
+std::string small_map_words(std::size_t equipped, std::size_t passed, const SignalsMet& met);
+
 /// An event of the fresh runs, number a run.
 struct EquipEventFacts {
     std::string title;
@@ -96,8 +98,9 @@ struct EquipmentFacts {
     std::string condition;
     std::string command;
     std::vector<std::string> study = {};  ///< Words of a command that runs a study, but for what is equipped.
-    std::uint64_t seed = 0;               ///< Of the runs that decide.
-    std::uint64_t fresh_seed = 0;         ///< Of those that estimate.
+    std::vector<std::string> more_seeds = {};  ///< Words of the command, but for the number of seeds.
+    std::uint64_t seed = 0;                    ///< Of the runs that decide.
+    std::uint64_t fresh_seed = 0;              ///< Of those that estimate.
     std::uint32_t replications = 0;
     double step_length_s = 0.0;  ///< Of the simulation.
     double density = 1.0;        ///< `--density` of the command.
@@ -105,6 +108,7 @@ struct EquipmentFacts {
     std::vector<std::string> other_parts = {};
     std::size_t budget = 0;
     SignalsMet met = {};
+    double red_s = 0.0;          ///< Of a trip at red where nobody queues, by the programs.
     std::string outlook = {};    ///< What to expect of preemption before any run; text from a file.
     std::size_t signals = 0;     ///< Of the network.
     std::size_t not_passed = 0;  ///< Of them, no emergency vehicle passes in these replications.

@@ -147,10 +147,21 @@ std::string list_of(const std::vector<std::string>& sentences) {
     return html + "</ul>\n";
 }
 
-std::string study_html(const EquipmentFacts& facts) {
-    const std::string command = detail::study_command(facts);
+std::string command_html(const char* words, const std::string& command) {
     if (command.empty()) return "";
-    return fmt::format("<p>{}</p>\n<pre><code>{}</code></pre>\n", detail::study_words, escaped(command));
+    return fmt::format("<p>{}</p>\n<pre><code>{}</code></pre>\n", words, escaped(command));
+}
+
+/// The words of the page, for who is no statistician.
+std::string words_html(const EquipmentFacts& facts) {
+    return paragraphs(
+        {fmt::format("Seed {} decides: its runs choose the signals. Seed {} estimates: fresh runs that had "
+                     "no part in the choice tell the gains, so that luck in choosing is not counted.",
+                     facts.seed, facts.fresh_seed),
+         "Restricted mean travel time: mean time from departure to arrival; an EV that does not arrive "
+         "counts as if it had at the end of the simulated time.",
+         "Alone: of a signal, equipped as the only one; of EV time, on empty roads."},
+        "note");
 }
 
 std::string note(const std::string& words) {
@@ -205,7 +216,7 @@ Figure curve_figure(const EquipmentFacts& facts) {
     const bool has_order = detail::has_order(facts);
     std::vector<LegendEntry> legend = {line_entry(
         {0, Series::Weight::lead}, fmt::format("{}{}", has_order ? "the first signals" : "the chosen signals",
-                                               has_intervals ? ", with 95 % intervals" : ""))};
+                                               has_intervals ? ", with intervals of 95 % each" : ""))};
     if (facts.all_gain) {
         plot.line({{numbers.low, facts.all_gain->mean}, {numbers.high, facts.all_gain->mean}}, {2});
         legend.push_back(line_entry({2}, fmt::format("all of {}", counted(facts.signals, "signal"))));
@@ -219,9 +230,8 @@ Figure curve_figure(const EquipmentFacts& facts) {
 }
 
 Figure candidates_figure(const EquipmentFacts& facts) {
-    constexpr double row_height = 18.0;
-    constexpr double names_end = 226.0;
-    constexpr std::size_t longest_name = 36;  // before it; the table has the rest
+    constexpr std::size_t short_name = 36;    // stands beside its interval, a longer one above
+    constexpr std::size_t longest_name = 58;  // the table has the rest
     std::vector<EquipCandidateFacts> drawn;
     for (const EquipCandidateFacts& one : facts.candidates)
         if (one.gain) drawn.push_back(one);
@@ -232,6 +242,13 @@ Figure candidates_figure(const EquipmentFacts& facts) {
     Range gains(0.0, 0.0);
     for (const EquipCandidateFacts& one : drawn)
         gains.include(one.gain);
+    const auto name_of = [](const EquipCandidateFacts& one) {
+        return printable(one.streets.empty() ? one.signal : one.streets);
+    };
+    const bool are_short = std::ranges::all_of(
+        drawn, [&](const EquipCandidateFacts& one) { return name_of(one).size() <= short_name; });
+    const double row_height = are_short ? 18.0 : 32.0;
+    const double names_end = are_short ? 226.0 : 0.0;
     const double bottom = top_edge + row_height * static_cast<double>(drawn.size());
     Plot plot(fmt::format("{}: gain of each candidate alone", facts.title), bottom + label_space,
               {padded(gains, 0.05), labelled(primary, "gain"), names_end + 8.0, right_edge},
@@ -240,10 +257,12 @@ Figure candidates_figure(const EquipmentFacts& facts) {
     plot.vertical(0.0);
     double y = top_edge + 0.5 * row_height;
     for (const EquipCandidateFacts& one : drawn) {
-        const std::string name =
-            shortened(printable(one.streets.empty() ? one.signal : one.streets), longest_name);
-        plot.text(names_end, y + 4.0, fmt::format("#{} {}", one.number, name), Canvas::Anchor::end, "tick");
-        plot.estimate(one.gain, shown_interval(one.gain), y,
+        const std::string name = fmt::format("#{} {}", one.number, shortened(name_of(one), longest_name));
+        if (are_short)
+            plot.text(names_end, y + 4.0, name, Canvas::Anchor::end, "tick");
+        else
+            plot.text(plot.x().from, y - 4.0, name, Canvas::Anchor::start, "tick");
+        plot.estimate(one.gain, shown_interval(one.gain), are_short ? y : y + 8.0,
                       {is_shown(one.gain) ? std::size_t{1} : std::size_t{2}});
         y += row_height;
     }
@@ -283,9 +302,13 @@ void write_equipment_page(const EquipmentFacts& facts, std::ostream& page) {
     using detail::to_html;
     const std::vector<std::string> findings = detail::findings_of(facts);
     const std::string answer =
-        paragraphs({findings.front()}, "headline") + note(facts.outlook) + note(facts.assumptions) +
-        detail::coarse_step_note(facts.step_length_s) + list_of({findings.begin() + 1, findings.end()}) +
-        study_html(facts) + figures({detail::equipment_map_figure(facts), detail::curve_figure(facts)}) +
+        paragraphs({findings.front()}, "headline") +
+        (facts.other_parts.empty() ? "" : note(detail::signals_alone_sentence(facts))) + note(facts.outlook) +
+        note(facts.assumptions) + detail::coarse_step_note(facts.step_length_s) +
+        list_of({findings.begin() + 1, findings.end()}) +
+        command_html(detail::more_seeds_words, detail::more_seeds_command(facts)) +
+        command_html(detail::study_words, detail::study_command(facts)) +
+        figures({detail::equipment_map_figure(facts), detail::curve_figure(facts)}) +
         (facts.ranked.empty() ? ""
                               : to_html(detail::data_table_of(detail::ranks_table(facts))) +
                                     note(detail::ranks_legend(facts))) +
@@ -304,7 +327,7 @@ void write_equipment_page(const EquipmentFacts& facts, std::ostream& page) {
                                 to_html(detail::data_table_of(detail::candidate_sheet(facts))) +
                                 note(detail::candidate_legend(facts)) + pairs});
     sections.push_back({"reproduce", "Conditions",
-                        paragraphs(detail::circumstances_of(facts), "") + "<pre><code>" +
+                        words_html(facts) + paragraphs(detail::circumstances_of(facts), "") + "<pre><code>" +
                             escaped(facts.command) + "</code></pre>\n"});
     detail::write({facts.title + ": which signals to equip first",
                    fmt::format("{}, {}; seed {} decides, seed {} estimates. {}", facts.condition,

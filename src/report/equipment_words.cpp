@@ -117,10 +117,15 @@ std::size_t seeds_to_show(const EquipmentFacts& facts) {
     return analysis::replications_to_show(gain->deviation, gain->mean);
 }
 
+std::string small_map_of(const EquipmentFacts& facts) {
+    return small_map_words(facts.ranked.size(), facts.candidates.size() + facts.less_red, facts.met);
+}
+
 std::string seeds_sentence(const EquipmentFacts& facts) {
     const analysis::MaybeEstimate& gain = facts.ranked.back().so_far;
     if (analysis::shown_interval(gain) == nullptr || is_shown(gain)) return "";
     if (gain->mean <= 0.0) return "Their mean is no gain.";
+    if (!detail::has_order(facts) && !small_map_of(facts).empty()) return "";
     const std::size_t seeds = seeds_to_show(facts);
     if (seeds > analysis::most_equip_replications)
         return fmt::format("It would take more than {} seeds to show so small a gain of all.",
@@ -150,10 +155,11 @@ std::string split_sentence(const EquipmentFacts& facts) {
     };
     const std::string others =
         split.passing == split.trips ? "" : fmt::format("; the other trips {}", gain(split.other_gain));
-    return fmt::format("Of {} on the fresh seeds {} ({:.0f} %) pass a chosen signal and {}{}.",
-                       counted(split.trips, "trip"), split.passing,
-                       100.0 * static_cast<double>(split.passing) / static_cast<double>(split.trips),
-                       gain(split.passing_gain), others);
+    return fmt::format(
+        "Of {} on the fresh seeds, which only measure, {} ({:.0f} %) pass a chosen signal and {}{}.",
+        counted(split.trips, "trip"), split.passing,
+        100.0 * static_cast<double>(split.passing) / static_cast<double>(split.trips),
+        gain(split.passing_gain), others);
 }
 
 /// A rank that few trips pass rests on them alone.
@@ -196,19 +202,12 @@ std::string passed_over_sentence(const EquipmentFacts& facts) {
 
 /// Why no number of seeds makes more of a map that has little to choose from.
 std::string small_map_sentence(const EquipmentFacts& facts) {
-    const std::size_t passed = facts.candidates.size() + facts.less_red;
-    std::vector<std::string> why;
-    if (facts.ranked.size() + 1 >= passed)
-        why.push_back(fmt::format("the {} chosen are nearly all of its {} that EVs pass", facts.ranked.size(),
-                                  counted(passed, "signal")));
-    if (2 * facts.met.trips_with_signals < facts.met.trips)
-        why.push_back(fmt::format("only {} of {} pass one", facts.met.trips_with_signals,
-                                  counted(facts.met.trips, "EV trip")));
+    const std::string why = small_map_of(facts);
     if (why.empty()) return "";
     return fmt::format(
-        "This map can hardly decide it: {}. What helps: the signals that the map lacks, your "
+        "More seeds are hardly worth it on this map: {}. What helps: the signals that the map lacks, your "
         "stations, your calls, or a larger map.",
-        fmt::join(why, ", and "));
+        why);
 }
 
 /// Where no EV was a step faster or slower, seeds of the same kind would not show more.
@@ -265,15 +264,21 @@ const char* start_of(const EquipmentFacts& facts) {
     return facts.equipped_today.empty() ? "no signal equipped" : "those equipped today";
 }
 
-/// ` (about 24 would likely)`: pairs that would show the gain of the first place, if it and its spread are
-/// what they look like.
-std::string pairs_words(const EquipmentFacts& facts) {
+/// Pairs that would likely show the gain of the first place, if it and its spread are what they look like; 0
+/// where no number would.
+std::size_t pairs_to_tell(const EquipmentFacts& facts) {
     const EquipPairFacts* const pair = pair_of(facts, facts.ranked.front());
     const analysis::MaybeEstimate& gain = pair != nullptr ? pair->both_gain : facts.ranked.front().gain;
-    if (analysis::shown_interval(gain) == nullptr || gain->mean <= 0.0 || gain->deviation <= 0.0) return "";
+    if (analysis::shown_interval(gain) == nullptr || gain->mean <= 0.0 || gain->deviation <= 0.0) return 0;
     const double ranks = pair != nullptr ? 1.0 : static_cast<double>(facts.ranked.size());
-    const std::size_t pairs = analysis::replications_to_show(gain->deviation, gain->mean,
-                                                             1.0 - (1.0 - analysis::usual_level) / ranks);
+    return analysis::replications_to_show(gain->deviation, gain->mean,
+                                          1.0 - (1.0 - analysis::usual_level) / ranks);
+}
+
+/// ` (about 24 would likely)`; empty where so many are not worth it.
+std::string pairs_words(const EquipmentFacts& facts) {
+    const std::size_t pairs = pairs_to_tell(facts);
+    if (pairs == 0 || !small_map_of(facts).empty()) return "";
     if (pairs > analysis::most_equip_replications)
         return fmt::format(" (more than {} would have to)", analysis::most_equip_replications);
     return fmt::format(" (about {} would likely)", pairs);
@@ -291,9 +296,9 @@ std::string not_shown_sentence(const EquipmentFacts& facts) {
     if (facts.replications < analysis::fewest_for_interval)
         return fmt::format("Not shown: what {} adds; that takes {} seeds.", which,
                            analysis::fewest_for_interval);
-    const bool tells_seeds = !seeds_sentence(facts).empty() || !pairs_words(facts).empty();
-    return fmt::format("Not shown: what {} adds. Chance could be all of it{}.", which,
-                       !detail::has_order(facts) && tells_seeds ? "" : "; more --seeds tell");
+    return fmt::format("Not shown: what {} adds to those before{}.{}", which,
+                       is_shown(facts.ranked.back().so_far) ? ", though their sum is" : "",
+                       detail::has_order(facts) ? " More --seeds tell." : "");
 }
 
 /// `Equip first: 1) #4 Via Po / Via Roma, 2) #9 S5 (not shown).`, numbered as the map and the table of
@@ -345,11 +350,20 @@ std::string chosen_sentence(const EquipmentFacts& facts) {
 std::string gain_sentence(const EquipmentFacts& facts) {
     const EquippedSignal& last = facts.ranked.back();
     if (tells_sum(facts))
-        return fmt::format("That is the gain over {}. Meanwhile, {}.", start_of(facts), others_words(facts));
+        return fmt::format("Gains count from {}. With these signals, {}.", start_of(facts),
+                           others_words(facts));
     return fmt::format("Together, an EV needs {} s less a trip than with {} ({}), and {}.",
                        estimate_or_dash(last.so_far),
                        facts.equipped_today.empty() ? "none" : "those of today", shown_word(last.so_far),
                        others_words(facts));
+}
+
+/// Where the gain is more than red without queues costs, which the outlook tells.
+std::string queues_sentence(const EquipmentFacts& facts) {
+    const analysis::MaybeEstimate& gain = facts.ranked.back().so_far;
+    if (facts.red_s <= 0.0 || !is_shown(gain) || gain->mean <= facts.red_s) return "";
+    return fmt::format("Red alone costs {:.0f} s of a trip: the rest of the gain is queues, or chance.",
+                       facts.red_s);
 }
 
 std::string left_out_sentence(std::size_t count, const char* why) {
@@ -386,12 +400,19 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts) {
         sentences.push_back(fmt::format("No signal to equip: in the mean of the runs none of the {} gains.",
                                         counted(facts.candidates.size(), "candidate")));
     } else {
-        sentences = {headline(facts),           has_order(facts) ? "" : small_map_sentence(facts),
-                     chosen_sentence(facts),    gain_sentence(facts),
-                     split_sentence(facts),     no_effect_sentence(facts),
-                     together_sentence(facts),  not_shown_sentence(facts),
-                     unchanged_sentence(facts), passed_over_sentence(facts),
-                     few_trips_sentence(facts), seeds_sentence(facts)};
+        sentences = {headline(facts),
+                     has_order(facts) ? "" : small_map_sentence(facts),
+                     chosen_sentence(facts),
+                     gain_sentence(facts),
+                     queues_sentence(facts),
+                     split_sentence(facts),
+                     no_effect_sentence(facts),
+                     together_sentence(facts),
+                     not_shown_sentence(facts),
+                     unchanged_sentence(facts),
+                     passed_over_sentence(facts),
+                     few_trips_sentence(facts),
+                     seeds_sentence(facts)};
     }
     sentences.push_back(unsound_sentence(facts));
     sentences.push_back(end_sentence(facts));
@@ -418,6 +439,24 @@ std::string study_command(const EquipmentFacts& facts) {
         words = core::with_option(words, "--density", less_density(facts.density));
     words.insert(words.end(), {"--set", fmt::format("actuation.equipped={}", fmt::join(signals, ","))});
     return printable(core::shell_text(words));
+}
+
+std::string more_seeds_command(const EquipmentFacts& facts) {
+    if (facts.ranked.empty() || has_order(facts) || most_are_held_up(facts.unsound) ||
+        !small_map_of(facts).empty())
+        return "";
+    const std::size_t seeds = tells_sum(facts) ? pairs_to_tell(facts) : seeds_to_show(facts);
+    if (seeds <= facts.replications || seeds > analysis::most_equip_replications) return "";
+    return printable(core::shell_text(core::with_option(facts.more_seeds, "--seeds", std::to_string(seeds))));
+}
+
+std::string signals_alone_sentence(const EquipmentFacts& facts) {
+    if (facts.other_parts.empty()) return "";
+    return fmt::format(
+        "{} of {} {} also where no signal is equipped. For signals alone in today's traffic: --policy "
+        "preempt_signals --av-share 0.",
+        fmt::join(facts.other_parts, " and "), facts.condition,
+        facts.other_parts.size() == 1 ? "works" : "work");
 }
 
 std::vector<std::string> circumstances_of(const EquipmentFacts& facts) {
@@ -464,19 +503,14 @@ std::string ranks_legend(const EquipmentFacts& facts) {
 }
 
 std::string curve_legend(const EquipmentFacts& facts) {
-    const std::string rows = facts.ranked.empty()
-                                 ? fmt::format("All {}", counted(facts.signals, "signal"))
-                                 : fmt::format("So many of the first together, in the last row all {}",
-                                               counted(facts.signals, "signal"));
-    const std::string parts =
-        facts.other_parts.empty()
-            ? ""
-            : fmt::format(" There, {} of {} {} all the same: these gains are of signals alone.",
-                          fmt::join(facts.other_parts, " and "), facts.condition,
-                          facts.other_parts.size() == 1 ? "works" : "work");
-    return fmt::format("{}, over {} [95 %{}].{}{}", rows, start_of(facts),
-                       facts.ranked.size() > 1 ? "; of fewer than all chosen as their gains" : "",
-                       is_shown(facts.all_gain) ? " %: of the gain of all." : "", parts);
+    const std::string rows =
+        facts.ranked.empty()
+            ? fmt::format("All {}", counted(facts.signals, "signal"))
+            : fmt::format("Row 2: the signals of {} 1 and 2 together, and so on; last row: all {}",
+                          has_order(facts) ? "ranks" : "steps", counted(facts.signals, "signal"));
+    return fmt::format("{}. Gains over {}, with intervals of 95 % each{}.{}", rows, start_of(facts),
+                       facts.ranked.size() > 1 ? "; those above are wider, to hold together" : "",
+                       is_shown(facts.all_gain) ? " %: of the gain of all." : "");
 }
 
 std::string event_legend(const EquipmentFacts& facts) {
@@ -498,10 +532,22 @@ std::string UnsoundRuns::words() const {
     return fmt::format("{}", fmt::join(words, ", and "));
 }
 
+std::string small_map_words(std::size_t equipped, std::size_t passed, const SignalsMet& met) {
+    std::vector<std::string> why;
+    if (equipped + 1 >= passed)
+        why.push_back(fmt::format("{} of the {} that EVs pass {} nearly all", equipped,
+                                  counted(passed, "signal"), equipped == 1 ? "is" : "are"));
+    if (2 * met.trips_with_signals < met.trips)
+        why.push_back(
+            fmt::format("only {} of {} pass one", met.trips_with_signals, counted(met.trips, "EV trip")));
+    return fmt::format("{}", fmt::join(why, ", and "));
+}
+
 std::string SignalsMet::words() const {
     if (trips == 0) return "No EV has a trip in these seeds.";
-    return fmt::format("{:.0f} % of the EVs' {} pass at least one signal; a trip meets {:.1f} on average.",
-                       100.0 * *share(), core::counted(trips, "trip"), *mean());
+    return fmt::format(
+        "{:.0f} % of the EVs' {} that decide pass at least one signal; a trip meets {:.1f} on average.",
+        100.0 * *share(), core::counted(trips, "trip"), *mean());
 }
 
 }  // namespace clearway::report

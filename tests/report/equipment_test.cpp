@@ -139,16 +139,18 @@ TEST(Equipment, TellsWhatTripsGainThatPassAChosenSignal) {
     EquipmentFacts facts = two_of_twelve();
     EXPECT_THAT(flat_text(facts), Not(HasSubstr("pass a chosen signal")));
     facts.split = {60, 45, about(56.0, 6.0), about(0.4, 1.0)};
-    EXPECT_THAT(flat_text(facts),
-                HasSubstr("Of 60 trips on the fresh seeds 45 (75 %) pass a chosen signal and gain "
-                          "56.0 [50.0, 62.0] s each (shown); the other trips gain 0.4 [-0.6, "
-                          "1.4] s each (not shown)."));
+    EXPECT_THAT(
+        flat_text(facts),
+        HasSubstr(
+            "Of 60 trips on the fresh seeds, which only measure, 45 (75 %) pass a chosen signal and gain "
+            "56.0 [50.0, 62.0] s each (shown); the other trips gain 0.4 [-0.6, "
+            "1.4] s each (not shown)."));
     const auto json = nlohmann::json::parse(equipment_json(facts));
     EXPECT_EQ(json.at("fresh_trips_passing"), 45);
     EXPECT_DOUBLE_EQ(json.at("gain_of_passing_s").at("low").get<double>(), 50.0);
     std::ostringstream page;
     write_equipment_page(facts, page);
-    EXPECT_THAT(page.str(), HasSubstr("<li>Of 60 trips on the fresh seeds 45 (75 %)"));
+    EXPECT_THAT(page.str(), HasSubstr("<li>Of 60 trips on the fresh seeds, which only measure, 45 (75 %)"));
     facts.split.passing = 60;
     EXPECT_THAT(flat_text(facts),
                 HasSubstr("60 (100 %) pass a chosen signal and gain 56.0 [50.0, 62.0] s each "
@@ -179,14 +181,27 @@ TEST(Equipment, SaysWhatWorksWhereNoSignalIsEquipped) {
     EquipmentFacts facts = two_of_twelve();
     EXPECT_THAT(flat_text(facts), Not(HasSubstr("all the same")));
     facts.other_parts = {"clear_lane", "give_way"};
+    facts.outlook = "By programs alone, it helps.";
     const std::string sentence =
-        "over no signal equipped [95 %; of fewer than all chosen as their gains]. %: of the gain of all. "
-        "There, "
-        "clear_lane and give_way of corridor work all the same: these gains are of signals alone.";
-    EXPECT_THAT(flat_text(facts), HasSubstr(sentence));
+        "clear_lane and give_way of corridor work also where no signal is equipped. For signals alone in "
+        "today's traffic: --policy preempt_signals --av-share 0.";
+    EXPECT_EQ(count_of(flat_text(facts), sentence), 1U);
     std::ostringstream page;
     write_equipment_page(facts, page);
-    EXPECT_THAT(page.str(), HasSubstr(sentence));
+    const std::size_t place = page.str().find("<p class=\"note\">clear_lane and give_way of corridor work");
+    EXPECT_LT(place, page.str().find("By programs alone")) << "the first of the notes";
+    EXPECT_THAT(page.str(), HasSubstr("--policy preempt_signals --av-share 0."));
+}
+
+TEST(Equipment, SaysOfWhichKindTheIntervalsOfTheCurveAre) {
+    EquipmentFacts facts = two_of_twelve();
+    EXPECT_THAT(
+        flat_text(facts),
+        HasSubstr("Row 2: the signals of ranks 1 and 2 together, and so on; last row: all 12 signals. "
+                  "Gains over no signal equipped, with intervals of 95 % each; those above are "
+                  "wider, to hold together. %: of the gain of all."));
+    facts.ranked.pop_back();
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("those above are wider"))) << "one rank is one interval";
 }
 
 TEST(Equipment, HasAnIntervalAtEachStepOfTheCurve) {
@@ -194,7 +209,7 @@ TEST(Equipment, HasAnIntervalAtEachStepOfTheCurve) {
     EXPECT_THAT(equipment_text(facts),
                 testing::ContainsRegex("\n +1  30\\.0 \\[26\\.0, 34\\.0\\]  shown +60 "));
     const std::string with = equipment_curve(facts);
-    EXPECT_THAT(with, HasSubstr("with 95 % intervals"));
+    EXPECT_THAT(with, HasSubstr("with intervals of 95 % each"));
     facts.ranked[0].so_far->interval.reset();
     EXPECT_LT(equipment_curve(facts).size(), with.size()) << "the mark of its interval";
 }
@@ -252,8 +267,9 @@ TEST(Equipment, EndsWithTheAnswer) {
     const std::string answer =
         text.substr(text.find("Equip first: 1) #4 Gate <Road> / High Street, 2) #9 south of"));
     EXPECT_THAT(answer, HasSubstr("42.0 [38.0, 46.0]"));
-    EXPECT_THAT(text, HasSubstr("Not shown: what #9 adds. Chance could be all of it; more --seeds"));
-    EXPECT_EQ(count_of(text, "more --seeds"), 1U);
+    EXPECT_THAT(text,
+                HasSubstr("Not shown: what #9 adds to those before, though their sum is. More --seeds"));
+    EXPECT_EQ(count_of(text, "More --seeds"), 1U);
     EXPECT_THAT(equipment_text(two_of_twelve()),
                 testing::EndsWith(":\nclearway run town --set 'actuation.equipped=#4,#9'\n"));
     EXPECT_THAT(text, HasSubstr("Stopped at 2 of 5"));
@@ -310,6 +326,11 @@ TEST(Equipment, SaysWhichRanksChangedNothingAndWhosePrograms) {
     EXPECT_EQ(programs_words("from net.net.xml"), "");
 }
 
+EquipmentFacts on_a_large_map(EquipmentFacts facts) {
+    facts.less_red = 10;
+    return facts;
+}
+
 TEST(Equipment, NamesNoBestWhereTheFirstRankIsChance) {
     EquipmentFacts facts = two_of_twelve();
     facts.ranked[0].gain = facts.ranked[0].so_far = Estimate{10, 0.0, 0.0, Interval{0.0, 0.0}};
@@ -319,7 +340,7 @@ TEST(Equipment, NamesNoBestWhereTheFirstRankIsChance) {
         AllOf(HasSubstr("No gain is shown: 10 pairs cannot tell which to equip first, and the first choice "
                         "changed no trip."),
               HasSubstr("Chosen, in no order: #4 Gate"), HasSubstr("#4 changed no trip"),
-              HasSubstr("Not shown: what any of them adds.")));
+              HasSubstr("Not shown: what any of them adds to those before.")));
     facts.ranked[1].gain = facts.ranked[0].gain;
     EXPECT_THAT(flat_text(facts), HasSubstr("actuation.equipped=#4,#9")) << "all, where none is better";
     facts.ranked.pop_back();
@@ -327,7 +348,7 @@ TEST(Equipment, NamesNoBestWhereTheFirstRankIsChance) {
 }
 
 TEST(Equipment, NamesNoOrderWhereNothingIsShown) {
-    EquipmentFacts facts = two_of_twelve();
+    EquipmentFacts facts = on_a_large_map(two_of_twelve());
     EXPECT_THAT(flat_text(facts), Not(HasSubstr("seeds would show")));
     facts.ranked[0].gain = facts.ranked[0].so_far = about(2.0, 3.0);
     facts.ranked[1].gain = about(1.0, 4.0);
@@ -336,8 +357,8 @@ TEST(Equipment, NamesNoOrderWhereNothingIsShown) {
     EXPECT_THAT(flat_text(facts),
                 AllOf(HasSubstr("No gain is shown: 10 pairs cannot tell which to equip first."),
                       HasSubstr("Chosen, in no order: #4 Gate <Road> / High"),
-                      HasSubstr("Not shown: what any of them adds. Chance could be all of it. "),
-                      Not(HasSubstr("more --seeds")), Not(HasSubstr("Equip first")), Not(HasSubstr("1) ")),
+                      HasSubstr("Not shown: what any of them adds to those before. "),
+                      Not(HasSubstr("More --seeds")), Not(HasSubstr("Equip first")), Not(HasSubstr("1) ")),
                       testing::ContainsRegex("Step +Signal"), Not(HasSubstr("bring 80 %")),
                       HasSubstr("About 73 seeds would likely (80 %) show the gain of all")));
     facts.ranked[1].so_far->mean = 0.1;
@@ -363,14 +384,17 @@ EquipmentFacts sum_without_order() {
 }
 
 TEST(Equipment, NamesNoOrderWhereOnlyTheSumIsShown) {
-    const EquipmentFacts facts = sum_without_order();
+    EquipmentFacts facts = on_a_large_map(sum_without_order());
+    facts.more_seeds = {"clearway", "equip", "town"};
     // t(n - 1) at 1 - 0.05 / 2 ranks and 80 % times 10 s / sqrt(n): 5.99 s for 29 pairs, 6.10 s for 28.
     const std::string headline =
         "No order is shown: together the 2 chosen bring 8.0 [1.0, 15.0] s a trip; which of them first, 10 "
         "pairs cannot tell (about 29 would likely).";
     EXPECT_THAT(flat_text(facts),
                 AllOf(HasSubstr(headline), Not(HasSubstr("Equip first")),
-                      HasSubstr("That is the gain over no signal equipped. Meanwhile, the others lose")));
+                      HasSubstr("Gains count from no signal equipped. With these signals, the others lose"),
+                      HasSubstr("More seeds would likely tell: clearway equip town --seeds 29 To study"),
+                      HasSubstr("Not shown: what any of them adds to those before, though their sum is.")));
     const auto json = nlohmann::json::parse(equipment_json(facts));
     EXPECT_EQ(json.at("headline"), headline);
     EXPECT_FALSE(json.at("order_shown").get<bool>());
@@ -378,8 +402,9 @@ TEST(Equipment, NamesNoOrderWhereOnlyTheSumIsShown) {
     EXPECT_TRUE(nlohmann::json::parse(equipment_json(two_of_twelve())).at("order_shown").get<bool>());
     std::ostringstream page;
     write_equipment_page(facts, page);
-    EXPECT_THAT(page.str(),
-                AllOf(HasSubstr("<p class=\"headline\">No order is shown"), Not(HasSubstr("Equip first"))));
+    EXPECT_THAT(page.str(), AllOf(HasSubstr("<p class=\"headline\">No order is shown"),
+                                  HasSubstr("<code>clearway equip town --seeds 29</code>"),
+                                  Not(HasSubstr("Equip first"))));
     EquipmentFacts drawn = facts;
     drawn.roads = three_roads();
     EXPECT_THAT(equipment_map(drawn), HasSubstr(">No order is shown: together"));
@@ -388,22 +413,34 @@ TEST(Equipment, NamesNoOrderWhereOnlyTheSumIsShown) {
     EXPECT_THAT(equipment_curve(two_of_twelve()), HasSubstr("the first signals"));
 }
 
+TEST(Equipment, SaysWhereTheRestOfAGainAboveAllRedComesFrom) {
+    EquipmentFacts facts = two_of_twelve();
+    facts.red_s = 6.4;
+    const std::string sentence = "Red alone costs 6 s of a trip: the rest of the gain is queues, or chance.";
+    EXPECT_THAT(flat_text(facts), HasSubstr(sentence));
+    facts.red_s = 42.5;
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("Red alone")));
+}
+
 TEST(Equipment, SaysWhatASmallMapCannotDecide) {
     EquipmentFacts facts = sum_without_order();
+    facts.more_seeds = {"clearway", "equip", "town"};
     EXPECT_THAT(
         flat_text(facts),
-        HasSubstr("This map can hardly decide it: the 2 chosen are nearly all of its 3 signals that EVs "
-                  "pass. What helps:"));
+        AllOf(HasSubstr("More seeds are hardly worth it on this map: 2 of the 3 signals that EVs pass are "
+                        "nearly all. What helps:"),
+              Not(HasSubstr("would likely")), Not(HasSubstr("--seeds 29"))))
+        << "one advice";
     facts.met = {60, 9, 25};
     EXPECT_THAT(flat_text(facts), HasSubstr("and only 9 of 60 EV trips pass one. What helps:"));
     facts.candidates.push_back(facts.candidates.front());
     facts.met = {8, 5, 15};
-    EXPECT_THAT(flat_text(facts), Not(HasSubstr("This map can hardly")))
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("More seeds are hardly")))
         << "two of four, most trips pass one";
     facts.candidates.pop_back();
     facts.less_red = 1;
-    EXPECT_THAT(flat_text(facts), Not(HasSubstr("This map can hardly"))) << "EVs pass four here too";
-    EXPECT_THAT(flat_text(two_of_twelve()), Not(HasSubstr("This map can hardly"))) << "it has decided";
+    EXPECT_THAT(flat_text(facts), Not(HasSubstr("More seeds are hardly"))) << "EVs pass four here too";
+    EXPECT_THAT(flat_text(two_of_twelve()), Not(HasSubstr("More seeds are hardly"))) << "it has decided";
 }
 
 TEST(Equipment, SaysWhyASignalWithMoreGainAloneWasNotChosen) {
@@ -428,7 +465,7 @@ TEST(Equipment, ExplainsFewerSeedsOnlyWhereARowHasThem) {
 TEST(Equipment, OpensWithHowManyTripsMeetSignals) {
     EquipmentFacts facts = two_of_twelve();
     const std::string sentence =
-        "62 % of the EVs' 8 trips pass at least one signal; a trip meets 1.9 on average.";
+        "62 % of the EVs' 8 trips that decide pass at least one signal; a trip meets 1.9 on average.";
     const std::string text = flat_text(facts);
     EXPECT_LT(text.find(sentence), text.find("Gain alone"));
     std::ostringstream page;
@@ -517,6 +554,7 @@ TEST(Equipment, IsWholeInJsonWithNullForWhatIsMissing) {
     EXPECT_FALSE(json.at("ranked").at(1).at("shown").get<bool>());
     EXPECT_TRUE(json.at("alone_s").is_null());
     EXPECT_EQ(json.at("end"), "no_gain");
+    EXPECT_EQ(json.at("command"), "clearway equip town <&>");
     EXPECT_EQ(json.at("rank_with_80_percent"), 2);
     ASSERT_EQ(json.at("candidates").size(), 3U);
     EXPECT_EQ(json.at("candidates").at(0).at("number"), 4);
@@ -637,7 +675,7 @@ TEST(Equipment, HasAPageWithAnswerMapTablesAndCommand) {
     EXPECT_THAT(html, HasSubstr("south of the old town&#39;s gate"));
     EXPECT_EQ(count_of(html, "<th scope=\"row\">"), 8U) << "3 candidates, 2 ranks, 1, 2 and all signals";
     EXPECT_THAT(html,
-                AllOf(HasSubstr("<li>Not shown: what #9 adds."),
+                AllOf(HasSubstr("<li>Not shown: what #9 adds to those before, though their sum is."),
                       HasSubstr("<code>clearway run town --set &#39;actuation.equipped=#4,#9&#39;</code>")));
     EquipmentFacts joined = facts;
     joined.candidates[0].signal = "cluster_" + std::string(90, '1');
@@ -646,6 +684,27 @@ TEST(Equipment, HasAPageWithAnswerMapTablesAndCommand) {
     write_equipment_page(joined, cut);
     EXPECT_THAT(cut.str(),
                 AllOf(HasSubstr("cluster_" + std::string(13, '1') + "..."), HasSubstr(std::string(66, 'a'))));
+}
+
+TEST(Equipment, ExplainsTheWordsOfItsPageOnce) {
+    std::ostringstream page;
+    write_equipment_page(two_of_twelve(), page);
+    for (const char* const words : {"Seed 7 decides: its runs choose", "Seed 8 estimates: fresh runs",
+                                    "Restricted mean travel time: mean time", "Alone: of a signal"})
+        EXPECT_EQ(count_of(page.str(), words), 1U) << words;
+}
+
+TEST(Equipment, HasRoomForLongNamesAboveTheIntervalsOfCandidates) {
+    EquipmentFacts facts = two_of_twelve();
+    const auto page_of = [&] {
+        std::ostringstream page;
+        write_equipment_page(facts, page);
+        return page.str();
+    };
+    facts.candidates[0].streets = std::string(36, 'a');
+    EXPECT_EQ(count_of(page_of(), "text-anchor=\"end\">#1 " + std::string(36, 'a') + "<"), 1U);
+    facts.candidates[0].streets = std::string(58, 'a');
+    EXPECT_EQ(count_of(page_of(), "text-anchor=\"start\">#1 " + std::string(58, 'a') + "<"), 1U);
 }
 
 TEST(Equipment, marks_coarse_steps_on_the_console_and_the_page) {

@@ -10,6 +10,7 @@
 #include "campaign/names.hpp"
 #include "core/error.hpp"
 #include "core/own_output.hpp"
+#include "core/process.hpp"
 #include "experiment/conditions.hpp"
 #include "experiment/equipped_signals.hpp"
 #include "experiment/related_conditions.hpp"
@@ -70,7 +71,7 @@ EquipQuestion question_of(const study::StudyConfig& config, const EquipRequest& 
                            .pairs = signals.candidates.neighbours,
                            .budget = request.budget,
                            .search = request.search,
-                           .calmer = request.calmer};
+                           .calmer = core::shell_text(request.calmer)};
     question.base.settings.erase(experiment::equipped_setting);  // with all equipped
     analysis::SignalSet all;
     for (std::size_t candidate = 0; candidate < signals.candidates.signals.size(); ++candidate) {

@@ -33,6 +33,11 @@ std::vector<std::string> findings_of(const EquipmentFacts& facts);
 /// A command for a study of those that were chosen; empty without any.
 std::string study_command(const EquipmentFacts& facts);
 inline constexpr const char* study_words = "To study these signals on other seeds:";
+/// The command with as many seeds as would likely tell more; empty where they are not worth it.
+std::string more_seeds_command(const EquipmentFacts& facts);
+inline constexpr const char* more_seeds_words = "More seeds would likely tell:";
+/// How to ask for signals alone; empty where only signals were asked.
+std::string signals_alone_sentence(const EquipmentFacts& facts);
 /// What was left out, and EV times.
 std::vector<std::string> circumstances_of(const EquipmentFacts& facts);
 /// How the columns are to be read.
