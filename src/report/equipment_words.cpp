@@ -535,8 +535,8 @@ std::string UnsoundRuns::words() const {
 std::string small_map_words(std::size_t equipped, std::size_t passed, const SignalsMet& met) {
     std::vector<std::string> why;
     if (equipped + 1 >= passed)
-        why.push_back(fmt::format("{} of the {} that EVs pass {} nearly all", equipped,
-                                  counted(passed, "signal"), equipped == 1 ? "is" : "are"));
+        why.push_back(fmt::format("{} {} nearly all of its {} that EVs pass", equipped,
+                                  equipped == 1 ? "is" : "are", counted(passed, "signal")));
     if (2 * met.trips_with_signals < met.trips)
         why.push_back(
             fmt::format("only {} of {} pass one", met.trips_with_signals, counted(met.trips, "EV trip")));
