@@ -267,7 +267,7 @@ TEST_F(EquipTest, names_the_seeds_that_it_chose_in_place_of_the_time) {
         words.insert(words.end(), more.begin(), more.end());
         return clearway(words);
     };
-    const Ended other = planned({"--within=60s"});
+    const Ended other = planned({"--within=30s"});
     EXPECT_THAT(other.err, HasSubstr(hint));
     EXPECT_GT(nlohmann::json::parse(other.out).at("replications"), 5);
     EXPECT_THAT(planned({"--seeds", "5"}).err, Not(HasSubstr("holds the same"))) << "it is this one";
