@@ -231,7 +231,7 @@ Figure curve_figure(const EquipmentFacts& facts) {
 
 Figure candidates_figure(const EquipmentFacts& facts) {
     constexpr std::size_t short_name = 36;    // stands beside its interval, a longer one above
-    constexpr std::size_t longest_name = 58;  // the table has the rest
+    constexpr std::size_t longest_name = 68;  // the table has the rest
     std::vector<EquipCandidateFacts> drawn;
     for (const EquipCandidateFacts& one : facts.candidates)
         if (one.gain) drawn.push_back(one);

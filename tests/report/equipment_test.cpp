@@ -703,8 +703,8 @@ TEST(Equipment, HasRoomForLongNamesAboveTheIntervalsOfCandidates) {
     };
     facts.candidates[0].streets = std::string(36, 'a');
     EXPECT_EQ(count_of(page_of(), "text-anchor=\"end\">#1 " + std::string(36, 'a') + "<"), 1U);
-    facts.candidates[0].streets = std::string(58, 'a');
-    EXPECT_EQ(count_of(page_of(), "text-anchor=\"start\">#1 " + std::string(58, 'a') + "<"), 1U);
+    facts.candidates[0].streets = std::string(68, 'a');
+    EXPECT_EQ(count_of(page_of(), "text-anchor=\"start\">#1 " + std::string(68, 'a') + "<"), 1U);
 }
 
 TEST(Equipment, marks_coarse_steps_on_the_console_and_the_page) {
