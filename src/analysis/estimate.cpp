@@ -31,12 +31,14 @@ std::vector<double> differences(std::span<const double> condition, std::span<con
     return result;
 }
 
-/// The least count of at least 2 that suffices, where every greater one does.
+/// The least count of at least 2 that suffices, where every greater one does; at most `most_replications`.
 template <class Suffices>
 std::size_t least_count(const Suffices& suffices) {
     std::size_t enough = 2;
-    while (!suffices(enough))
+    while (!suffices(enough)) {
+        if (enough >= most_replications) return most_replications;
         enough *= 2;
+    }
     std::size_t too_few = enough / 2;
     while (enough - too_few > 1 && enough > 2) {
         const std::size_t middle = too_few + (enough - too_few) / 2;

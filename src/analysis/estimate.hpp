@@ -106,16 +106,19 @@ std::optional<double> effect_size(std::span<const double> condition, std::span<c
 /// `deviation`.
 double half_width(double deviation, std::size_t n, double level = usual_level);
 
+/// No more are counted: what needs more cannot be told by runs.
+inline constexpr std::size_t most_replications = std::size_t{1} << 24U;
 /// Replications that an interval of half width `half_width` needs for a standard deviation of `deviation`:
 /// the least n of at least 2 with n >= (t(n - 1) deviation / half_width)^2. FHWA, Traffic Analysis Toolbox
 /// III (FHWA-HOP-18-036, 2019), section on the number of runs, its equation iterated because t depends on n.
-/// `half_width` > 0, `deviation` >= 0, both in one unit.
+/// `half_width` > 0, `deviation` >= 0, both in one unit. At most `most_replications`.
 std::size_t required_replications(double deviation, double half_width, double level = usual_level);
 /// How often a study is to show a difference that is there.
 inline constexpr double usual_power = 0.8;
 /// Pairs that show a mean difference with the usual power: the least n of at least 2 whose interval, and what
 /// chance may take from the mean, t(n - 1) of the power times deviation / sqrt(n), fit into it (Cohen 1988,
-/// his paired t test with the central distribution). `difference` > 0, `deviation` >= 0, both in one unit.
+/// his paired t test with the central distribution). `difference` > 0, `deviation` >= 0, both in one unit. At
+/// most `most_replications`.
 std::size_t replications_to_show(double deviation, double difference, double level = usual_level);
 /// FHWA's minimum, whatever the equation says.
 inline constexpr std::size_t fewest_replications = 10;

@@ -24,6 +24,11 @@ TEST(RequiredReplications, ApproachTheNormalLawAndNeverFallBelowTwo) {
     EXPECT_NEAR(static_cast<double>(required_replications(50.0, 1.0)), 9607.0, 3.0);
 }
 
+TEST(RequiredReplications, EndWhereNoNumberOfRunsTells) {
+    EXPECT_EQ(required_replications(50.0, 1e-16), most_replications);
+    EXPECT_EQ(replications_to_show(50.0, 1e-16), most_replications);
+}
+
 TEST(RequiredReplications, GiveTheHalfWidthThatWasAskedForAndOneLessDoesNot) {
     const double deviation = 3.7;
     const double half_width = 1.1;
