@@ -83,13 +83,14 @@ TEST(AdjustGreen, ends_with_its_time) {
 TEST(AdjustGreen, starts_a_green_that_vehicles_prolong_with_its_least_time) {
     const support::TemporaryFolder folder;
     const auto actuated = folder.write("tls.add.xml", R"(<additional>
-    <tlLogic id="A" type="actuated" programID="0">
+    <tlLogic id="A" type="actuated" programID="own">
         <phase duration="30" minDur="1" state="GGGgrrrrGGGgrrrr"/><phase duration="4" state="yyyyrrrryyyyrrrr"/>
         <phase duration="30" minDur="1" state="rrrrGGGgrrrrGGGg"/><phase duration="4" state="rrrryyyyrrrryyyy"/>
     </tlLogic></additional>)");
     const roads::Network network =
         roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml", {actuated});
     ActuationBench bench(0.25, fixed_clearance(), network);
+    bench.self.program = "own";
     std::vector<traffic::RestoreProgram> restored;
     while (bench.now.value < 20.0) {
         if (bench.now.value < 8.0) bench.offer(signal_a, traffic::HoldGreen{north}, 2.0);

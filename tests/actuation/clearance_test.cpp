@@ -89,7 +89,7 @@ TEST(Yellow, of_the_signals_own_program_is_longer_on_a_slippery_road_and_its_red
 TEST(Clearance, keeps_the_red_of_the_signals_own_program_where_it_is_shorter_than_a_rule_asks) {
     const support::TemporaryFolder folder;
     const auto own_program = folder.write("tls.add.xml", R"(<additional>
-    <tlLogic id="A" type="static" programID="0">
+    <tlLogic id="A" type="static" programID="own">
         <phase duration="30" state="GGGgrrrrGGGgrrrr"/><phase duration="4" state="yyyyrrrryyyyrrrr"/>
         <phase duration="1" state="rrrrrrrrrrrrrrrr"/>
         <phase duration="30" state="rrrrGGGgrrrrGGGg"/><phase duration="4" state="rrrryyyyrrrryyyy"/>
