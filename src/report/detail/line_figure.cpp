@@ -73,8 +73,8 @@ void draw_panel(Plot& plot, const LineFigure& figure, Panel panel, const DrawLin
         plot.text(plot.x().from, plot.y().to - 6.0, shortened(panel.heading, 24), Plot::Anchor::start,
                   "heading");
     if (figure.level) plot.horizontal(*figure.level);
-    std::ranges::stable_partition(
-        panel.lines, [](const Line& line) { return line.series.weight == Series::Weight::usual; });
+    std::stable_partition(panel.lines.begin(), panel.lines.end(),
+                          [](const Line& line) { return line.series.weight == Series::Weight::usual; });
     for (const Line& line : panel.lines)
         draw(plot, line.place, line.slot, line.series);
 }
