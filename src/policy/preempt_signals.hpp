@@ -91,7 +91,7 @@ struct PreemptSignalsConfig {
                   "assumed: about what the model errs by"},
             Field{"longest_early_s", "s", &C::longest_early_s, 0.0, 60.0,
                   "With `queues`: a hold begins at most so much earlier than the lead says",
-                  "trials: without a limit the others lose 6 % more in the dense city"});
+                  "trials: without a limit the others lose 4 % more in the dense city"});
     }
 };
 
