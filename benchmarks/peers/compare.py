@@ -1,0 +1,167 @@
+#!/usr/bin/python3
+"""Clearway's loop beside two loops in Python, in the same session: the same vehicles and the same work, times as ratios.
+
+    benchmarks/peers/compare.py BUILD                  prints the table
+    benchmarks/peers/compare.py BUILD --publish        also writes it into results/cost.csv; then: scripts/render-docs
+    benchmarks/peers/compare.py BUILD --check          a minute of one scenario; fails where the work is not the same
+
+BUILD is the folder of a build, for --publish of the preset `release`. Every step of 0.25 s, all three read every vehicle, link pairs
+nearer than 50 m of different classes, predict with the net `graphsage_corrected` the links of those that outages hide (30 % of the time,
+10 s each), and let the dissertation's policy act. Clearway alone also signals, follows routes, and measures safety and flow.
+getters_loop.py is the loop of the dissertation's kind; best_python.py is the best that was found. One thread each; SUMO has its own
+process beside getters_loop.py.
+
+First, without outages and without actions, all three see the same traffic: vehicles and links must agree. Then the three run in turns;
+of each the least counts, because others use the machine. SUMO's own step is left out of "beside".
+
+Needs the packages sumo, python3-numpy, python3-scipy and python3-torch; exit code 77 where one is missing.
+"""
+import argparse
+import importlib.util
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as xml
+
+sys.dont_write_bytecode = True
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+sys.path.append(str(ROOT / "scripts"))
+import published_rows  # noqa: E402
+
+SKIPPED = 77
+ROUNDS = 3
+TIMED_S, CHECKED_S = 300.0, 60.0  # from when emergency vehicles may depart; the loops begin a minute before the first one
+LEAD_S = 60.0  # lead_before_emergency of src/loop/unit_run.hpp
+STEP_S = 0.25
+AGREEMENT = 0.01  # of vehicles and links, relative
+SCENARIOS = {"city": ("dense city", 200.0), "intersection": ("dense intersection", 120.0)}  # and when EVs may depart, s
+NET = "graphsage_corrected"
+LOOPS = {"clearway": "Clearway", "getters_loop": "Python: TraCI getters, all pairs, PyTorch",
+         "best_python": "Python: libsumo, k-d trees, NumPy"}
+SEES_ALL = ["--failure", "perfect", "--set", "dissertation.min_edges=1000000"]
+# As src/sumo/detail/options.cpp has them, beyond what the exported run.sumocfg says.
+SUMO_OPTIONS = ("--route-steps 0 --collision.check-junctions true --collision.mingap-factor 0 --tripinfo-output.write-unfinished true "
+                "--tripinfo-output.write-undeparted true --no-step-log true --duration-log.disable true").split()
+ENVIRONMENT = {"SUMO_HOME": "/usr/share/sumo"} | os.environ | {
+    "CLEARWAY_HOME": str(ROOT), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "PYTHONDONTWRITEBYTECODE": "1"}
+
+
+def said_by(*command):
+    done = subprocess.run([str(word) for word in command], env=ENVIRONMENT, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))} failed with {done.returncode}:\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+class Comparison:
+    """One dense scenario, and its runs as files below `folder`. A run gives `simulator_s`, `beside_s`, and means of vehicles on the road
+    over all steps and of links over those of the loop."""
+
+    def __init__(self, build, scenario, timed_s, folder):
+        self.program, self.scenario, self.folder, self.runs = build / "bin/clearway", scenario, folder, 0
+        self.end_s = SCENARIOS[scenario][1] + timed_s
+        recorded = self.clearway_run(*SEES_ALL, "--record")
+        said_by(self.program, "export", "trajectories", recorded, "--out", folder / "exported")
+        self.sumo = folder / "exported/sumo"
+        self.begin_s = min(float(vehicle.get("depart")) for vehicle in xml.parse(self.sumo / "emergency.rou.xml").iter("vehicle")) - LEAD_S
+
+    def clearway_run(self, *options):
+        self.runs += 1
+        out = self.folder / f"run{self.runs}"
+        said_by(self.program, "run", self.scenario, "--dense", "--seeds", 1, "--jobs", 1, "--no-solo", "--no-perfect", "--name", "peers",
+                "--horizon", self.end_s, "--policy", "dissertation", "--predictor", NET, "--set", "loop.policy_period_s=0.25",
+                "--set", f"{NET}.reach_by_twin=0", *options, "--out", out)
+        return next(out.glob("runs/*/peers/*"))
+
+    def clearway(self, sees_all):
+        run = self.clearway_run(*(SEES_ALL if sees_all else ["--failure", "B10"]))
+        times, metrics = (json.loads((run / name).read_text(encoding="utf-8")) for name in ("timing.json", "run.json"))
+        metrics = metrics["metrics"]
+        links = metrics["links_true_positive"] + metrics["links_false_positive"]  # at reports
+        loop_s = metrics["simulated_s"] - self.begin_s
+        return {"simulator_s": times["simulator_s"], "beside_s": times["coupling_s"],
+                "vehicles": metrics["vehicle_steps"] * STEP_S / metrics["simulated_s"],
+                "links": links * (STEP_S if sees_all else 1.0) / loop_s}
+
+    def python(self, loop, sees_all):
+        self.runs += 1
+        file = self.folder / f"run{self.runs}.json"
+        arguments = ["-c", self.sumo / "run.sumocfg", "--tripinfo-output", file.with_suffix(".xml"), *SUMO_OPTIONS]
+        file.write_text(json.dumps({
+            "arguments": [str(word) for word in arguments], "begin_s": self.begin_s, "end_s": self.end_s,
+            "weights": str(ROOT / f"src/prediction/models/{NET}.weights"), "fails": not sees_all, "acts": not sees_all}), encoding="utf-8")
+        return json.loads(said_by(sys.executable, HERE / f"{loop}.py", file).splitlines()[-1])
+
+    def run(self, loop, sees_all=False):
+        return self.clearway(sees_all) if loop == "clearway" else self.python(loop, sees_all)
+
+
+def compared(build, scenario, timed_s, rounds):
+    """Of each loop what it saw when all see the same, and the least of its times."""
+    with tempfile.TemporaryDirectory() as folder:
+        comparison = Comparison(build, scenario, timed_s, pathlib.Path(folder))
+        result = {loop: {name: value for name, value in comparison.run(loop, sees_all=True).items() if name in ("vehicles", "links")}
+                  for loop in LOOPS}
+        turns = [{loop: comparison.run(loop) for loop in LOOPS} for _ in range(rounds)]
+    for loop, row in result.items():
+        made = [turn[loop] for turn in turns]
+        row["believed"] = made[0]["links"]
+        row["beside_s"] = min(run["beside_s"] for run in made)
+        row["whole_s"] = min(run["beside_s"] + run["simulator_s"] for run in made)
+    for name in ("beside", "whole"):
+        for row in result.values():
+            row[f"{name}_ratio"] = row[f"{name}_s"] / result["clearway"][f"{name}_s"]
+    return result
+
+
+def show(scenario, result):
+    print(f"{SCENARIOS[scenario][0]:42} {'vehicles':>8} {'links':>8} {'believed':>8} {'beside, s':>9} {'times':>6} {'whole, s':>9} {'times':>6}")
+    for loop, row in result.items():
+        print(f"{LOOPS[loop]:42} {row['vehicles']:8.2f} {row['links']:8.2f} {row['believed']:8.2f} {row['beside_s']:9.3f} "
+              f"{row['beside_ratio']:6.2f} {row['whole_s']:9.3f} {row['whole_ratio']:6.2f}", flush=True)
+
+
+def check(result):
+    """Ends with 1 where the three did not do the same work."""
+    for name in ("vehicles", "links"):
+        numbers = [row[name] for row in result.values()]
+        if not 0.0 < max(numbers) <= (1.0 + AGREEMENT) * min(numbers):
+            sys.exit(f"the loops do not do the same work: {name} {', '.join(f'{number:.2f}' for number in numbers)} "
+                     f"(allowed: {100 * AGREEMENT:g} % apart)")
+
+
+def publish(results):
+    common = published_rows.made(ROOT, "peers", "benchmarks/peers/compare.py build/release --publish")
+    forms = {"vehicles": ("", ".1f"), "links": ("", ".1f"), "beside_ratio": ("times", ".1f"), "whole_ratio": ("times", ".1f")}
+    rows = [common | {"scenario": SCENARIOS[scenario][0], "condition": LOOPS[loop], "measure": name, "unit": unit, "mean": format(row[name], form)}
+            for scenario, result in results.items() for loop, row in result.items() for name, (unit, form) in forms.items()]
+    published_rows.put_rows(ROOT / "results/cost.csv", rows)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", metavar="BUILD", type=pathlib.Path)
+    parser.add_argument("--scenario", nargs="+", choices=SCENARIOS, default=list(SCENARIOS))
+    what = parser.add_mutually_exclusive_group()
+    for name in ("check", "publish"):
+        what.add_argument(f"--{name}", action="store_true")
+    given = parser.parse_args()
+    if missing := [name for name in ("libsumo", "traci", "numpy", "scipy", "torch") if importlib.util.find_spec(name) is None]:
+        print(f"skipped: Python has no {', '.join(missing)} (Debian: sumo, python3-numpy, python3-scipy, python3-torch)")
+        sys.exit(SKIPPED)
+    results = {}
+    for scenario in ["intersection"] if given.check else given.scenario:
+        timed_s, rounds = (CHECKED_S, 1) if given.check else (TIMED_S, ROUNDS)
+        results[scenario] = compared(given.build.resolve(), scenario, timed_s, rounds)
+        show(scenario, results[scenario])
+        check(results[scenario])
+    if given.publish:
+        publish(results)
+
+
+if __name__ == "__main__":
+    main()
