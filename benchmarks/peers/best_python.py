@@ -1,19 +1,20 @@
-"""The best loop in Python that was found: libsumo in this process, arrays kept between steps, k-d trees of SciPy, the net in NumPy.
+"""The best loop in Python that was found: libsumo in this process, arrays kept between steps, k-d trees or full matrices, NumPy.
 
-What lost against it stands in compare.py's help.
+Subscriptions of libsumo were slower than getters: reading a vehicle took less time, but SUMO's step twice as long. Sparse matrices of
+SciPy were slower than full ones for the net's means. A third of the time is reading, the rest the calls of NumPy on short arrays.
 """
 import libsumo
 import numpy as np
-from scipy.sparse import csr_matrix
 from scipy.spatial import cKDTree
 
 import peer
 
 STATE = 5  # columns: x, y, speed, heading, place on the lane
+ALL_PAIRS_UP_TO = 150  # vehicles; of more, k-d trees find near pairs faster
 
 
 class Net:
-    """GraphSAGENet for all pairs at once; the first convolution's mean is a product with a sparse matrix."""
+    """GraphSAGENet for all pairs at once. A mean over neighbours is a product with a matrix."""
 
     def __init__(self, weights):
         self.conv = [[weights[f"graphsage.conv{layer}.{part}"].T for part in ("lin_l.weight", "lin_l.bias", "lin_r.weight")]
@@ -21,22 +22,28 @@ class Net:
         self.decoder = [weights[f"nn.fc{layer}.{part}"].T for layer in (1, 2) for part in ("weight", "bias")]
 
     def logits(self, rows, seen, pairs):
-        count = len(rows)
-        ends = np.concatenate((seen, seen[:, ::-1]))
-        sums = csr_matrix((np.ones(len(ends), dtype=np.float32), (ends[:, 1], ends[:, 0])), shape=(count, count))
-        share = 1.0 / np.maximum(np.diff(sums.indptr), 1).astype(np.float32)[:, None]
+        means = np.zeros((len(rows), len(rows)), dtype=np.float32)
+        means[seen[:, 0], seen[:, 1]] = means[seen[:, 1], seen[:, 0]] = 1.0
+        means /= np.maximum(means.sum(axis=1, keepdims=True), 1.0)
         for from_others, bias, own in self.conv:
-            rows = (sums @ rows * share) @ from_others + bias + rows @ own
+            rows = means @ rows @ from_others + bias + rows @ own
         first, first_bias, second, second_bias = self.decoder
         hidden = np.maximum((rows[pairs[:, 0]] * rows[pairs[:, 1]]) @ first + first_bias, 0.0)
         return hidden @ second[:, 0] + second_bias
 
 
-def near_pairs(xy_m, radius_m, classes):
-    """Pairs of rows, left < right, of different classes, at most so far apart."""
-    tree = cKDTree(xy_m, compact_nodes=False, balanced_tree=False)
-    pairs = tree.query_pairs(radius_m, output_type="ndarray")
-    return pairs[classes[pairs[:, 0]] != classes[pairs[:, 1]]]
+def near_pairs(places, radius_m, classes):
+    """Pairs of rows, left < right, of different classes, not further apart than this at one of the places of all rows."""
+    if len(classes) > ALL_PAIRS_UP_TO:
+        found = [cKDTree(xy_m, compact_nodes=False, balanced_tree=False).query_pairs(radius_m, output_type="ndarray") for xy_m in places]
+        left, right = np.divmod(np.unique(np.concatenate(found) @ (len(classes), 1)), len(classes))
+        near = classes[left] != classes[right]
+    else:
+        across = [np.square(xy_m[:, None, axis] - xy_m[:, axis]) for xy_m in np.asarray(places, dtype=np.float32) for axis in (0, 1)]
+        squares = [across[place] + across[place + 1] for place in range(0, len(across), 2)]
+        left, right = np.nonzero((np.minimum.reduce(squares) <= radius_m**2) & (classes[:, None] != classes))
+        near = left < right
+    return np.column_stack((left[near], right[near]))
 
 
 def distances_m(xy_m, pairs):
@@ -80,10 +87,10 @@ class BestPython:
         ask = self.sumo.vehicle
         self.follow(ask.getIDList())
         state = np.empty((len(self.names), STATE))
-        state[:, :2] = np.array([ask.getPosition(name) for name in self.names]).reshape(-1, 2)
+        state[:, :2] = np.array(list(map(ask.getPosition, self.names))).reshape(-1, 2)
         for column, get in enumerate((ask.getSpeed, ask.getAngle, ask.getLanePosition), 2):
-            state[:, column] = [get(name) for name in self.names]
-        return state, [ask.getLaneID(name) for name in self.names]
+            state[:, column] = list(map(get, self.names))
+        return state, list(map(ask.getLaneID, self.names))
 
     def report(self, state, lanes, now_s):
         if not self.run.reports_at(now_s):
@@ -112,13 +119,8 @@ class BestPython:
 
     def links(self, last_m, xy_m, age_s, classes, known):
         """Pairs of rows, left < right: those seen, and of the others those that the net believes."""
-        if known.all():
-            pairs = near_pairs(xy_m, peer.RADIUS_M, classes)
-            return pairs[distances_m(xy_m, pairs) < peer.RADIUS_M]
-        pairs = near_pairs(xy_m, peer.REACH_M, classes)
-        then = near_pairs(last_m, peer.REACH_M, classes)
-        codes = np.union1d(pairs[:, 0] * len(xy_m) + pairs[:, 1], then[:, 0] * len(xy_m) + then[:, 1])
-        pairs = np.column_stack(np.divmod(codes, len(xy_m)))
+        places = [xy_m] if known.all() else [xy_m, last_m]
+        pairs = near_pairs(places, peer.RADIUS_M if known.all() else peer.REACH_M, classes)
         both_known = known[pairs].all(axis=1)
         seen = pairs[both_known]
         seen = seen[distances_m(xy_m, seen) < peer.RADIUS_M]

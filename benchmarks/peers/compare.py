@@ -3,18 +3,16 @@
 
     benchmarks/peers/compare.py BUILD                  prints the table
     benchmarks/peers/compare.py BUILD --publish        also writes it into results/cost.csv; then: scripts/render-docs
-    benchmarks/peers/compare.py BUILD --check          a minute of one scenario; fails where the work is not the same
+    benchmarks/peers/compare.py BUILD --check          two minutes of one scenario; fails where the work is not the same
 
-BUILD is the folder of a build, for --publish of the preset `release`. Every step of 0.25 s, all three read every vehicle, link pairs
-nearer than 50 m of different classes, predict with the net `graphsage_corrected` the links of those that outages hide (30 % of the time,
-10 s each), and let the dissertation's policy act. Clearway alone also signals, follows routes, and measures safety and flow.
-getters_loop.py is the loop of the dissertation's kind; best_python.py is the best that was found. One thread each; SUMO has its own
-process beside getters_loop.py.
+BUILD is the folder of a build, for --publish of the preset `release`. Every step of 0.25 s all three read every vehicle, link pairs of
+different classes nearer than 50 m, predict the links that outages hide (B10) with the net `graphsage_corrected`, and let the
+dissertation's policy act. peer.py names what Clearway does beyond that. getters_loop.py is a loop of the dissertation's kind,
+best_python.py the best that was found. Each has one thread; beside getters_loop.py SUMO has a process of its own.
 
-First, without outages and without actions, all three see the same traffic: vehicles and links must agree. Then the three run in turns;
-of each the least counts, because others use the machine. SUMO's own step is left out of "beside".
-
-Needs the packages sumo, python3-numpy, python3-scipy and python3-torch; exit code 77 where one is missing.
+First, without outages and actions, all three see the same traffic: numbers of vehicles and links must agree. Then they run in turns, of
+which the least time counts, because others use the machine. "beside" is all but SUMO's own step; "whole" contains it. Needs the packages
+sumo, python3-numpy, python3-scipy and python3-torch: exit code 77 where one is missing.
 """
 import argparse
 import importlib.util
@@ -34,11 +32,12 @@ import published_rows  # noqa: E402
 
 SKIPPED = 77
 ROUNDS = 3
-TIMED_S, CHECKED_S = 300.0, 60.0  # from when emergency vehicles may depart; the loops begin a minute before the first one
 LEAD_S = 60.0  # lead_before_emergency of src/loop/unit_run.hpp
 STEP_S = 0.25
 AGREEMENT = 0.01  # of vehicles and links, relative
-SCENARIOS = {"city": ("dense city", 200.0), "intersection": ("dense intersection", 120.0)}  # and when EVs may depart, s
+# Options, and when vehicles cease to depart, where runs end. The loops begin a minute before the first emergency vehicle.
+SCENARIOS = {"dense city": (["city", "--dense"], 600.0), "dense intersection": (["intersection", "--dense"], 400.0)}
+SHORT = {"intersection": (["intersection"], 120.0)}
 NET = "graphsage_corrected"
 LOOPS = {"clearway": "Clearway", "getters_loop": "Python: TraCI getters, all pairs, PyTorch",
          "best_python": "Python: libsumo, k-d trees, NumPy"}
@@ -48,6 +47,7 @@ SUMO_OPTIONS = ("--route-steps 0 --collision.check-junctions true --collision.mi
                 "--tripinfo-output.write-undeparted true --no-step-log true --duration-log.disable true").split()
 ENVIRONMENT = {"SUMO_HOME": "/usr/share/sumo"} | os.environ | {
     "CLEARWAY_HOME": str(ROOT), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "PYTHONDONTWRITEBYTECODE": "1"}
+WIDTHS = {"vehicles": 9, "links": 7, "believed": 9, "beside_s": 9, "beside_times": 13, "whole_s": 8, "whole_times": 12}
 
 
 def said_by(*command):
@@ -61,18 +61,19 @@ class Comparison:
     """One dense scenario, and its runs as files below `folder`. A run gives `simulator_s`, `beside_s`, and means of vehicles on the road
     over all steps and of links over those of the loop."""
 
-    def __init__(self, build, scenario, timed_s, folder):
-        self.program, self.scenario, self.folder, self.runs = build / "bin/clearway", scenario, folder, 0
-        self.end_s = SCENARIOS[scenario][1] + timed_s
+    def __init__(self, build, scenario, folder):
+        self.program, self.folder, self.runs = build / "bin/clearway", folder, 0
+        self.scenario, self.end_s = scenario
         recorded = self.clearway_run(*SEES_ALL, "--record")
         said_by(self.program, "export", "trajectories", recorded, "--out", folder / "exported")
         self.sumo = folder / "exported/sumo"
-        self.begin_s = min(float(vehicle.get("depart")) for vehicle in xml.parse(self.sumo / "emergency.rou.xml").iter("vehicle")) - LEAD_S
+        departures = xml.parse(self.sumo / "emergency.rou.xml").iter("vehicle")
+        self.begin_s = min(float(vehicle.get("depart")) for vehicle in departures) - LEAD_S
 
     def clearway_run(self, *options):
         self.runs += 1
         out = self.folder / f"run{self.runs}"
-        said_by(self.program, "run", self.scenario, "--dense", "--seeds", 1, "--jobs", 1, "--no-solo", "--no-perfect", "--name", "peers",
+        said_by(self.program, "run", *self.scenario, "--seeds", 1, "--jobs", 1, "--no-solo", "--no-perfect", "--name", "peers",
                 "--horizon", self.end_s, "--policy", "dissertation", "--predictor", NET, "--set", "loop.policy_period_s=0.25",
                 "--set", f"{NET}.reach_by_twin=0", *options, "--out", out)
         return next(out.glob("runs/*/peers/*"))
@@ -82,7 +83,7 @@ class Comparison:
         times, metrics = (json.loads((run / name).read_text(encoding="utf-8")) for name in ("timing.json", "run.json"))
         metrics = metrics["metrics"]
         links = metrics["links_true_positive"] + metrics["links_false_positive"]  # at reports
-        loop_s = metrics["simulated_s"] - self.begin_s
+        loop_s = metrics["simulated_s"] - self.begin_s // STEP_S * STEP_S
         return {"simulator_s": times["simulator_s"], "beside_s": times["coupling_s"],
                 "vehicles": metrics["vehicle_steps"] * STEP_S / metrics["simulated_s"],
                 "links": links * (STEP_S if sees_all else 1.0) / loop_s}
@@ -100,10 +101,10 @@ class Comparison:
         return self.clearway(sees_all) if loop == "clearway" else self.python(loop, sees_all)
 
 
-def compared(build, scenario, timed_s, rounds):
+def compared(build, scenario, rounds):
     """Of each loop what it saw when all see the same, and the least of its times."""
     with tempfile.TemporaryDirectory() as folder:
-        comparison = Comparison(build, scenario, timed_s, pathlib.Path(folder))
+        comparison = Comparison(build, scenario, pathlib.Path(folder))
         result = {loop: {name: value for name, value in comparison.run(loop, sees_all=True).items() if name in ("vehicles", "links")}
                   for loop in LOOPS}
         turns = [{loop: comparison.run(loop) for loop in LOOPS} for _ in range(rounds)]
@@ -114,15 +115,14 @@ def compared(build, scenario, timed_s, rounds):
         row["whole_s"] = min(run["beside_s"] + run["simulator_s"] for run in made)
     for name in ("beside", "whole"):
         for row in result.values():
-            row[f"{name}_ratio"] = row[f"{name}_s"] / result["clearway"][f"{name}_s"]
+            row[f"{name}_times"] = row[f"{name}_s"] / result["clearway"][f"{name}_s"]
     return result
 
 
 def show(scenario, result):
-    print(f"{SCENARIOS[scenario][0]:42} {'vehicles':>8} {'links':>8} {'believed':>8} {'beside, s':>9} {'times':>6} {'whole, s':>9} {'times':>6}")
+    print(f"{scenario:42}" + "".join(f"{name:>{width}}" for name, width in WIDTHS.items()))
     for loop, row in result.items():
-        print(f"{LOOPS[loop]:42} {row['vehicles']:8.2f} {row['links']:8.2f} {row['believed']:8.2f} {row['beside_s']:9.3f} "
-              f"{row['beside_ratio']:6.2f} {row['whole_s']:9.3f} {row['whole_ratio']:6.2f}", flush=True)
+        print(f"{LOOPS[loop]:42}" + "".join(f"{row[name]:{width}.2f}" for name, width in WIDTHS.items()), flush=True)
 
 
 def check(result):
@@ -136,16 +136,15 @@ def check(result):
 
 def publish(results):
     common = published_rows.made(ROOT, "peers", "benchmarks/peers/compare.py build/release --publish")
-    forms = {"vehicles": ("", ".1f"), "links": ("", ".1f"), "beside_ratio": ("times", ".1f"), "whole_ratio": ("times", ".1f")}
-    rows = [common | {"scenario": SCENARIOS[scenario][0], "condition": LOOPS[loop], "measure": name, "unit": unit, "mean": format(row[name], form)}
-            for scenario, result in results.items() for loop, row in result.items() for name, (unit, form) in forms.items()]
+    units = {"vehicles": "", "links": "", "beside_times": "times", "whole_times": "times"}
+    rows = [common | {"scenario": scenario, "condition": LOOPS[loop], "measure": name, "unit": unit, "mean": f"{row[name]:.1f}"}
+            for scenario, result in results.items() for loop, row in result.items() for name, unit in units.items()]
     published_rows.put_rows(ROOT / "results/cost.csv", rows)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", metavar="BUILD", type=pathlib.Path)
-    parser.add_argument("--scenario", nargs="+", choices=SCENARIOS, default=list(SCENARIOS))
     what = parser.add_mutually_exclusive_group()
     for name in ("check", "publish"):
         what.add_argument(f"--{name}", action="store_true")
@@ -154,9 +153,8 @@ def main():
         print(f"skipped: Python has no {', '.join(missing)} (Debian: sumo, python3-numpy, python3-scipy, python3-torch)")
         sys.exit(SKIPPED)
     results = {}
-    for scenario in ["intersection"] if given.check else given.scenario:
-        timed_s, rounds = (CHECKED_S, 1) if given.check else (TIMED_S, ROUNDS)
-        results[scenario] = compared(given.build.resolve(), scenario, timed_s, rounds)
+    for scenario, what in (SHORT if given.check else SCENARIOS).items():
+        results[scenario] = compared(given.build.resolve(), what, 1 if given.check else ROUNDS)
         show(scenario, results[scenario])
         check(results[scenario])
     if given.publish:

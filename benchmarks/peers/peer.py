@@ -83,16 +83,26 @@ def make_room(sumo, vehicles, classes, lanes, along_m, speed_mps, links):
     slows down. `vehicles` and `lanes` are names, all else arrays of rows, `links` pairs of them."""
     for ev in np.flatnonzero(classes == EMERGENCY):
         sumo.vehicle.setSpeed(vehicles[ev], sumo.vehicle.getAllowedSpeed(vehicles[ev]))
-        edge, _, own_lane = lanes[ev].rpartition("_")
         for other in links[(links == ev).any(axis=1)].sum(axis=1) - ev:
-            other_edge, _, lane = lanes[other].rpartition("_")
-            if classes[other] != AUTOMATED or other_edge != edge or edge.startswith(":"):
+            ahead_m = along_m[other] - along_m[ev]
+            if classes[other] != AUTOMATED or edge_of(lanes[other]) != edge_of(lanes[ev]) or lanes[ev].startswith(":"):
                 continue
-            ahead_m, aside = along_m[other] - along_m[ev], int(lane) - int(own_lane)
-            if aside == 0 and 0.0 < ahead_m <= RADIUS_M and (count := sumo.edge.getLaneNumber(edge)) > 1:
-                sumo.vehicle.changeLane(vehicles[other], int(lane) + (1 if int(lane) + 1 < count else -1), 2.0)
-            elif abs(aside) == 1 and abs(ahead_m) <= 10.0:
+            if lanes[other] == lanes[ev] and 0.0 < ahead_m <= RADIUS_M:
+                for lane, _, _, _, goes_on, _ in sumo.vehicle.getBestLanes(vehicles[other]):
+                    aside = number_of(lane) - number_of(lanes[other])
+                    if goes_on and abs(aside) == 1 and sumo.vehicle.couldChangeLane(vehicles[other], aside):
+                        sumo.vehicle.changeLane(vehicles[other], number_of(lane), 2.0)
+                        break
+            elif abs(number_of(lanes[other]) - number_of(lanes[ev])) == 1 and abs(ahead_m) <= 10.0:
                 sumo.vehicle.slowDown(vehicles[other], max(0.8 * speed_mps[ev], 5.0), 2.0)
+
+
+def edge_of(lane):
+    return lane.rpartition("_")[0]
+
+
+def number_of(lane):
+    return int(lane.rpartition("_")[2])
 
 
 def drive(sumo, Loop):
