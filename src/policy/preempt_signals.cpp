@@ -25,7 +25,7 @@ PreemptSignals::PreemptSignals(const PolicyContext& context, PreemptSignalsConfi
         is_careful_ = roads::on_short_loops(context_.network, config_.short_block_m);
     if (config_.timing != HoldTiming::lead)
         planner_.emplace(detail::HoldPlanner::Settings{
-            config_.emergency_worth, config_.least_gain_s, config_.longest_early_s,
+            config_.emergency_worth, config_.least_gain_s, config_.longest_early_s, config_.longest_late_s,
             config_.timing == HoldTiming::queues ? detail::ModelSight::all : detail::ModelSight::none});
 }
 
@@ -108,8 +108,7 @@ double PreemptSignals::early_s(const detail::View& view, const detail::Arrival& 
 bool PreemptSignals::is_due(const detail::View& view, const detail::Arrival& arrival, bool is_asked) {
     if (is_asked && !planner_) return true;
     const double early_s = this->early_s(view, arrival);
-    const bool pays = planner_ && planner_->is_due(view, arrival, early_s, is_asked);
-    return is_asked || pays || early_s <= 0.0;
+    return planner_ ? planner_->is_due(view, arrival, early_s, is_asked) : early_s <= 0.0;
 }
 
 void PreemptSignals::act(const traffic::BelievedGraph& belief, std::vector<traffic::Lease>& leases) {

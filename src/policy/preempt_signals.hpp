@@ -44,6 +44,7 @@ struct PreemptSignalsConfig {
     double emergency_worth = 50.0;
     double least_gain_s = 2.0;
     double longest_early_s = 20.0;
+    double longest_late_s = 0.0;
 
     static constexpr void fields(const auto& table) {
         using C = PreemptSignalsConfig;
@@ -91,7 +92,11 @@ struct PreemptSignalsConfig {
                   "assumed: about what the model errs by"},
             Field{"longest_early_s", "s", &C::longest_early_s, 0.0, 60.0,
                   "With `queues`: a hold begins at most so much earlier than the lead says",
-                  "trials: without a limit the others lose 4 % more in the dense city"});
+                  "trials: without a limit the others lose 4 % more in the dense city"},
+            Field{"longest_late_s", "s", &C::longest_late_s, 0.0, 60.0,
+                  "With `queues`: a hold begins at most so much later than the lead says, where that or none "
+                  "costs less by `emergency_worth`",
+                  "0: never later, as in docs/findings/cities.md where it is not named"});
     }
 };
 

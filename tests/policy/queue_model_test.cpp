@@ -289,9 +289,26 @@ TEST(HoldPlanner, begins_before_the_lead_only_for_a_gain) {
     };
     EXPECT_TRUE(is_due(4.0, 2.0)) << "6 s to the line: a hold in 4 s opens it 3 s after that";
     EXPECT_FALSE(is_due(4.0, 10.0));
-    EXPECT_FALSE(is_due(0.0, 2.0)) << "the lead asks now";
+    EXPECT_TRUE(is_due(0.0, 2.0)) << "the lead asks now";
     EXPECT_TRUE(is_due(20.0, 2.0));
     EXPECT_FALSE(is_due(20.5, 2.0)) << "too long before the lead";
+}
+
+TEST(HoldPlanner, begins_after_the_lead_only_where_that_costs_less) {
+    CrossingScene scene = coming_from_the_west(150.0);
+    add_queue(scene, "x", southbound, 12);
+    const traffic::BelievedGraph& belief = scene.belief();
+    const View view(two_crossings(), belief);
+    const auto is_due = [&](double rule_s, double emergency_worth, double longest_late_s) {
+        HoldPlanner planner(
+            {.emergency_worth = emergency_worth, .longest_early_s = 20.0, .longest_late_s = longest_late_s});
+        planner.begin(view);
+        return planner.is_due(view, first_arrival(view), rule_s, false);
+    };
+    EXPECT_TRUE(is_due(-1.0, 1.0, 0.0)) << "the lead has said so";
+    EXPECT_FALSE(is_due(-1.0, 1.0, 5.0)) << "twelve others wait for it";
+    EXPECT_TRUE(is_due(-5.0, 1.0, 5.0)) << "no later than that";
+    EXPECT_TRUE(is_due(-1.0, 10000.0, 5.0)) << "it would lose time";
 }
 
 TEST(Pace, is_of_those_who_drive_on_green) {

@@ -46,7 +46,7 @@ bool HoldPlanner::is_due(const View& view, const Arrival& arrival, double rule_s
     const core::SignalIndex signal = arrival.approach.signal;
     const roads::Signal& here = view.network().signal(signal);
     const auto edge = edge_before(view, arrival);
-    if (here.controller == "NEMA" || !edge) return is_held;
+    if (here.controller == "NEMA" || !edge) return is_held || rule_s <= 0.0;
     const traffic::BelievedVehicle& emergency = arrival.emergency;
     const double open_road_s = free_s_to(view, arrival);
     if (arrival.moved_m <= 0.0)
@@ -65,8 +65,10 @@ bool HoldPlanner::is_due(const View& view, const Arrival& arrival, double rule_s
     };
     const QueueModel::Outcome held_now = model.outcome(0.0);
     QueueModel::Outcome best = held_now;
-    bool is_due = is_held || rule_s <= settings_.longest_early_s;
-    if (!is_held) {
+    const bool is_late = rule_s <= 0.0;
+    const bool must_hold = is_held || (is_late && -rule_s >= settings_.longest_late_s);
+    bool is_due = must_hold || rule_s <= settings_.longest_early_s;
+    if (!must_hold) {
         const auto consider = [&](std::optional<double> start_s) {
             const QueueModel::Outcome other = model.outcome(start_s);
             if (cost(other) > cost(best)) return;
@@ -75,7 +77,9 @@ bool HoldPlanner::is_due(const View& view, const Arrival& arrival, double rule_s
         };
         std::ranges::for_each(later_s, consider);
         consider(std::nullopt);
-        const double by_rule_s = model.outcome(std::clamp(rule_s, 0.0, later_s.back())).passing_s;
+    }
+    if (!must_hold && !is_late) {
+        const double by_rule_s = model.outcome(std::min(rule_s, later_s.back())).passing_s;
         is_due = is_due && by_rule_s - held_now.passing_s >= settings_.least_gain_s;
     }
     reached->second = {free_s, best.passing_s};

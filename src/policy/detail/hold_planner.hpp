@@ -31,17 +31,18 @@ class Pace {
     double spent_s_ = 0.0;
 };
 
-/// Decides whether signals are held earlier than a rule would hold them, by a model of what the hold does
-/// (QueueModel): once every later beginning costs more, and not to hold too, and the emergency vehicle gains
-/// enough, but not long before the rule does: the longer the forecast, the more a hold that comes too early
-/// costs. The cost is its time, times its worth, plus that of the others. It leaves signals of the controller
-/// NEMA to the rule.
+/// Decides whether signals are held earlier or later than a rule would hold them, by a model of what the hold
+/// does (QueueModel): once every later beginning costs more, and not to hold too. The cost is the time of the
+/// emergency vehicle, times its worth, plus that of the others. A hold begins earlier only for a gain, and
+/// not long before the rule: the longer the forecast, the more a hold that comes too early costs. It leaves
+/// signals of the controller NEMA to the rule.
 class HoldPlanner {
   public:
     struct Settings {
         double emergency_worth = 0.0;  ///< How many vehicle-seconds a second of an emergency vehicle counts.
         double least_gain_s = 0.0;     ///< Less is not worth an early hold.
         double longest_early_s = 0.0;  ///< How much earlier than the rule at most.
+        double longest_late_s = 0.0;   ///< How much later.
         ModelSight sight = ModelSight::all;
     };
     explicit HoldPlanner(Settings settings) : settings_(settings) {}
@@ -49,7 +50,7 @@ class HoldPlanner {
     /// Starts a decision, in which arrivals are asked about in the order in which the vehicles meet them.
     void begin(const View& view);
     /// Whether a hold should begin now; true while it `is_held`. `rule_s`: when the rule would begin it, from
-    /// now.
+    /// now; negative if it would have.
     bool is_due(const View& view, const Arrival& arrival, double rule_s, bool is_held);
 
   private:
