@@ -31,6 +31,12 @@ std::vector<double> differences(std::span<const double> condition, std::span<con
     return result;
 }
 
+/// t of a two-sided interval.
+double quantile_of_t(double freedom, double level) {
+    const boost::math::students_t distribution(freedom);
+    return boost::math::quantile(boost::math::complement(distribution, 0.5 * (1.0 - level)));
+}
+
 /// The least count of at least 2 that suffices, where every greater one does; at most `most_replications`.
 template <class Suffices>
 std::size_t least_count(const Suffices& suffices) {
@@ -52,9 +58,7 @@ std::size_t least_count(const Suffices& suffices) {
 double half_width(double deviation, std::size_t n, double level) {
     assert(n >= 2);
     const auto count = static_cast<double>(n);
-    const boost::math::students_t distribution(count - 1.0);
-    const double t = boost::math::quantile(boost::math::complement(distribution, 0.5 * (1.0 - level)));
-    return t * deviation / std::sqrt(count);
+    return quantile_of_t(count - 1.0, level) * deviation / std::sqrt(count);
 }
 
 MaybeEstimate estimate_mean(std::span<const double> values, double level) {
@@ -65,6 +69,40 @@ MaybeEstimate estimate_mean(std::span<const double> values, double level) {
     estimate.deviation = deviation_of(values, estimate.mean);
     if (estimate.n < 2) return estimate;
     const double reach = half_width(estimate.deviation, estimate.n, level);
+    estimate.interval = Interval{estimate.mean - reach, estimate.mean + reach};
+    return estimate;
+}
+
+MaybeEstimate estimate_adjusted(std::span<const double> values, std::span<const double> covariate,
+                                std::span<const double> all, double level) {
+    assert(values.size() == covariate.size() && values.size() <= all.size());
+    if (values.size() < fewest_for_interval) return std::nullopt;
+    const auto n = static_cast<double>(values.size());
+    const double mean = mean_of(values);
+    const double centre = mean_of(covariate);
+    double squares = 0.0;
+    double products = 0.0;
+    for (std::size_t at = 0; at < values.size(); ++at) {
+        squares += (covariate[at] - centre) * (covariate[at] - centre);
+        products += (covariate[at] - centre) * (values[at] - mean);
+    }
+    if (!(squares > 0.0)) return std::nullopt;
+    const double slope = products / squares;
+    double left = 0.0;
+    for (std::size_t at = 0; at < values.size(); ++at)
+        left += std::pow(values[at] - mean - slope * (covariate[at] - centre), 2);
+    const auto count = static_cast<double>(all.size());
+    const double centre_of_all = mean_of(all);
+    const double shift = centre_of_all - centre;
+    const double of_residuals = left / (n - 2.0) * (1.0 / n + shift * shift / squares);
+    const double of_all = std::pow(slope * deviation_of(all, centre_of_all), 2) / count;
+    Estimate estimate{values.size(), mean + slope * shift, std::sqrt(left / (n - 2.0)), {}};
+    const double variance = of_residuals + of_all;
+    const double freedom =
+        variance > 0.0 ? variance * variance /
+                             (of_residuals * of_residuals / (n - 2.0) + of_all * of_all / (count - 1.0))
+                       : n - 2.0;
+    const double reach = quantile_of_t(freedom, level) * std::sqrt(variance);
     estimate.interval = Interval{estimate.mean - reach, estimate.mean + reach};
     return estimate;
 }

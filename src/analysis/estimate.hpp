@@ -66,6 +66,14 @@ MaybeEstimate estimate_difference(std::span<const double> condition, std::span<c
 MaybeEstimate relative_difference(std::span<const double> condition, std::span<const double> baseline,
                                   double level = usual_level);
 
+/// Mean of `values` where the mean of a covariate, which the sample has beside each value, is known better
+/// from a larger sample `all`, that one included: the regression estimator of double sampling (Cochran,
+/// Sampling Techniques, 1977, chapter 12), with a t interval by Satterthwaite's degrees of freedom, since the
+/// residuals have n - 2 and `all` its own. `deviation` is that of the residuals. Nothing for fewer values
+/// than `fewest_for_interval`, or where the covariate does not vary.
+MaybeEstimate estimate_adjusted(std::span<const double> values, std::span<const double> covariate,
+                                std::span<const double> all, double level = usual_level);
+
 /// Sum of `sums` by sum of `counts`: a mean of what comes in clusters of different sizes, with the t interval
 /// of the clusters' deviations from it (Cochran, Sampling Techniques, 1977, chapter 6). Clusters of count 0
 /// do not count; n is the number of the others. The spans have equal lengths.

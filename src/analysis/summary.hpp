@@ -154,6 +154,16 @@ struct Unpaired {
     std::string why;        ///< `1 of 30 runs failed or is missing`, `is only in the first folder`.
 };
 
+/// The difference of a condition from its baseline in `primary_metric`, adjusted for the time that emergency
+/// vehicles lost in these baselines, by more runs of the baseline than there are pairs.
+struct AdjustedDifference {
+    std::string scenario;
+    std::string condition;
+    Estimate difference;        ///< See `estimate_adjusted`.
+    std::size_t baselines = 0;  ///< Runs of the baseline behind it.
+    std::size_t worth = 0;      ///< Pairs whose interval, not adjusted, would be as narrow.
+};
+
 struct Summary {
     results::Manifest manifest;
     double level = usual_level;
@@ -163,6 +173,7 @@ struct Summary {
     std::vector<ConditionDifference> differing;
     /// Builds of the programs that made two studies, if they differ.
     std::optional<std::pair<std::string, std::string>> builds;
+    std::vector<AdjustedDifference> adjusted;  ///< Empty unless `adjust_by` filled it.
 };
 
 /// Compares each condition of `second` with the condition of the same name in `first`, in the same scenario
@@ -171,6 +182,12 @@ struct Summary {
 /// when seeds or scenario configurations differ, or when the studies share no scenario and condition.
 Summary compare_studies(const results::Results& first, const results::Results& second,
                         double level = usual_level, std::optional<double> response_threshold_s = {});
+
+/// Fills `Summary::adjusted` by a study of the same seed with more replications that has the baselines.
+/// Leaves out what cannot be adjusted: fewer pairs than `fewest_for_interval`, pairs that do not differ,
+/// baselines without a loss, all with the same one, or fewer than pairs. Throws core::InputError for another
+/// seed, scenario or baseline, or fewer replications.
+void adjust_by(const results::Results& baselines, Summary& summary);
 
 /// What conditions are compared with: one condition of the study, by its name; or for each the one that has
 /// these levels of factors, `condition.policy` -> `corridor`, and is the same in all others; or for each the

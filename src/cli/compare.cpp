@@ -31,6 +31,7 @@ struct CompareArguments {
     std::string first;
     std::string second;
     std::string against;               ///< Empty: the baselines.
+    std::string baselines;             ///< Run folder; empty: none.
     std::vector<std::string> metrics;  ///< Empty: `usual_metrics`.
     std::vector<std::string> tolerances;
     std::optional<double> response_threshold_s;
@@ -205,9 +206,17 @@ core::ExitCode compare(CompareArguments arguments) {
     if (!arguments.publication.file.empty() && !arguments.against.empty())
         throw core::InputError({"--publish", "writes differences from baselines, and there is --against", "",
                                 "Leave out one of them"});
+    if (!arguments.baselines.empty() && !arguments.second.empty())
+        throw core::InputError({"--baselines",
+                                "adjusts differences from baselines, and there are two folders", "",
+                                "Leave out " + arguments.second});
     const std::vector<report::Tolerance> tolerances = check(arguments);
     analysis::Reference reference;
-    const analysis::Summary summary = summary_of(arguments, reference);
+    analysis::Summary summary = summary_of(arguments, reference);
+    if (!arguments.baselines.empty())
+        analysis::adjust_by(
+            results::read_results(results::Store::open(arguments.baselines), results::VehicleRows::emergency),
+            summary);
     const report::Titles titles =
         report::titles_of(results::Store::open(arguments.first), summary, reference);
     const std::vector<report::Shortfall> found = report::shortfalls(summary, tolerances);
@@ -248,6 +257,10 @@ Action configure_compare(App& app) {
            "Condition of the run folder that the others are compared with; or levels of factors: each "
            "is compared with the one that is the same but for these; or best: with the best other one")
         .option_text("NAME|FACTOR=LEVEL,...|best [the baselines]");
+    app.add_option(
+           "--baselines", arguments->baselines,
+           "Run folder of clearway study --baselines, by which differences in EV travel time are adjusted")
+        .option_text("DIR [none]");
     app.add_option("--metric", arguments->metrics, "Metric to compare, a column of runs.csv; may be repeated")
         .allow_extra_args(false)
         .option_text("NAME [EV and others' times, collisions, teleports]");

@@ -1,5 +1,6 @@
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "campaign/plan_text.hpp"
@@ -9,6 +10,7 @@
 #include "cli/detail/condition_options.hpp"
 #include "cli/verb.hpp"
 #include "core/interruption.hpp"
+#include "study/plan.hpp"
 #include "study/shard.hpp"
 
 namespace clearway::cli {
@@ -21,6 +23,7 @@ struct StudyArguments {
     std::vector<std::string> models;
     Mode mode = Mode::run;
     study::Extent extent = study::Extent::whole;
+    std::uint32_t baselines = 0;  ///< Replications of the baselines alone; 0: the whole study.
     std::uint64_t most_runs = results::usual_most_runs;
     campaign::RunOptions run;
 };
@@ -32,6 +35,7 @@ core::ExitCode run_study(const StudyArguments& arguments, const Invocation& invo
     study::StudyConfig config =
         study::read_study(arguments.file, arguments.extent, arguments.most_runs, arguments.scenarios);
     apply_models(arguments.models, config.conditions);
+    if (arguments.baselines > 0) config = study::baselines_of(std::move(config), arguments.baselines);
     campaign::RunOptions run = arguments.run;
     run.command = invocation.command;
     if (run.folder.empty()) run.folder = "runs/" + config.name;
@@ -74,6 +78,11 @@ Action configure_study(App& app) {
     app.add_flag_callback(
         "--quick", [arguments] { arguments->extent = study::Extent::quick; },
         "Run what the file's [quick] leaves, into runs/NAME-quick [the whole study]");
+    app.add_option("--baselines", arguments->baselines,
+                   "Run only the baselines, N replications of each, into runs/NAME-baselines, for compare "
+                   "--baselines")
+        .range(std::uint32_t{1}, std::uint32_t{100000})
+        .option_text("N, 1 to 100000 [the study]");
     add_most_runs_option(app, arguments->most_runs);
     add_jobs_option(app, arguments->run.workers);
     add_record_option(app, arguments->run.recording);

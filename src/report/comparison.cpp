@@ -216,6 +216,24 @@ std::string differing_text(const analysis::Summary& summary) {
     return builds + (text.empty() ? text : "Conditions of the same name differ:\n" + text + "\n");
 }
 
+std::string adjusted_text(const analysis::Summary& summary, const ConditionTitleMap& titles) {
+    std::string text;
+    for (const analysis::AdjustedDifference& one : summary.adjusted) {
+        const auto title = titles.find({one.scenario, one.condition});
+        text +=
+            core::wrapped(
+                fmt::format(
+                    "{}: {}: {} s of EV travel time, adjusted by {} runs of the baseline: as narrow as "
+                    "{} pairs without.",
+                    printable(one.scenario), printable(title == titles.end() ? one.condition : title->second),
+                    estimate(one.difference, {.decimals = 1, .sign = Sign::always}), one.baselines,
+                    one.worth),
+                4) +
+            "\n";
+    }
+    return text;
+}
+
 /// The lines before the tables.
 std::string objections_text(const ScenarioSummary& scenario, const ConditionTitleMap& titles) {
     std::string text;
@@ -309,6 +327,7 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
         const auto is_travel_time = [](const std::string& name) { return name.ends_with("travel_time_s"); };
         if (std::ranges::any_of(metrics, is_travel_time)) text += response_text(scenario, titles);
     }
+    text += adjusted_text(summary, titles);
     for (const analysis::Unpaired& lost : summary.unpaired)
         text += unpaired_line(lost);
     if (const std::string few = few_seeds_sentence(fewest_pairs); !few.empty()) text += few + '\n';
@@ -360,6 +379,13 @@ std::string comparison_json(const analysis::Summary& summary, const std::vector<
                    {"differing_settings", std::move(differing)},
                    {"unpaired", std::move(unpaired)},
                    {"short_of_tolerance", std::move(gates)}};
+    for (const analysis::AdjustedDifference& one : summary.adjusted)
+        result["adjusted"].push_back({{"scenario", one.scenario},
+                                      {"condition", one.condition},
+                                      {"difference", one.difference.mean},
+                                      {"interval_95", json_of(one.difference.interval)},
+                                      {"baselines", one.baselines},
+                                      {"worth_pairs", one.worth}});
     if (summary.builds)
         result["builds"] = {{"first", summary.builds->first}, {"second", summary.builds->second}};
     return detail::to_text(result);

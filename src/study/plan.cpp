@@ -125,6 +125,20 @@ std::size_t Plan::run_count() const {
     return count;
 }
 
+StudyConfig baselines_of(StudyConfig config, std::uint32_t replications) {
+    config.name += "-baselines";
+    config.replications = replications;
+    std::erase_if(config.conditions, [](const experiment::ConditionSpec& condition) {
+        return condition.acts() || condition.traffic_model == experiment::TrafficModel::free_flow;
+    });
+    config.titles.clear();
+    config.doubtful_titles.clear();
+    config.controls.clear();
+    config.precision.reset();
+    config.plan.reset();
+    return config;
+}
+
 results::Manifest manifest_of(const StudyConfig& config, const Versions& versions) {
     results::Manifest manifest;
     manifest.study = config.name;

@@ -48,6 +48,9 @@ struct Versions {
     std::string build = {};  ///< Of this program and its worker: core::build_stamp.
 };
 
+/// Its baselines alone, with other replications, under the name `NAME-baselines`: for analysis::adjust_by.
+StudyConfig baselines_of(StudyConfig config, std::uint32_t replications);
+
 /// What a study is, as its run folder keeps it.
 results::Manifest manifest_of(const StudyConfig& config, const Versions& versions);
 

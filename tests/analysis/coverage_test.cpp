@@ -31,6 +31,34 @@ TEST(Coverage, OfTheTIntervalOfPairedDifferencesIsNominal) {
     }
 }
 
+TEST(Coverage, OfTenPairsAdjustedByFortyBaselinesIsNominalAndNarrowerThanOfTwentyPairs) {
+    constexpr std::uint64_t samples = 10000;
+    constexpr std::size_t pairs = 10;
+    constexpr std::size_t baselines = 40;
+    int held = 0;
+    double adjusted_s = 0.0;
+    double plain_s = 0.0;
+    for (std::uint64_t sample = 0; sample < samples; ++sample) {
+        std::vector<double> lost(baselines);
+        std::vector<double> differences(2 * pairs);
+        for (std::size_t row = 0; row < baselines; ++row) {
+            const std::uint64_t subject = sample * 64 + row;
+            lost[row] = 50.0 + 20.0 * draws.normal(core::Purpose::demand, subject);
+            if (row < differences.size())  // R^2 of 0.88
+                differences[row] = -0.8 * lost[row] + 6.0 * draws.normal(core::Purpose::driver, subject);
+        }
+        const std::span all(lost);
+        const auto adjusted = estimate_adjusted(std::span(differences).first(pairs), all.first(pairs), all);
+        held += adjusted->interval->contains(-40.0) ? 1 : 0;
+        adjusted_s += adjusted->interval->half_width();
+        plain_s += estimate_mean(differences)->interval->half_width();
+    }
+    const double share = held / static_cast<double>(samples);
+    EXPECT_GE(share, 0.94);
+    EXPECT_LE(share, 0.96);
+    EXPECT_LT(adjusted_s, 0.95 * plain_s);
+}
+
 /// Share of intervals of the gap closed that hold its true value of 0.4. Travel times are skewed as queues
 /// make them.
 double coverage_of_gap_closed(std::size_t n, int samples, BootstrapConfig config) {

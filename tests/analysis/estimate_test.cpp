@@ -39,6 +39,41 @@ TEST(EstimateMean, HasNoIntervalForOneValueAndNothingForNone) {
     EXPECT_FALSE(one->interval);
 }
 
+TEST(EstimateAdjusted, OfALineIsTheMeanOfTheLineOverTheLargerSample) {
+    const std::vector<double> covariate = {1.0, 4.0, 2.0, 7.0, 3.0};
+    const std::vector<double> all = {1.0, 4.0, 2.0, 7.0, 3.0, 9.0, 8.0, 5.0};
+    const auto on_line = [](std::vector<double> values) {
+        for (double& value : values)
+            value = 10.0 - 0.5 * value;
+        return values;
+    };
+    const auto adjusted = estimate_adjusted(on_line(covariate), covariate, all);
+    const auto larger = estimate_mean(on_line(all));
+    ASSERT_TRUE(adjusted && adjusted->interval);
+    EXPECT_EQ(adjusted->n, 5U);
+    EXPECT_NEAR(adjusted->mean, larger->mean, 1e-12);
+    EXPECT_NEAR(adjusted->interval->low, larger->interval->low, 1e-9);
+    EXPECT_NEAR(adjusted->interval->high, larger->interval->high, 1e-9);
+    EXPECT_NEAR(adjusted->deviation, 0.0, 1e-12);
+}
+
+TEST(EstimateAdjusted, WhereTheMeanIsCertainIsALineOfRegressionThere) {
+    // By hand: y = 2.2 + 0.6 x, squares of residuals 2.4, t 3.1824 on 3 degrees of freedom.
+    const std::vector<double> values = {2.0, 4.0, 5.0, 4.0, 5.0};
+    const auto adjusted =
+        estimate_adjusted(values, std::vector{1.0, 2.0, 3.0, 4.0, 5.0}, std::vector<double>(9, 4.0));
+    EXPECT_NEAR(adjusted->mean, 4.6, 1e-12);
+    EXPECT_NEAR(adjusted->deviation, std::sqrt(0.8), 1e-12);
+    EXPECT_NEAR(adjusted->interval->half_width(), 3.1824 * std::sqrt(0.8 * (0.2 + 0.1)), 1e-4);
+}
+
+TEST(EstimateAdjusted, IsNothingForFewPairsOrAConstantCovariate) {
+    const std::vector<double> same(5, 2.0);
+    const std::vector<double> values = {1.0, 2.0, 3.0, 4.0, 5.0};
+    EXPECT_FALSE(estimate_adjusted(values, same, same));
+    EXPECT_FALSE(estimate_adjusted(std::vector{1.0, 2.0, 3.0, 4.0}, std::vector{1.0, 2.0, 3.0, 5.0}, values));
+}
+
 TEST(EstimateRatio, OfClustersOfOneSizeIsTheMeanOfTheirMeans) {
     const std::vector<double> sums = {2.0, 8.0, 0.0, 5.0};
     const auto ratio = estimate_ratio(sums, std::vector{2.0, 2.0, 0.0, 2.0});

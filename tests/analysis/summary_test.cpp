@@ -67,6 +67,89 @@ class SmallStudy : public testing::Test {
     results::Results results_;
 };
 
+/// Six pairs in which `treated` takes 40 % of what the baseline lost, and nine runs of the baseline.
+class AdjustedStudy : public SmallStudy {
+  protected:
+    AdjustedStudy() {
+        results_.manifest.replications = 6;
+        baselines_.manifest = results_.manifest;
+        baselines_.manifest.replications = 9;
+        std::erase_if(baselines_.manifest.conditions, [](const auto& one) { return one.name != "baseline"; });
+        const double lost_s[] = {40.0, 60.0, 50.0, 70.0, 45.0, 80.0, 90.0, 20.0, 55.0};
+        for (std::uint32_t replication = 0; replication < 9; ++replication) {
+            const double loss_s = lost_s[replication];
+            RunRecord& run = add("baseline", replication, 60.0 + loss_s, 80.0 + loss_s);
+            run.metrics.emergency_time_loss_s = loss_s;
+            baselines_.runs.push_back(run);
+            if (replication >= 6)
+                results_.runs.pop_back();
+            else
+                add("treated", replication, 60.0 + 0.4 * loss_s, 80.0 + 0.4 * loss_s);
+        }
+    }
+    std::vector<AdjustedDifference> adjusted() const {
+        Summary summary = summarise(results_);
+        adjust_by(baselines_, summary);
+        return summary.adjusted;
+    }
+    std::string refusal() const {
+        try {
+            adjusted();
+        } catch (const core::InputError& error) {
+            return error.what();
+        }
+        return "none";
+    }
+
+    results::Results baselines_;
+};
+
+TEST_F(AdjustedStudy, HasTheMeanOfMoreBaselines) {
+    const std::vector<AdjustedDifference> found = adjusted();
+    ASSERT_EQ(found.size(), 1U) << "`other` has no runs";
+    EXPECT_EQ(found[0].scenario, "alpha");
+    EXPECT_EQ(found[0].condition, "treated");
+    EXPECT_NEAR(found[0].difference.mean, -0.6 * 510.0 / 9.0, 1e-9);
+    EXPECT_EQ(found[0].difference.n, 6U);
+    EXPECT_EQ(found[0].baselines, 9U);
+    const Estimate plain = *scenario().find("treated")->metric(primary_metric).comparison->difference;
+    EXPECT_EQ(found[0].worth,
+              required_replications(plain.deviation, found[0].difference.interval->half_width()));
+}
+
+TEST_F(AdjustedStudy, HasNothingWhereABaselineHasNoLossOrMostAreMissing) {
+    const std::vector<RunRecord> runs = results_.runs;
+    for (std::size_t row = 1; row < runs.size(); row += 2)
+        results_.runs[row].metrics = runs[row - 1].metrics;
+    EXPECT_TRUE(adjusted().empty()) << "the condition does nothing";
+    results_.runs = runs;
+    EXPECT_FALSE(adjusted().empty());
+    results_.runs[4].metrics.emergency_time_loss_s.reset();
+    EXPECT_TRUE(adjusted().empty()) << "a pair without it";
+    results_.runs = runs;
+    baselines_.runs[8].metrics.emergency_time_loss_s.reset();
+    EXPECT_TRUE(adjusted().empty()) << "a baseline without it";
+    baselines_.runs.resize(5);
+    EXPECT_TRUE(adjusted().empty()) << "fewer than pairs";
+}
+
+TEST_F(AdjustedStudy, RefusesBaselinesOfAnotherStudy) {
+    EXPECT_EQ(refusal(), "none");
+    const results::Manifest manifest = baselines_.manifest;
+    const auto refused_with = [&](const auto& change) {
+        baselines_.manifest = manifest;
+        change(baselines_.manifest);
+        return refusal();
+    };
+    EXPECT_THAT(refused_with([](auto& one) { one.study_seed += 1; }), testing::HasSubstr("another seed"));
+    EXPECT_THAT(refused_with([](auto& one) { one.scenarios[0].configuration_hash = std::string(32, 'b'); }),
+                testing::HasSubstr("scenario alpha"));
+    EXPECT_THAT(refused_with([](auto& one) { one.conditions[0].settings["loop.policy_period_s"] = "0.5"; }),
+                testing::HasSubstr("condition baseline"));
+    EXPECT_THAT(refused_with([](auto& one) { one.replications = 5; }),
+                testing::HasSubstr("fewer replications"));
+}
+
 TEST_F(SmallStudy, GivesTheDifferenceWithoutThePairsThatLocked) {
     add_all();
     EXPECT_FALSE(scenario().find("treated")->metric(primary_metric).comparison->unlocked);

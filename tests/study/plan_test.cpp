@@ -56,6 +56,20 @@ TEST(Plan, HasOneUnitPerReplicationScenarioAndTrafficModel) {
     EXPECT_EQ(plan.units[0].unit.network_folder, "/out/scenarios/alpha/network");
 }
 
+TEST(Plan, OfBaselinesHasThemAlone) {
+    StudyConfig config = example();
+    config.titles["corridor"] = "Green";
+    config.precision.emplace();
+    const StudyConfig baselines = baselines_of(config, 5);
+    EXPECT_EQ(baselines.name, "study-baselines");
+    EXPECT_FALSE(baselines.precision);
+    const Plan plan = plan_of(baselines);
+    EXPECT_EQ(plan.run_count(), 5U * 2U) << "neither solo nor a condition that acts";
+    ASSERT_EQ(plan.manifest.conditions.size(), 1U);
+    EXPECT_EQ(plan.manifest.conditions[0].name, "baseline");
+    EXPECT_EQ(plan.manifest.study_seed, config.seed);
+}
+
 TEST(Plan, WithMoreRunsThanAllowedIsRefusedWithTheNumbers) {
     StudyConfig config = example();
     config.most_runs = 2 * 2 * 9 - 1;
