@@ -78,6 +78,7 @@ struct Actuator::State {
     std::vector<core::VehicleKey> heeding;
     std::vector<traffic::KnownIncident> incidents = {};
     std::vector<core::VehicleKey> keeping = {};  ///< Vehicles whose way no lease changes.
+    detail::Lanes occupied = {};                 ///< Internal lanes with a vehicle on them, in this step.
 
     void watch(const traffic::SignalStates& shown, core::Seconds now) {
         assert(shown.state.size() <= histories.size());
@@ -125,16 +126,17 @@ struct Actuator::State {
     void step_signals(const truth::Snapshot& snapshot, const traffic::Roster& roster,
                       const truth::SelfKnowledge& self, std::vector<traffic::Command>& commands) {
         if (signals.empty()) return;
-        detail::Lanes occupied;
+        occupied.clear();
         for (const core::LaneIndex lane : snapshot.lane) {
             if (lane.exists() && network.edge(network.lane(lane).edge).internal) occupied.push_back(lane);
         }
         std::ranges::sort(occupied);
         std::optional<detail::Lanes> pressed;
-        const std::function<const detail::Lanes&()> look = [&]() -> const detail::Lanes& {
+        const auto find_pressed = [&]() -> const detail::Lanes& {
             if (!pressed) pressed = pressed_lanes(snapshot, roster);
             return *pressed;
         };
+        const std::function<const detail::Lanes&()> look = std::cref(find_pressed);
         const std::string none;
         for (auto& [index, signal] : signals) {
             const bool known = index.value < snapshot.signals.state.size();
@@ -259,6 +261,7 @@ std::size_t Actuator::active() const {
 
 std::vector<traffic::SignalStatus> Actuator::signals() const {
     std::vector<traffic::SignalStatus> all;
+    all.reserve(state_->signals.size());
     for (const auto& [index, signal] : state_->signals)
         all.push_back(signal.status(state_->last_step.value_or(core::Seconds(0.0))));
     return all;

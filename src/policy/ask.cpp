@@ -19,7 +19,8 @@ std::vector<int> hops_from(const traffic::BelievedGraph& belief, core::VehicleIn
                 const bool is_new = link.neighbour != start && hops[link.neighbour] == 0;
                 if (!is_new || link.probability < settings.ask_probability) continue;
                 hops[link.neighbour] = hop;
-                if (belief.vehicles[link.neighbour].vehicle_class == traffic::VehicleClass::automated)
+                if (hop < settings.ask_hops &&
+                    belief.vehicles[link.neighbour].vehicle_class == traffic::VehicleClass::automated)
                     relays.push_back(link.neighbour);
             }
         }
@@ -39,6 +40,7 @@ Audience::Audience(const traffic::BelievedGraph& belief, core::VehicleKey emerge
     assert(itself->vehicle_class == traffic::VehicleClass::emergency);
     const auto start = static_cast<core::VehicleIndex>(itself - belief.vehicles.data());
     const std::vector<int> hops = hops_from(belief, start, settings);
+    linked_.reserve(hops.size() - static_cast<std::size_t>(std::ranges::count(hops, 0)));
     for (std::size_t row = 0; row < hops.size(); ++row) {
         if (hops[row] > 0) linked_.push_back(belief.vehicles[row].key);
     }

@@ -2,22 +2,21 @@
 
 #include <algorithm>
 #include <optional>
-#include <unordered_map>
+#include <utility>
 
-#include "policy/detail/approach.hpp"
 #include "policy/detail/room.hpp"
+#include "policy/detail/view.hpp"
+#include "roads/route.hpp"
 #include "roads/short_loops.hpp"
 #include "traffic/signal.hpp"
 
 namespace clearway::policy {
 namespace {
 
-using DemandByLane = std::unordered_map<std::uint32_t, int>;
-
 /// Vehicles that a green would serve now, by lane: those that stand and those close to the end of their lane.
-DemandByLane demand_by_lane(const roads::Network& network, const traffic::BelievedGraph& belief,
-                            const RecoverSignalsConfig& config) {
-    DemandByLane demand;
+std::vector<int> demand_by_lane(const roads::Network& network, const traffic::BelievedGraph& belief,
+                                const RecoverSignalsConfig& config) {
+    std::vector<int> demand(network.lanes().size(), 0);
     for (const traffic::BelievedVehicle& vehicle : belief.vehicles) {
         if (!vehicle.state.lane.exists()) continue;
         const double left_m = network.lane(vehicle.state.lane).length_m - vehicle.state.lane_position_m;
@@ -30,12 +29,19 @@ DemandByLane demand_by_lane(const roads::Network& network, const traffic::Believ
 /// The links of a phase that have demand, and how much.
 struct Served {
     std::vector<std::uint16_t> links;
+    std::vector<core::LaneIndex> lanes;  ///< That have it. Few.
     int vehicles = 0;
+
+    Served() {
+        constexpr std::size_t usual = 16;  // More are rare.
+        links.reserve(usual);
+        lanes.reserve(usual);
+    }
 };
 
 /// What waits, and whether there is room for it behind the signals.
 struct Demand {
-    DemandByLane by_lane;
+    std::vector<int> by_lane;
     std::optional<detail::Room> room;
     double exit_room_m = 0.0;
 
@@ -44,36 +50,47 @@ struct Demand {
     }
 };
 
-Served served_by(const roads::Signal& signal, const std::string& state, const Demand& demand) {
-    Served served;
-    std::vector<std::uint32_t> lanes;  // Few.
+/// `served` is reused.
+void find_served(const roads::Signal& signal, const std::string& state, const Demand& demand,
+                 Served& served) {
+    served.links.clear();
+    served.lanes.clear();
+    served.vehicles = 0;
     for (std::uint16_t link = 0; link < signal.links.size() && link < state.size(); ++link) {
         if (!traffic::is_green(state[link])) continue;
         bool has_demand = false;
         for (const roads::SignalLink& way : signal.links[link]) {
-            const auto found = demand.by_lane.find(way.from.value);
-            if (found == demand.by_lane.end() || !demand.may_leave(way)) continue;
+            const int waiting = demand.by_lane[way.from.value];
+            if (waiting == 0 || !demand.may_leave(way)) continue;
             has_demand = true;
-            if (std::ranges::find(lanes, way.from.value) == lanes.end()) served.vehicles += found->second;
-            lanes.push_back(way.from.value);
+            if (std::ranges::find(served.lanes, way.from) != served.lanes.end()) continue;
+            served.vehicles += waiting;
+            served.lanes.push_back(way.from);
         }
         if (has_demand) served.links.push_back(link);
     }
-    return served;
 }
 
 /// The links with demand of the phase that serves the most vehicles; empty when none wait. The present phase
 /// counts `worth` vehicles more, because a change costs time.
-std::vector<std::uint16_t> most_wanted(const roads::Signal& signal, const std::string& shown,
-                                       const Demand& demand, int worth) {
-    Served best;
-    for (const roads::Phase& phase : signal.program) {
-        Served served = served_by(signal, phase.state, demand);
-        if (served.vehicles > 0 && phase.state == shown) served.vehicles += worth;
-        if (served.vehicles > best.vehicles) best = std::move(served);
+class MostWanted {
+  public:
+    const std::vector<std::uint16_t>& of(const roads::Signal& signal, const std::string& shown,
+                                         const Demand& demand, int worth) {
+        best_.links.clear();
+        best_.vehicles = 0;
+        for (const roads::Phase& phase : signal.program) {
+            find_served(signal, phase.state, demand, served_);
+            if (served_.vehicles > 0 && phase.state == shown) served_.vehicles += worth;
+            if (served_.vehicles > best_.vehicles) std::swap(served_, best_);
+        }
+        return best_.links;
     }
-    return best.links;
-}
+
+  private:
+    Served best_;
+    Served served_;
+};
 
 }  // namespace
 
@@ -87,22 +104,24 @@ void RecoverSignals::act(const traffic::BelievedGraph& belief, std::vector<traff
     const detail::View view(context_.network, belief);
     detail::LeaseWriter write("recover_signals", context_.period, belief.time, leases, config_.lease_s);
     for (const traffic::BelievedVehicle& emergency : view.emergency_vehicles()) {
-        for (const detail::Approach& approach :
-             detail::approaches(view, emergency, core::Metres(config_.near_m))) {
-            const bool is_free = keeps_cycle_.empty() || !keeps_cycle_[approach.signal.value];
-            if (is_free) until_s_[approach.signal] = belief.time.value + config_.lasting_s;
+        for (const roads::StopLine& line :
+             roads::signals_ahead(context_.network, view.route_of(emergency.key), emergency.state,
+                                  core::Metres(config_.near_m))) {
+            const bool is_free = keeps_cycle_.empty() || !keeps_cycle_[line.signal.value];
+            if (is_free) until_s_[line.signal] = belief.time.value + config_.lasting_s;
         }
     }
     std::erase_if(until_s_, [&](const auto& entry) { return entry.second <= belief.time.value; });
     if (until_s_.empty()) return;
     Demand demand{demand_by_lane(context_.network, belief, config_), std::nullopt, config_.exit_room_m};
     if (config_.exit_room_m > 0.0) demand.room.emplace(context_.network, belief, config_.halted_mps);
+    MostWanted most_wanted;
     for (const auto& [signal, until] : until_s_) {
-        std::vector<std::uint16_t> links =
-            most_wanted(context_.network.signal(signal), belief.signals.state[signal.value], demand,
-                        config_.change_vehicles);
+        const std::vector<std::uint16_t>& links =
+            most_wanted.of(context_.network.signal(signal), belief.signals.state[signal.value], demand,
+                           config_.change_vehicles);
         if (!links.empty())
-            write.add(signal, traffic::AdjustGreen{std::move(links)}, "waited for an emergency vehicle", {});
+            write.add(signal, traffic::AdjustGreen{links}, "waited for an emergency vehicle", {});
     }
 }
 

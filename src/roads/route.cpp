@@ -11,6 +11,10 @@ namespace {
 
 using detail::Walk;
 
+/// What a way ahead usually has at most, so that it needs one allocation.
+constexpr std::size_t usual_steps = 32;
+constexpr std::size_t usual_lines = 8;
+
 traffic::MotionState place_on(const Network& network, const Walk& walk, double position_m, float speed_mps) {
     const core::Metres position(position_m);
     const Point point = network.point_at(walk.lane(), position);
@@ -51,6 +55,7 @@ std::vector<std::uint16_t> links_between(const Network& network, core::EdgeIndex
         for (const Connection& connection : network.connections_from(core::LaneIndex{row})) {
             if (network.lane(connection.to).edge != to || !connection.signal.exists()) continue;
             signal = connection.signal;
+            if (links.empty()) links.reserve(edge.lane_count);
             links.push_back(connection.signal_link);
         }
     }
@@ -101,6 +106,7 @@ Advanced advance(const Network& network, Route route, const traffic::MotionState
 bool lanes_ahead(const Network& network, Route route, const traffic::MotionState& state, core::Metres horizon,
                  std::vector<RouteStep>& steps) {
     steps.clear();
+    steps.reserve(usual_steps);
     Walk walk(network, route, state);
     for (;;) {
         RouteStep& step = steps.emplace_back();
@@ -154,6 +160,7 @@ std::optional<core::Metres> distance_ahead(const Network& network, Route route,
 std::vector<StopLine> signals_ahead(const Network& network, Route route, const traffic::MotionState& state,
                                     core::Metres horizon) {
     std::vector<StopLine> lines;
+    lines.reserve(usual_lines);
     Walk walk(network, route, state);
     do {
         if (walk.inside_junction() || walk.route_edge() + 1 >= route.size()) continue;

@@ -1,6 +1,8 @@
 #include "roads/way_ahead.hpp"
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include "roads/detail/walk.hpp"
 
@@ -9,6 +11,9 @@ namespace clearway::roads {
 WayAhead::WayAhead(const Network& network, Route route, const traffic::MotionState& state,
                    core::Metres horizon)
     : network_(network), horizon_m_(horizon.value) {
+    // One allocation each, usually.
+    passed_.reserve(32);
+    inside_.reserve(64);
     detail::Walk walk(network, route, state);
     std::uint32_t step = 0;
     do {
@@ -18,8 +23,9 @@ WayAhead::WayAhead(const Network& network, Route route, const traffic::MotionSta
             add_junction(here, route[walk.route_edge() + 1], step, walk.end_m());
         ++step;
     } while (walk.end_m() <= horizon_m_ && walk.next());
-    std::ranges::stable_sort(passed_, {}, &Passed::edge);
-    std::ranges::stable_sort(inside_, {}, &Inside::lane);
+    std::ranges::sort(passed_, {}, [](const Passed& one) { return std::pair(one.edge, one.step); });
+    std::ranges::sort(inside_, {},
+                      [](const Inside& one) { return std::tuple(one.lane, one.step, one.way_m); });
 }
 
 void WayAhead::add_junction(core::EdgeIndex from, core::EdgeIndex to, std::uint32_t step, double junction_m) {

@@ -412,8 +412,10 @@ std::optional<std::vector<truth::LaneOutlook>> Session::lane_outlook(core::Vehic
     return state_->guarded("SUMO cannot look ahead", [&] {
         const std::string prefix = state_->sumo->edge_of(found->id) + "_";
         const double position_m = state_->sumo->lane_position_m(found->id);
+        const std::vector<gateway::BestLane> lanes = state_->sumo->best_lanes(found->id);
         std::vector<truth::LaneOutlook> outlook;
-        for (const gateway::BestLane& lane : state_->sumo->best_lanes(found->id)) {
+        outlook.reserve(lanes.size());
+        for (const gateway::BestLane& lane : lanes) {
             if (!lane.lane.starts_with(prefix)) continue;
             outlook.push_back(
                 {.lane_number = static_cast<std::uint32_t>(std::stoul(lane.lane.substr(prefix.size()))),

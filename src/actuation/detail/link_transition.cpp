@@ -37,7 +37,7 @@ double LinkTransition::open_for_s(std::uint16_t link, const std::string& shown,
     const double since_s = (around.now - since_).value;
     double open_s = since_s;
     for (std::uint16_t other = 0; other < link_count(); ++other) {
-        if (keeps(other) || !conflict(signal_, {link}, {other})) continue;
+        if (keeps(other) || !are_foes(signal_, link, other)) continue;
         if (yields_[other])
             open_s = std::min(open_s, since_s - around.timing.all_red_s);
         else if (!traffic::is_red(shown[other]))
@@ -56,7 +56,7 @@ bool LinkTransition::may_open(std::uint16_t link, const std::string& shown,
     bool has_vehicle = false;
     bool has_pedestrian = false;
     for (std::uint16_t other = 0; other < link_count(); ++other) {
-        if (keeps(other) || !conflict(signal_, {link}, {other})) continue;
+        if (keeps(other) || !are_foes(signal_, link, other)) continue;
         has_vehicle = has_vehicle || around.has_vehicle(other);
         has_pedestrian = has_pedestrian || (is_crossing(other) && around.has_pedestrian(other));
     }

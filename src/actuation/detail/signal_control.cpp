@@ -98,6 +98,7 @@ traffic::RequestStatus SignalControl::status_of(const HeldLease& held, core::Sec
 /// waiting ones, because a change costs both of them time.
 Links SignalControl::requested(const SignalContext& around, Ledger& ledger) {
     std::vector<HeldLease*> order;
+    order.reserve(holds_.size());
     for (HeldLease& held : holds_.all()) {
         const auto reason = reason_to_wait(held, around);
         if (!reason) {
@@ -115,8 +116,8 @@ Links SignalControl::requested(const SignalContext& around, Ledger& ledger) {
     for (HeldLease* const held : order) {
         const auto& asked = std::get<traffic::HoldGreen>(held->lease.action);
         const Links& asked_own = asked.own_links.empty() ? asked.links : asked.own_links;
-        const Links both = united(links, asked.links);
-        const Links both_own = united(own, asked_own);
+        Links both = united(links, asked.links);
+        Links both_own = united(own, asked_own);
         held->served = links.empty() || !conflict(signal_, asked.links, links) ||
                        (!conflict(signal_, asked_own, own) && a_phase_serves(signal_, both, both_own));
         if (!held->served) {
@@ -124,8 +125,8 @@ Links SignalControl::requested(const SignalContext& around, Ledger& ledger) {
             continue;
         }
         LeaseQueue::act(*held, ledger);
-        links = both;
-        own = both_own;
+        links = std::move(both);
+        own = std::move(both_own);
     }
     return links;
 }

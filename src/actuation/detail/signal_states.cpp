@@ -8,11 +8,6 @@
 namespace clearway::actuation::detail {
 namespace {
 
-bool are_foes(const roads::Signal& signal, std::size_t left, std::size_t right) {
-    assert(left < signal.foes.size() && right < signal.foes.size());
-    return signal.foes[left][right] || signal.foes[right][left];
-}
-
 bool is_foe_of_any(const roads::Signal& signal, std::size_t link, const Links& links) {
     return std::ranges::any_of(links, [&](std::uint16_t other) { return are_foes(signal, link, other); });
 }
@@ -22,6 +17,11 @@ bool serves_all(const std::string& state, const Links& links) {
 }
 
 }  // namespace
+
+bool are_foes(const roads::Signal& signal, std::size_t left, std::size_t right) {
+    assert(left < signal.foes.size() && right < signal.foes.size());
+    return signal.foes[left][right] || signal.foes[right][left];
+}
 
 bool is_green_for(const std::string& state, std::size_t link) {
     return link < state.size() && traffic::is_green(state[link]);

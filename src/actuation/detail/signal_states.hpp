@@ -36,6 +36,8 @@ std::optional<std::uint32_t> green_phase(const roads::Signal& signal, const std:
 /// rings show what no single phase does): the shortest of the phases in which the link is green.
 double least_green_s(const roads::Signal& signal, std::uint16_t link, std::optional<std::uint32_t> phase);
 
+/// Whether two links conflict.
+bool are_foes(const roads::Signal& signal, std::size_t left, std::size_t right);
 /// Whether a link of `left` conflicts with one of `right`.
 bool conflict(const roads::Signal& signal, const Links& left, const Links& right);
 

@@ -24,6 +24,7 @@ std::vector<Sample> samples_of(const roads::Network& network, const roads::Signa
     double passed_m = 0.0;
     for (const core::LaneIndex lane : lanes_of_way(network, way)) {
         const double length_m = network.lane(lane).length_m;
+        samples.reserve(samples.size() + static_cast<std::size_t>(length_m / sampling_m) + 2);
         for (double at_m = 0.0; at_m < length_m + sampling_m; at_m += sampling_m) {
             const double on_lane_m = std::min(at_m, length_m);
             samples.push_back({network.point_at(lane, core::Metres(on_lane_m)), passed_m + on_lane_m});

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <map>
+#include <span>
+#include <utility>
 
 namespace clearway::policy::detail {
 namespace {
@@ -18,14 +19,15 @@ bool starts_on(const View& view, const roads::Signal& signal, std::size_t link, 
     });
 }
 
-void add_companions(const View& view, const std::vector<core::EdgeIndex>& edges, Approach& approach) {
+void add_companions(const View& view, std::span<const roads::StopLine> lines, Approach& approach) {
     const roads::Signal& signal = view.network().signal(approach.signal);
-    approach.links = approach.own_links;
     const auto link_count = static_cast<std::uint16_t>(signal.links.size());
+    approach.links.reserve(approach.own_links.size() + link_count);
+    approach.links = approach.own_links;
     assert(std::ranges::all_of(approach.own_links, [&](std::uint16_t own) { return own < link_count; }));
     for (std::uint16_t link = 0; link < link_count; ++link) {
         const bool on_approach = std::ranges::any_of(
-            edges, [&](core::EdgeIndex edge) { return starts_on(view, signal, link, edge); });
+            lines, [&](const roads::StopLine& line) { return starts_on(view, signal, link, line.edge); });
         const bool crosses = std::ranges::any_of(approach.own_links, [&](std::uint16_t own) {
             return signal.foes[link][own] || signal.foes[own][link];
         });
@@ -40,44 +42,46 @@ void add_companions(const View& view, const std::vector<core::EdgeIndex>& edges,
 std::vector<Approach> approaches(const View& view, const traffic::BelievedVehicle& vehicle,
                                  core::Metres horizon) {
     assert(view.is_on_route(vehicle));
+    const std::vector<roads::StopLine> lines =
+        roads::signals_ahead(view.network(), view.route_of(vehicle.key), vehicle.state, horizon);
     std::vector<Approach> found;
-    std::vector<std::vector<core::EdgeIndex>> edges;
-    for (const roads::StopLine& line :
-         roads::signals_ahead(view.network(), view.route_of(vehicle.key), vehicle.state, horizon)) {
-        if (line.links.empty()) continue;
-        const bool joined = !found.empty() && found.back().signal == line.signal &&
-                            line.distance.value - found.back().distance_m < joined_m;
-        if (!joined) {
-            found.push_back({line.signal, line.distance.value, {}, {}});
-            edges.emplace_back();
-        }
-        std::vector<std::uint16_t>& own = found.back().own_links;
-        own.insert(own.end(), line.links.begin(), line.links.end());
-        edges.back().push_back(line.edge);
-    }
-    for (std::size_t row = 0; row < found.size(); ++row) {
-        std::ranges::sort(found[row].own_links);
-        add_companions(view, edges[row], found[row]);
+    found.reserve(lines.size());
+    for (auto first = lines.begin(); first != lines.end();) {
+        const auto end = std::find_if(first, lines.end(), [&](const roads::StopLine& line) {
+            return line.signal != first->signal || line.distance.value - first->distance.value >= joined_m;
+        });
+        Approach& approach =
+            found.emplace_back(Approach{first->signal, first->distance.value, first->links, {}});
+        std::vector<std::uint16_t>& own = approach.own_links;
+        for (const roads::StopLine& line : std::span(first + 1, end))
+            own.insert(own.end(), line.links.begin(), line.links.end());
+        std::ranges::sort(own);
+        add_companions(view, {first, end}, approach);
+        first = end;
     }
     return found;
 }
 
 std::size_t queue_ahead(const View& view, const traffic::BelievedVehicle& vehicle, const Piece& piece,
                         double halted_mps) {
-    std::map<core::LaneIndex, std::size_t> by_lane;
-    for (const VehicleAhead& ahead : view.vehicles_ahead(vehicle, core::Metres(piece.to_m))) {
-        if (ahead.distance_m >= piece.from_m && ahead.vehicle->state.speed_mps < halted_mps)
-            ++by_lane[ahead.vehicle->state.lane];
-    }
-    std::map<core::EdgeIndex, std::size_t> by_edge;
-    for (const auto& [lane, count] : by_lane) {
-        std::size_t& longest = by_edge[view.network().lane(lane).edge];
-        longest = std::max(longest, count);
-    }
+    std::vector<VehicleAhead> halted = view.vehicles_ahead(vehicle, core::Metres(piece.to_m));
+    std::erase_if(halted, [&](const VehicleAhead& ahead) {
+        return ahead.distance_m < piece.from_m || ahead.vehicle->state.speed_mps >= halted_mps;
+    });
+    // The lanes of an edge follow each other.
+    const auto lane_of = [](const VehicleAhead& ahead) { return ahead.vehicle->state.lane; };
+    std::ranges::sort(halted, {}, lane_of);
     std::size_t sum = 0;
-    for (const auto& [edge, count] : by_edge)
-        sum += count;
-    return sum;
+    std::size_t longest = 0;
+    core::EdgeIndex edge;
+    for (auto at = halted.begin(); at != halted.end();) {
+        const auto on_lane = std::ranges::equal_range(at, halted.end(), lane_of(*at), {}, lane_of);
+        const core::EdgeIndex here = view.network().lane(lane_of(*at)).edge;
+        if (here != std::exchange(edge, here)) sum += std::exchange(longest, 0);
+        longest = std::max(longest, on_lane.size());
+        at = on_lane.end();
+    }
+    return sum + longest;
 }
 
 double free_travel_time_s(const View& view, const traffic::BelievedVehicle& vehicle, double distance_m) {

@@ -27,6 +27,7 @@ void LanePlan::find_columns(const View& view, const traffic::BelievedVehicle& em
     const roads::Edge& edge = view.network().edge(lane.edge);
     const roads::Route route = view.route_of(emergency.key);
     std::vector<roads::RouteStep> steps;
+    numbers_.reserve(edge.lane_count);
     for (std::uint32_t number = 0; number < edge.lane_count; ++number) {
         const bool is_own = number == lane.number;
         if (!is_own && (edge.internal || !view.may_use_lane(emergency, number))) continue;
@@ -34,50 +35,59 @@ void LanePlan::find_columns(const View& view, const traffic::BelievedVehicle& em
         traffic::MotionState start = emergency.state;
         start.lane = edge.internal ? emergency.state.lane : view.network().lane_of(lane.edge, number);
         roads::lanes_ahead(view.network(), route, start, core::Metres(horizon_m), steps);
+        rows_.reserve(steps.size() * edge.lane_count);
         for (const roads::RouteStep& step : steps)
-            column_of_.try_emplace(step.lane, numbers_.size());
+            rows_.emplace_back(step.lane, numbers_.size());
         numbers_.push_back(number);
     }
+    std::ranges::sort(rows_);
 }
 
-std::vector<std::vector<double>> LanePlan::costs(const PlanScene& scene, const LanePlanConfig& config) const {
-    std::vector<std::vector<double>> cost(plan_.size(), std::vector<double>(numbers_.size(), 0.0));
+std::optional<std::size_t> LanePlan::row_of(core::LaneIndex lane) const {
+    const auto found = std::ranges::lower_bound(rows_, std::pair(lane, std::size_t{0}));
+    if (found == rows_.end() || found->first != lane) return std::nullopt;
+    return found->second;
+}
+
+std::vector<double> LanePlan::costs(const PlanScene& scene, const LanePlanConfig& config) const {
+    std::vector<double> cost(plan_.size() * numbers_.size(), 0.0);
     const double free_mps = std::max(scene.view.allowed_speed(scene.emergency).value, slowest_limit_mps);
     for (const VehicleAhead& other : scene.ahead) {
-        const auto column = column_of_.find(other.vehicle->state.lane);
+        const auto column = row_of(other.vehicle->state.lane);
         const std::size_t cell = cell_of(other.distance_m);
-        if (column == column_of_.end() || cell >= cost.size()) continue;
+        if (!column || cell >= plan_.size()) continue;
         const double speed_mps = other.vehicle->state.speed_mps;
         double delay_s = config.slow_s * std::max(0.0, 1.0 - speed_mps / free_mps);
         if (speed_mps < config.halted_mps) delay_s = config.blocked_s;
-        cost[cell][column->second] +=
+        cost[at(cell, *column)] +=
             scene.audience.has(*other.vehicle) ? std::min(config.clears_s, delay_s) : delay_s;
     }
     return cost;
 }
 
 /// From the far end back: the least delay from each cell and column on.
-void LanePlan::choose(const std::vector<std::vector<double>>& cost, double change_s) {
-    assert(cost.size() == plan_.size());
+void LanePlan::choose(const std::vector<double>& cost, double change_s) {
     const std::size_t columns = numbers_.size();
-    std::vector<std::vector<double>> rest(cost.size() + 1, std::vector<double>(columns, 0.0));
-    std::vector<std::vector<std::size_t>> next(cost.size(), std::vector<std::size_t>(columns, 0));
-    for (std::size_t cell = cost.size(); cell-- > 0;) {
+    assert(cost.size() == plan_.size() * columns);
+    std::vector<double> rest(cost.size() + columns, 0.0);
+    std::vector<std::size_t> next(cost.size(), 0);
+    for (std::size_t cell = plan_.size(); cell-- > 0;) {
         for (std::size_t from = 0; from < columns; ++from) {
             double best = std::numeric_limits<double>::infinity();
             for (const std::size_t to : {from, from - 1, from + 1}) {
                 if (to >= columns) continue;  // from - 1 wraps round
-                const double total = (to == from ? 0.0 : change_s) + cost[cell][to] + rest[cell + 1][to];
+                const double total =
+                    (to == from ? 0.0 : change_s) + cost[at(cell, to)] + rest[at(cell + 1, to)];
                 if (total >= best) continue;
                 best = total;
-                next[cell][from] = to;
+                next[at(cell, from)] = to;
             }
-            rest[cell][from] = best;
+            rest[at(cell, from)] = best;
         }
     }
     std::size_t column = own_;
-    for (std::size_t cell = 0; cell < cost.size(); ++cell) {
-        column = next[cell][column];
+    for (std::size_t cell = 0; cell < plan_.size(); ++cell) {
+        column = next[at(cell, column)];
         plan_[cell] = column;
     }
 }
@@ -89,9 +99,8 @@ std::optional<std::uint32_t> LanePlan::column_at(double distance_m) const {
 }
 
 std::optional<std::uint32_t> LanePlan::column_of(core::LaneIndex lane) const {
-    const auto found = column_of_.find(lane);
-    if (found == column_of_.end()) return std::nullopt;
-    return numbers_[found->second];
+    const auto row = row_of(lane);
+    return row ? std::optional(numbers_[*row]) : std::nullopt;
 }
 
 std::optional<std::uint32_t> LanePlan::change_within(double distance_m) const {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/fields.hpp"
@@ -57,12 +57,17 @@ class LanePlan {
 
   private:
     void find_columns(const View& view, const traffic::BelievedVehicle& emergency, double horizon_m);
-    std::vector<std::vector<double>> costs(const PlanScene& scene, const LanePlanConfig& config) const;
-    void choose(const std::vector<std::vector<double>>& cost, double change_s);
+    std::vector<double> costs(const PlanScene& scene, const LanePlanConfig& config) const;
+    void choose(const std::vector<double>& cost, double change_s);
+    /// Place in a table of all cells and columns.
+    std::size_t at(std::size_t cell, std::size_t column) const { return cell * numbers_.size() + column; }
+    /// Row of the column that a lane belongs to.
+    std::optional<std::size_t> row_of(core::LaneIndex lane) const;
 
     std::size_t own_ = 0;                 ///< Row of the present lane in `numbers_`.
     std::vector<std::uint32_t> numbers_;  ///< Lane numbers of the columns, ascending.
-    std::map<core::LaneIndex, std::size_t> column_of_;
+    /// Of columns, by lane; the first of a lane counts.
+    std::vector<std::pair<core::LaneIndex, std::size_t>> rows_;
     std::vector<std::size_t> plan_;  ///< Column by cell.
 };
 

@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "roads/way_ahead.hpp"
 
 namespace clearway::policy::detail {
+namespace {
+
+/// Vehicles on a way ahead that need one allocation.
+constexpr std::size_t usually_ahead = 32;
+
+}  // namespace
 
 roads::Route View::route_of(core::VehicleKey vehicle) const {
     const traffic::VehicleInfo* info = belief_.roster->find(vehicle);
@@ -25,6 +32,7 @@ bool View::is_on_route(const traffic::BelievedVehicle& vehicle) const {
 std::vector<traffic::BelievedVehicle> View::emergency_vehicles() const {
     assert(std::ranges::is_sorted(belief_.own_states, {}, &traffic::BelievedVehicle::key));
     std::vector<traffic::BelievedVehicle> found;
+    found.reserve(belief_.own_states.size());
     for (const traffic::BelievedVehicle& own : belief_.own_states) {
         if (is_on_route(own)) found.push_back(own);
     }
@@ -70,9 +78,12 @@ std::vector<VehicleAhead> View::vehicles_ahead(const traffic::BelievedVehicle& v
         if (other.key == vehicle.key || !other.state.lane.exists()) continue;
         if (!way) way.emplace(network_, route_of(vehicle.key), vehicle.state, horizon);
         const auto distance = way->distance_to(other.state);
-        if (distance) ahead.push_back({&other, distance->value});
+        if (!distance) continue;
+        if (ahead.empty()) ahead.reserve(usually_ahead);
+        ahead.push_back({&other, distance->value});
     }
-    std::ranges::stable_sort(ahead, {}, &VehicleAhead::distance_m);
+    std::ranges::sort(ahead, {},
+                      [](const VehicleAhead& one) { return std::pair(one.distance_m, one.vehicle); });
     return ahead;
 }
 

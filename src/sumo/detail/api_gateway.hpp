@@ -167,10 +167,11 @@ class ApiGateway : public Sumo {
 
     std::vector<BestLane> best_lanes(const std::string& vehicle) override {
         return call([&] {
+            auto known = api::Vehicle::getBestLanes(vehicle);
             std::vector<BestLane> lanes;
-            for (const auto& lane : api::Vehicle::getBestLanes(vehicle)) {
-                lanes.push_back({lane.laneID, lane.length, lane.bestLaneOffset});
-            }
+            lanes.reserve(known.size());
+            for (auto& lane : known)
+                lanes.push_back({std::move(lane.laneID), lane.length, lane.bestLaneOffset});
             return lanes;
         });
     }
