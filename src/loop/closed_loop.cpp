@@ -13,11 +13,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 }  // namespace
+
+/// Divides the time of a step among its phases.
+class ClosedLoop::Stopwatch {
+  public:
+    /// Adds the time since the last call.
+    void lap(double& phase_s) {
+        const Clock::time_point now = Clock::now();
+        phase_s += std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+    }
+
+  private:
+    Clock::time_point last_ = Clock::now();
+};
 
 void ClosedLoop::begin(const experiment::ConditionSpec& condition, const ControllerContext& context) {
     assert(!controller_ && "one condition a run");
@@ -108,10 +118,14 @@ metrics::LeaseTotals ClosedLoop::finish() {
 }
 
 void ClosedLoop::step() {
-    const auto started = Clock::now();
+    Stopwatch whole;
+    Stopwatch watch;
     session_.step();
+    const double step_s = session_.step_wall_time().value;
+    watch.lap(timing_.phases.reading_s);
+    timing_.phases.reading_s -= step_s;
     const truth::Snapshot& snapshot = session_.snapshot();
-    const bool decided = control(snapshot);
+    const bool decided = control(snapshot, watch);
     if (incidents_) incidents_->step(session_);
     std::span<const traffic::Lease> leases;
     if (controller_) leases = controller_->chain().leases();
@@ -121,12 +135,13 @@ void ClosedLoop::step() {
 
     ++timing_.steps;
     timing_.vehicle_steps += snapshot.size();
-    const double step_s = session_.step_wall_time().value;
+    watch.lap(timing_.phases.recording_s);
     timing_.simulator_s += step_s;
-    timing_.coupling_s += seconds_since(started) - step_s;
+    whole.lap(timing_.coupling_s);
+    timing_.coupling_s -= step_s;
 }
 
-bool ClosedLoop::control(const truth::Snapshot& snapshot) {
+bool ClosedLoop::control(const truth::Snapshot& snapshot, Stopwatch& watch) {
     const auto tell = [&] {
         if (listener_ != nullptr) listener_->on_step(snapshot, session_.roster());
     };
@@ -135,22 +150,31 @@ bool ClosedLoop::control(const truth::Snapshot& snapshot) {
         return false;
     }
     auto observed = controller_->observe(snapshot, session_.roster());
+    watch.lap(timing_.phases.sensing_s);
     tell();
+    watch.lap(timing_.phases.recording_s);
     const pipeline::DecisionChain& chain = controller_->chain();
     // Links are scored at reports.
     const bool others_read_links = listener_ != nullptr || chain.observation().is_report;
     auto decided = controller_->decide(
         std::move(observed), others_read_links ? prediction::Want::links : prediction::Want::places);
     const bool has_decision = decided.has_decision();
+    watch.lap(timing_.phases.policy_s);
+    if (has_decision) {
+        timing_.phases.prediction_s += chain.prediction_wall_time().value;
+        timing_.phases.policy_s -= chain.prediction_wall_time().value;
+    }
     if (has_decision && dispatcher_ != nullptr) dispatcher_->see(chain.belief());
     if (has_decision && chain.observation().is_report) {
         true_links_.look(snapshot);
         recorder_.links(snapshot, true_links_, chain.belief());
     }
+    watch.lap(timing_.phases.recording_s);
     commands_.clear();
     auto acted = controller_->act(std::move(decided), session_, commands_);
     session_.apply(commands_);
     controller_->answer(std::move(acted));
+    watch.lap(timing_.phases.actuation_s);
     return has_decision;
 }
 

@@ -13,6 +13,7 @@
 #include "loop/incidents.hpp"
 #include "loop/trials.hpp"
 #include "metrics/recorder.hpp"
+#include "results/record.hpp"
 #include "sumo/session.hpp"
 #include "trace/step_listener.hpp"
 
@@ -23,6 +24,7 @@ struct LoopTiming {
     double simulator_s = 0.0;  ///< SUMO's own step.
     /// Everything else: reading, sensing, graph, prediction, policy, commands, metrics.
     double coupling_s = 0.0;
+    results::PhaseTimes phases;  ///< Of `coupling_s`.
     std::uint64_t steps = 0;
     std::uint64_t vehicle_steps = 0;
 };
@@ -92,9 +94,11 @@ class ClosedLoop {
     const LoopTiming& timing() const { return timing_; }
 
   private:
+    class Stopwatch;
+
     void step();
     /// The controller's part of a step. Returns whether a decision was made.
-    bool control(const truth::Snapshot& snapshot);
+    bool control(const truth::Snapshot& snapshot, Stopwatch& watch);
     void tell_listener(const truth::Snapshot& snapshot, bool decided);
     /// Those that are loaded and have not arrived.
     double others_under_way() const;

@@ -7,10 +7,8 @@
 namespace clearway::loop {
 namespace {
 
-long peak_kib() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_maxrss;
+double seconds_of(const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
 }  // namespace
@@ -43,7 +41,13 @@ results::RunTiming timing_of(const LoopTiming& spent, std::chrono::steady_clock:
     results::RunTiming timing;
     timing.simulator_s = spent.simulator_s;
     timing.coupling_s = spent.coupling_s;
-    timing.peak_kib = peak_kib();
+    timing.phases = spent.phases;
+    timing.steps = spent.steps;
+    timing.vehicle_steps = spent.vehicle_steps;
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    timing.peak_kib = usage.ru_maxrss;
+    timing.processor_s = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
     timing.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     return timing;
 }

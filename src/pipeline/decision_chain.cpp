@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <cmath>
 
 #include "experiment/equipped_signals.hpp"
@@ -110,7 +111,10 @@ void DecisionChain::decide(prediction::Want want) {
     decisions_ = static_cast<std::uint64_t>(
                      std::floor((observation_.time.value + core::clock_tolerance_s) / period_s_)) +
                  1;
+    const auto started = std::chrono::steady_clock::now();
     predictor_->predict(observation_, belief_, std::max(want, policies_want_));
+    prediction_wall_time_ =
+        core::Seconds(std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count());
     if (shown_) belief_.signals = *shown_;
     belief_.incidents = observation_.incidents;
     exchange_messages();

@@ -70,6 +70,8 @@ class DecisionChain {
     const prediction::Predictor& predictor() const { return *predictor_; }
     /// Belief of the last decision.
     const traffic::BelievedGraph& belief() const { return belief_; }
+    /// That the belief of the last decision took.
+    core::Seconds prediction_wall_time() const { return prediction_wall_time_; }
     /// Leases of the last decision; empty when no decision was made in this step.
     std::span<const traffic::Lease> leases() const { return leases_; }
 
@@ -96,6 +98,7 @@ class DecisionChain {
     std::uint64_t decisions_ = 0;
     traffic::Observation observation_;
     traffic::BelievedGraph belief_;
+    core::Seconds prediction_wall_time_;
     std::vector<traffic::Lease> leases_;
     std::unique_ptr<SignalRadio> radio_;
     std::vector<policy::SignalMessages*> talkers_;  ///< Parts of `policies_`.

@@ -38,6 +38,27 @@ struct RunRecord {
     bool operator==(const RunRecord&) const = default;
 };
 
+/// Wall time of the parts of the loop beside SUMO's steps, s.
+struct PhaseTimes {
+    double reading_s = 0.0;     ///< SUMO's state.
+    double sensing_s = 0.0;     ///< What sensors observe.
+    double prediction_s = 0.0;  ///< The believed graph.
+    double policy_s = 0.0;      ///< Messages to signals, and leases.
+    double actuation_s = 0.0;   ///< Requests, commands, and drivers.
+    double recording_s = 0.0;   ///< Measures, incidents, and whoever listens.
+
+    static constexpr void fields(const auto& table) {
+        using T = PhaseTimes;
+        using core::Field;
+        table(Field{"reading_s", "s", &T::reading_s, 0.0, 1e9, "Reading SUMO's state", ""},
+              Field{"sensing_s", "s", &T::sensing_s, 0.0, 1e9, "What sensors observe", ""},
+              Field{"prediction_s", "s", &T::prediction_s, 0.0, 1e9, "The believed graph", ""},
+              Field{"policy_s", "s", &T::policy_s, 0.0, 1e9, "Policies", ""},
+              Field{"actuation_s", "s", &T::actuation_s, 0.0, 1e9, "Requests, commands, and drivers", ""},
+              Field{"recording_s", "s", &T::recording_s, 0.0, 1e9, "Measures, and whoever listens", ""});
+    }
+};
+
 /// What a run cost. Kept apart from the record because it differs from machine to machine.
 struct RunTiming {
     double wall_s = 0.0;
@@ -45,6 +66,11 @@ struct RunTiming {
     double coupling_s = 0.0;   ///< Everything else in the loop.
     long peak_kib = 0;
     std::string made_at;  ///< UTC, set when it is written.
+    // From here on written but not read back.
+    double processor_s = 0.0;  ///< Of the process.
+    PhaseTimes phases;         ///< Of `coupling_s`.
+    std::uint64_t steps = 0;
+    std::uint64_t vehicle_steps = 0;  ///< Vehicles on the road, summed over these steps.
 
     static constexpr void fields(const auto& table) {
         using T = RunTiming;

@@ -211,6 +211,10 @@ std::vector<metrics::VehicleRow> vehicles_from_csv(const std::string& text, cons
 std::string timing_to_json(const RunTiming& timing) {
     core::Json object;
     core::write_fields(object, timing);
+    object["processor_s"] = timing.processor_s;
+    core::write_fields(object["phases"], timing.phases);
+    object["steps"] = timing.steps;
+    object["vehicle_steps"] = timing.vehicle_steps;
     object["made_at"] = timing.made_at;
     return core::to_text(object);
 }
