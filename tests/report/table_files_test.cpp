@@ -408,6 +408,9 @@ TEST(FigureFiles, HaveTheGridOfFactorsWithItsIntervals) {
     const auto typeset = [&] { return text_of(folder.path() / "factors-emergency-grid.tex"); };
     EXPECT_THAT(typeset(),
                 AllOf(HasSubstr("\\num{-4.5}]\\,? "), HasSubstr("; ? shown alone, not among so many")));
+    study.scenarios[0].conditions.back().least_relevant_s = 10.0;
+    write_figures(study, folder.path());
+    EXPECT_THAT(typeset(), HasSubstr("\\num{-4.5}]\\,? ")) << "also where it is below what counts";
     study.scenarios[0].conditions.back().condition.policies = {"check_in_out"};
     study.scenarios[0].conditions.back().condition.failure = "Q50";
     write_figures(study, folder.path());

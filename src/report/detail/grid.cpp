@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/terminal.hpp"
+#include "report/text.hpp"
 
 namespace clearway::report::detail {
 namespace {
@@ -39,6 +40,17 @@ std::string style_of(GridCell::Tone tone) {
             break;
     }
     return "cell empty";
+}
+
+const char* alone_mark(const MaybeEstimate& difference, const std::optional<double>& holm_p) {
+    const analysis::Interval* const interval = shown_interval(difference);
+    const bool is_clear = interval != nullptr && !interval->contains(0.0);
+    return is_clear && holm_p && *holm_p > 1.0 - analysis::usual_level ? shown_alone : "";
+}
+
+const char* alone_mark(const ConditionFacts& condition, Measure measure) {
+    const auto& comparison = condition.outcome(measure).comparison;
+    return comparison ? alone_mark(comparison->difference, comparison->holm_p) : "";
 }
 
 namespace {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "report/detail/canvas.hpp"
+#include "report/facts.hpp"
 
 namespace clearway::report::detail {
 
@@ -20,6 +22,9 @@ std::string style_of(GridCell::Tone tone);
 /// Behind a difference whose interval excludes 0, but not with Holm's correction, and what legends say of it.
 inline constexpr const char* shown_alone = " ?";
 inline constexpr const char* shown_alone_words = "? shown alone, not among so many comparisons (Holm)";
+/// That mark where it belongs, however small the difference; else empty.
+const char* alone_mark(const MaybeEstimate& difference, const std::optional<double>& holm_p);
+const char* alone_mark(const ConditionFacts& condition, Measure measure);
 
 /// Rows of coloured cells under headings. Every row has a cell for each column.
 struct Grid {

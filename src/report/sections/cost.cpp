@@ -67,8 +67,8 @@ GridCell cost_cell(const ConditionFacts& condition, const std::string& edge) {
     const analysis::Interval* const interval = shown_interval(found->difference);
     const bool better = interval != nullptr && interval->high < 0.0 && !condition.objections.on_others();
     const bool worse = interval != nullptr && interval->low > 0.0;
-    const bool is_alone = (better || worse) && found->holm_p && *found->holm_p > 1.0 - analysis::usual_level;
-    return {number(found->difference->mean, typeset(0, Sign::always)) + (is_alone ? shown_alone : ""),
+    return {number(found->difference->mean, typeset(0, Sign::always)) +
+                alone_mark(found->difference, found->holm_p),
             better  ? GridCell::Tone::better
             : worse ? GridCell::Tone::worse
                     : GridCell::Tone::neutral,

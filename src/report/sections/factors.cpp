@@ -113,7 +113,7 @@ constexpr const char* unsent_words = "(n/a) it sends no message that could be lo
 
 const char* mark_of(const ConditionFacts& condition, Measure measure) {
     if (!is_judged_by_messages(condition)) return unsent;
-    return is_shown_alone(condition, measure) ? shown_alone : "";
+    return alone_mark(condition, measure);
 }
 
 GridCell cell_of(const Made& made, Measure measure) {
