@@ -169,7 +169,12 @@ TEST(Looks, make_the_condition_of_the_headline_the_most_prominent) {
 }
 
 TEST(Differences, of_many_conditions_have_a_figure_for_each_measure) {
-    EXPECT_THAT(figure_of(tests::page_of(crowd(6)), "differences-merge"), HasSubstr("EV waiting time"));
+    StudyFacts few = crowd(6);
+    EXPECT_THAT(figure_of(tests::page_of(few), "differences-merge"),
+                AllOf(HasSubstr("EV waiting time"), Not(HasSubstr("Holm"))));
+    tests::comparison(few.scenarios[0].conditions[1], Measure::emergency_waiting_time).holm_p = 0.2;
+    EXPECT_THAT(figure_of(tests::page_of(few), "differences-merge"),
+                AllOf(HasSubstr("] ?</text>"), HasSubstr(">? shown alone, not among so many")));
     const std::string page = tests::page_of(crowd(7));
     EXPECT_THAT(page, Not(HasSubstr("<figure id=\"differences-merge\">")));
     for (const char* const measure :

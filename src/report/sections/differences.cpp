@@ -8,6 +8,7 @@
 
 #include "report/detail/axes.hpp"
 #include "report/detail/figures.hpp"
+#include "report/detail/grid.hpp"
 #include "report/sections/sections.hpp"
 
 namespace clearway::report::detail {
@@ -30,12 +31,14 @@ Range forest_range(const ScenarioFacts& scenario) {
     return range;
 }
 
-void draw_forest_row(Plot& plot, const ConditionFacts& condition, const MaybeEstimate& difference, double top,
+void draw_forest_row(Plot& plot, const ConditionFacts& condition, Measure measure, double top,
                      const Series& series) {
+    const MaybeEstimate& difference = condition.difference(measure);
     plot.text(10.0, top + 11.0, condition.label(), Plot::Anchor::start,
               series.weight == Series::Weight::lead ? "label lead" : "label");
-    plot.text(right_edge, top + 26.0, estimate(difference, typeset(1, Sign::always)), Plot::Anchor::end,
-              "value");
+    plot.text(right_edge, top + 26.0,
+              estimate(difference, typeset(1, Sign::always)) + alone_mark(condition, measure),
+              Plot::Anchor::end, "value");
     plot.estimate(difference, shown_interval(difference), top + 22.0, series);
 }
 
@@ -74,16 +77,19 @@ Figure forest_figure(const ScenarioFacts& scenario, const Looks& looks, std::spa
     plot.grid_x();
     plot.vertical(0.0);
     double top = 6.0;
+    bool is_marked = false;
     for (const Measure measure : measures) {
         plot.text(10.0, top + 18.0, info(measure).title, Plot::Anchor::start, "heading");
         top += heading_height;
         for (std::size_t row = 0; row < scenario.conditions.size(); ++row) {
             const ConditionFacts& condition = scenario.conditions[row];
             if (!condition.is_compared()) continue;
-            draw_forest_row(plot, condition, condition.difference(measure), top, looks[row]);
+            draw_forest_row(plot, condition, measure, top, looks[row]);
+            is_marked = is_marked || *alone_mark(condition, measure) != '\0';
             top += row_height;
         }
     }
+    if (is_marked) plot.legend({{"", shown_alone_words}});
     return {name, scenario.name, plot.finish(), "", forest_data(scenario, measures)};
 }
 
