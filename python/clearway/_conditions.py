@@ -96,7 +96,7 @@ class Conditions:
         if found:
             return found.pop()
         known = self.names if len(self.names) <= _program.MOST_LISTED else [*self.names, *self.titles]
-        there = hint or _program.there_are(given, known, "name", 'set(results.runs["condition"])', len(self.names))
+        there = hint or _program.there_are(given, known, "title", 'set(results.runs["title"])', len(self.names))
         raise _program.InputError(f"the study has no condition {given!r}{there}")
 
     def _titled(self, title: str) -> set[str]:

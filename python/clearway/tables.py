@@ -30,7 +30,8 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
     """A table as numpy arrays by column. Read-only; columns carry their units in their names (``emergency_travel_time_s``).
 
     ``table["collisions"]`` is a column, ``table[["condition", "collisions"]]`` a table of some,
-    ``table[table["collisions"] > 0]`` one of some rows, ``row_count`` the number of rows.
+    ``table[table["collisions"] > 0]`` one of some rows, ``row_count`` the number of rows. ``table["title"]`` is what tables call
+    the conditions.
     Numbers are ``float64`` or, where all are whole and none is missing, ``int64``; a missing number is NaN. Texts are arrays of
     ``str``, a missing text is ``""``. Printed, it shows the first rows and as many columns as the terminal is wide.
     """
@@ -55,10 +56,20 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
             return self._like({name: self[name] for name in column}, column)
         if isinstance(column, np.ndarray):
             return self._like({name: array[self._mask(column)] for name, array in self._columns.items()})
+        if column == "title" and (titles := self._titles()) is not None:
+            return titles
         try:
             return self._columns[column]
         except (KeyError, TypeError):
             raise _program.InputError(self._without(column)) from None
+
+    def _titles(self) -> np.ndarray | None:
+        """What tables call the condition of each row, where it is no column already; none in a table without conditions."""
+        if "title" in self._columns or "condition" not in self._columns or self._conditions is None:
+            return None
+        names = self._columns["condition"].tolist()
+        titles = {name: self._conditions.title_of(name) for name in set(names)}
+        return np.array([titles[name] for name in names], dtype=str)
 
     def _mask(self, mask: np.ndarray) -> np.ndarray:
         if mask.dtype != bool or mask.shape != (self.row_count,):
@@ -144,9 +155,8 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
             raise _program.EnvironmentFault("pandas is not installed (Debian: python3-pandas); tables are numpy arrays without it"
                                             ) from error
         frame = pandas.DataFrame(self._columns)
-        if "condition" in self._columns and self._conditions is not None:
-            titles = {name: self._conditions.title_of(name) for name in set(self._columns["condition"].tolist())}
-            frame.insert(frame.columns.get_loc("condition") + 1, "title", frame["condition"].map(titles))
+        if (titles := self._titles()) is not None:
+            frame.insert(frame.columns.get_loc("condition") + 1, "title", titles)
         return frame
 
     def head(self, count: int = 5, *columns: str) -> "Table":
@@ -194,7 +204,7 @@ class Table(_program.Told, Mapping[str, np.ndarray]):
         for name in order:
             array = self._columns[name][:SHOWN_ROWS]
             heading = name
-            if name == "condition" and self._conditions is not None and any("+" in value for value in array.tolist()):
+            if name == "condition" and "title" not in order and self._conditions is not None and any("+" in value for value in array.tolist()):
                 heading = "title"
                 array = np.array([self._conditions.title_of(value) if "+" in value else value for value in array.tolist()], dtype=str)
             gap = 2 * bool(shown)

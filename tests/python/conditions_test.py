@@ -61,7 +61,13 @@ class ConditionsTest(FolderCase):
             self.assertAlmostEqual(found.difference, self.mean(ours, other), places=9)
         self.assertEqual(self.results.paired_differences(self.metric, "Ours, B10"), self.results.paired_differences(self.metric, ours))
         self.assertEqual(set(self.results.runs.where(condition="Ours, B10")["condition"]), {ours})
-        self.assertEqual(set(self.results.runs.where(title="Ours, B10")["condition"]), {ours})
+        runs = self.results.runs
+        chosen = runs.where(title="Ours, B10")
+        self.assertEqual(set(chosen["condition"]), {ours})
+        self.assertEqual(set(chosen["title"]), {"Ours, B10"})
+        self.assertEqual(set(runs[runs["title"] == "Ours, B10"]["condition"]), {ours})
+        shown = str(runs.head(2, "title")).splitlines()
+        self.assertEqual(shown[0].split().count("title"), 1, shown)
         self.assertIn("Did you mean 'condition'?", self.message_of(clearway.InputError, lambda: self.results.runs.where(condtion="corridor")))
         self.assertEqual(self.results.vehicles.where(condition="Ours, B10").row_count, self.results.vehicles.where(condition=ours).row_count)
         self.assertIn(f"intersection/{ours}/00000.h5: cannot be read",
@@ -147,7 +153,7 @@ class ConditionsTest(FolderCase):
     def test_what_chooses_no_condition_or_several_is_told(self) -> None:
         difference, policy, failure = self.results.paired_difference, "condition.policy", "condition.failure"
         for given, says in (("Our, B10", "no condition 'Our, B10'. Did you mean 'Ours, B10'"), ("B10", "no condition 'B10'. Did you mean"),
-                            ("xyzzy", "no condition 'xyzzy'. It has baseline, "),
+                            ("xyzzy", "no condition 'xyzzy'. It has baseline, "), ("xyzzy", 'set(results.runs["title"]) names all 7 titles'),
                             ({policy: "corridor"}, "chooses 2 conditions: policy+failure=perfect+policy=corridor, policy+failure=B10"),
                             ({policy: "coridor"}, "no condition.policy 'coridor'; it has corridor, preempt_signals, check_in_out. Did you mean"),
                             ({policy: 3}, "no condition.policy 3"), ({"policy": "corridor"}, "chooses 2 conditions: policy+failure=perfect+"),
