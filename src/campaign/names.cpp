@@ -113,15 +113,17 @@ const std::string* level_of(const std::string& given, const std::vector<std::str
 
 }  // namespace
 
-std::string condition_called(const std::string& word, const results::Store& store) {
+std::string condition_called(const std::string& word, const results::Store& store, const std::string& where) {
     const core::Settings titles = report::titles_of(store);
     if (word.empty() || titles.contains(word)) return word;
     const auto titled = std::ranges::find(titles, word, [](const auto& title) { return title.second; });
     if (titled != titles.end()) return titled->first;
     const auto shown = core::texts_of(titles, [](const auto& title) { return title.second; });
+    const auto names = core::texts_of(titles, [](const auto& title) { return title.first; });
     core::Problem problem =
-        unknown_name("--condition", word, shown, "clearway study status " + store.folder().string());
+        unknown_name(where, word, shown, "clearway study status " + store.folder().string());
     if (!problem.allowed.empty()) problem.allowed = fmt::format("{}", fmt::join(shown, "; "));
+    problem.cure = core::did_you_mean(word, names, problem.cure);
     throw core::InputError(std::move(problem));
 }
 

@@ -17,9 +17,10 @@ core::Problem unknown_name(const std::string& where, const std::string& name,
                            const std::vector<std::string>& known,
                            const std::string& listed_by = "clearway list");
 
-/// The name of the condition of a run folder that `--condition` calls by its name or its title; empty for an
-/// empty word. Throws core::InputError for others.
-std::string condition_called(const std::string& word, const results::Store& store);
+/// The name of the condition of a run folder that a word at `where` calls by its name or its title; empty for
+/// an empty word. Throws core::InputError for others.
+std::string condition_called(const std::string& word, const results::Store& store,
+                             const std::string& where = "--condition");
 
 /// What `--against` names: nothing, a condition or its title, or levels of factors, `policy=corridor` or
 /// `condition.policy=corridor,condition.failure=B10`. Throws core::InputError for what the study does not

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "campaign/names.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/own_output.hpp"
@@ -102,7 +103,7 @@ core::ExitCode write_replay_page(const ReplayPage& page) {
     std::vector<experiment::RunKey> keys;
     std::string title;
     for (const std::string& run : page.runs) {
-        recordings.push_back(results::recording_named(run, "RUN"));
+        recordings.push_back(results::recording_named(run, "RUN", condition_called));
         const trace::RecordingInfo& info = recordings.back().reader->info();
         require_one_network(recordings.front().reader->info(), info);
         say_other_traffic(recordings.front().reader->info(), info);

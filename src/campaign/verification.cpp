@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "campaign/names.hpp"
 #include "campaign/printout.hpp"
 #include "campaign/programs.hpp"
 #include "campaign/signal_audit.hpp"
@@ -101,7 +102,7 @@ struct Chosen {
 };
 
 Chosen chosen_run(const std::string& name) {
-    results::NamedRun run = results::run_named(name, "RUN");
+    results::NamedRun run = results::run_named(name, "RUN", condition_called);
     if (run.store.complete(run.key)) return {std::move(run.store), {run.key}};
     const auto failure = run.store.read_error(run.key);
     throw core::Error(core::ExitCode::incomplete,

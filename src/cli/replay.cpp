@@ -303,7 +303,8 @@ core::ExitCode replay_file(ReplayArguments arguments) {
     if (arguments.runs.size() != 1)
         throw core::InputError(
             {"RUN", fmt::format("{} runs are named", arguments.runs.size()), "one run; two with --view", ""});
-    const results::NamedRecording named = results::recording_named(arguments.runs.front(), "RUN");
+    const results::NamedRecording named =
+        results::recording_named(arguments.runs.front(), "RUN", campaign::condition_called);
     arguments.file = named.file;
     trace::RecordingReader& recording = *named.reader;
     if (!arguments.table.empty()) return print_table(recording, arguments);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "campaign/names.hpp"
 #include "cli/detail/app.hpp"
 #include "cli/verb.hpp"
 #include "core/counted.hpp"
@@ -25,7 +26,8 @@ struct TrajectoriesArguments {
 };
 
 core::ExitCode write(const TrajectoriesArguments& arguments) {
-    const results::NamedRecording named = results::recording_named(arguments.run, "RUN");
+    const results::NamedRecording named =
+        results::recording_named(arguments.run, "RUN", campaign::condition_called);
     trace::RecordingReader& recording = *named.reader;
     const experiment::RunKey key = recording.info().key;
     const experiment::ConditionSpec condition = recording.info().condition;

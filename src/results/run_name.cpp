@@ -1,6 +1,7 @@
 #include "results/run_name.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -48,15 +49,6 @@ std::optional<Parts> parts_of(const std::string& name) {
     return parts;
 }
 
-template <class Entry>
-void require_known(const std::string& where, const std::string& name, const std::vector<Entry>& entries,
-                   std::vector<core::Problem>& problems) {
-    const std::vector<std::string> known = core::texts_of(entries, &Entry::name);
-    if (std::ranges::find(known, name) != known.end()) return;
-    problems.push_back({where, fmt::format("`{}` is not in this study", name), core::listed(known),
-                        core::did_you_mean(name, known)});
-}
-
 }  // namespace
 
 std::string run_name(const fs::path& folder, const experiment::RunKey& key) {
@@ -68,7 +60,7 @@ bool names_a_run(const std::string& text) {
     return parts && is_run_folder(parts->folder);
 }
 
-NamedRun run_named(const std::string& name, const std::string& where) {
+NamedRun run_named(const std::string& name, const std::string& where, const ConditionCalled& called) {
     const std::optional<Parts> parts = parts_of(name);
     if (!parts || !is_run_folder(parts->folder))
         throw core::InputError(
@@ -76,11 +68,18 @@ NamedRun run_named(const std::string& name, const std::string& where) {
              parts ? fmt::format("`{}` is not a run: {} is not a run folder", name, parts->folder.string())
                    : fmt::format("`{}` is not a run", name),
              run_name_form, "for example runs/city-1a2b3c/city/corridor/0"});
-    NamedRun run{Store::open(parts->folder), {parts->scenario, parts->condition, 0}};
+    NamedRun run{Store::open(parts->folder), {parts->scenario, {}, 0}};
     const Manifest& manifest = run.store.manifest();
     std::vector<core::Problem> problems;
-    require_known(name + ": scenario", parts->scenario, manifest.scenarios, problems);
-    require_known(name + ": condition", parts->condition, manifest.conditions, problems);
+    const std::vector<std::string> known = core::texts_of(manifest.scenarios, &ScenarioEntry::name);
+    if (std::ranges::find(known, parts->scenario) == known.end())
+        problems.push_back({name + ": scenario", fmt::format("`{}` is not in this study", parts->scenario),
+                            core::listed(known), core::did_you_mean(parts->scenario, known)});
+    try {
+        run.key.condition = called(parts->condition, run.store, name + ": condition");
+    } catch (const core::InputError& error) {
+        std::ranges::copy(error.problems(), std::back_inserter(problems));
+    }
     const std::optional<std::uint32_t> number = core::number_from<std::uint32_t>(parts->number);
     if (number && *number < manifest.replications) {
         run.key.replication = *number;
@@ -92,13 +91,14 @@ NamedRun run_named(const std::string& name, const std::string& where) {
     return run;
 }
 
-NamedRecording recording_named(const std::string& name, const std::string& where) {
+NamedRecording recording_named(const std::string& name, const std::string& where,
+                               const ConditionCalled& called) {
     const auto open = [](const fs::path& file) {
         return NamedRecording{fs::absolute(file).lexically_normal(),
                               std::make_unique<trace::RecordingReader>(file)};
     };
     if (fs::is_regular_file(name)) return open(name);
-    const NamedRun run = run_named(name, where);
+    const NamedRun run = run_named(name, where, called);
     const fs::path file = trace::recording_file(run.store.folder(), run.key);
     if (!fs::exists(file))
         throw core::InputError(

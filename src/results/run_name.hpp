@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -24,10 +25,14 @@ struct NamedRun {
     experiment::RunKey key;
 };
 
+/// Returns the name of the condition that a word calls; throws core::InputError, which names the third, for
+/// others.
+using ConditionCalled = std::function<std::string(const std::string&, const Store&, const std::string&)>;
+
 /// The run that `name` means. Throws core::InputError: naming `where` (an option or argument) for text that
 /// is not a run's name, and naming the run for an unknown scenario, condition or replication, with the
 /// nearest.
-NamedRun run_named(const std::string& name, const std::string& where);
+NamedRun run_named(const std::string& name, const std::string& where, const ConditionCalled& called);
 
 /// A recording, opened: its whole content is hashed then, so it is opened once.
 struct NamedRecording {
@@ -38,6 +43,7 @@ struct NamedRecording {
 /// The recording of a run, given by the run's name or as the file itself. Throws core::InputError as above,
 /// for a run that was not recorded, and for the recording of another run in its place; otherwise as
 /// RecordingReader.
-NamedRecording recording_named(const std::string& name, const std::string& where);
+NamedRecording recording_named(const std::string& name, const std::string& where,
+                               const ConditionCalled& called);
 
 }  // namespace clearway::results

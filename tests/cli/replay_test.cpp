@@ -339,6 +339,14 @@ TEST_F(ReplayTest, a_run_has_one_name_for_every_verb) {
     const Ended written = clearway({"export", "trajectories", run_of_mine, "--out", "ways"});
     EXPECT_EQ(written.code, 0) << written.err;
     EXPECT_THAT(written.out, StartsWith(run_of_mine + ": "));
+    ASSERT_EQ(clearway({"verify", "out/line/Ours, by title/0"}).code, 3);
+    write("out/titles.json", R"({"mine":"Ours, by title"})");
+    const Ended titled = clearway({"export", "trajectories", "out/line/Ours, by title/0", "--out", "titled"});
+    EXPECT_EQ(titled.code, 0) << titled.err;
+    EXPECT_EQ(titled.out.substr(0, titled.out.find(':')), run_of_mine);
+    EXPECT_EQ(clearway({"replay", "out/line/Ours, by title/0"}).code, 0);
+    EXPECT_EQ(clearway({"replay", "out/line/Ours, by title/0", "--view"}).code, 0);
+    EXPECT_EQ(clearway({"verify", "out/line/Ours, by title/0"}).code, 0);
     for (const std::string verb : {"replay", "verify", "export trajectories"}) {
         const auto of = [&](const char* run) {
             return verb.starts_with("export") ? std::vector<std::string>{"export", "trajectories", run}
