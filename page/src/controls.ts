@@ -80,7 +80,7 @@ export class LeaseList {
   show(state: FrameState): void {
     if (state.leases === this.written) return;
     this.written = state.leases;
-    this.title.textContent = `${this.track.title}: ${state.leases.length} leases in force`;
+    this.title.textContent = `${this.track.title}: ${state.leases.length} ${state.leases.length === 1 ? "lease" : "leases"} in force`;
     this.list.replaceChildren(
       ...state.leases.slice(0, mostListed).map((lease) => element("li", "", leaseText(lease, this.track, this.signalId))),
     );

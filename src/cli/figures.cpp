@@ -117,10 +117,9 @@ core::ExitCode write(const FiguresArguments& arguments) {
         report::write_index(files, arguments.output);
     }
     fmt::print(stderr,
-               "clearway: written to {}: {} figures as SVG{}, {} tables as CSV, {} of them as LaTeX; all "
-               "are on index.html\n",
-               arguments.output.string(), files.drawings.size(), all ? ", PDF and PNG" : "",
-               files.tables.size(), files.typeset.size());
+               "clearway: written to {}: {} as SVG{}, {} as CSV, {} as LaTeX; all are on index.html\n",
+               arguments.output.string(), core::counted(files.drawings.size(), "figure"),
+               all ? ", PDF and PNG" : "", core::counted(files.tables.size(), "table"), files.typeset.size());
     for (const auto& [seeds, names] : files.of_other_seeds)
         fmt::print(stderr, "clearway: left as they were, from {}: {}\n",
                    seeds.empty() ? "an unknown number of seeds" : seeds, fmt::join(names, ", "));

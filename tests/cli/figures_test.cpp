@@ -47,10 +47,9 @@ TEST_F(FiguresTest, every_drawing_becomes_svg_pdf_and_png_and_every_table_csv_an
     EXPECT_EQ(count.at(".pdf"), count.at(".svg"));
     EXPECT_GE(count.at(".tex"), 3U);
     EXPECT_GE(count.at(".csv"), count.at(".tex"));
-    EXPECT_THAT(ended.err,
-                HasSubstr("written to new/figures: " + std::to_string(count.at(".svg")) +
-                          " figures as SVG, PDF and PNG, " + std::to_string(count.at(".csv")) +
-                          " tables as CSV, " + std::to_string(count.at(".tex")) + " of them as LaTeX"));
+    EXPECT_THAT(ended.err, HasSubstr("written to new/figures: " + std::to_string(count.at(".svg")) +
+                                     " figures as SVG, PDF and PNG, " + std::to_string(count.at(".csv")) +
+                                     " tables as CSV, " + std::to_string(count.at(".tex")) + " as LaTeX"));
     EXPECT_THAT(ended.err, testing::ContainsRegex("pdf files.*\n.*png files"));
     EXPECT_TRUE(read("new/figures/tradeoff-line.png").starts_with("\x89PNG"));
     EXPECT_TRUE(read("new/figures/tradeoff-line.pdf").starts_with("%PDF-"));
@@ -97,6 +96,9 @@ TEST_F(FiguresTest, with_svg_only_no_other_program_is_needed) {
     const Ended ended = clearway({"export", "figures", "study", "--out", "figures", "--svg-only"}, bare);
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_THAT(ended.err, AllOf(HasSubstr("figures as SVG, "), Not(HasSubstr("PDF"))));
+    EXPECT_THAT(
+        clearway({"export", "figures", "study", "--out", "few", "--svg-only", "--only", "tradeoff"}).err,
+        HasSubstr(": 1 figure as SVG, 1 table as CSV, 0 as LaTeX;"));
     EXPECT_EQ(files("figures").count(".png") + files("figures").count(".pdf"), 0U);
     EXPECT_THAT(read("figures/index.html"),
                 AllOf(HasSubstr("tradeoff-line.svg"), HasSubstr("line: Gain and cost against the baseline"),
