@@ -237,7 +237,7 @@ TEST(TradeOff, of_policies_under_failures_has_a_colour_for_each_policy_and_a_mar
     for (int policy = 1; policy <= 5; ++policy) {
         const std::string colour = "s" + std::to_string(policy);
         EXPECT_EQ(count_of(drawing, "<path class=\"dot " + colour), 2u);
-        EXPECT_EQ(count_of(drawing, "class=\"bar thin " + colour + " d" + std::to_string(policy - 1)), 4u)
+        EXPECT_EQ(count_of(drawing, "class=\"bar thin " + colour + " d" + std::to_string(policy)), 4u)
             << "without colour, the dash says the policy";
         EXPECT_THAT(figure, HasSubstr(">Policy " + std::to_string(policy - 1) + "</text>"));
     }
@@ -342,7 +342,7 @@ TEST(Looks, of_policies_under_failures_are_the_same_in_all_figures) {
     const std::string figure = figure_of(tests::page_of(crossed(5, 2)), "travel-time-merge");
     for (int policy = 1; policy <= 5; ++policy) {
         const std::string style =
-            "<polyline class=\"line s" + std::to_string(policy) + " d" + std::to_string(policy - 1);
+            "<polyline class=\"line s" + std::to_string(policy) + " d" + std::to_string(policy);
         EXPECT_EQ(count_of(figure, style), 2u);
     }
 }
@@ -355,7 +355,8 @@ TEST(LineFigures, of_policies_under_failures_have_a_panel_for_each_failure_and_o
             EXPECT_EQ(count_of(figure, failure), 1u) << id;
         for (const char* const policy : {">Policy 0<", ">Policy 4<"})
             EXPECT_EQ(count_of(figure, policy), 1u) << id << ": the legend tells policies alone";
-        EXPECT_EQ(count_of(figure, "<polyline class=\"line s1 d0"), 3u) << id;
+        EXPECT_EQ(count_of(figure, "<polyline class=\"line s1 d1"), 3u) << id;
+        EXPECT_THAT(figure, Not(HasSubstr(" d0"))) << "the baseline alone is solid";
     }
     const std::string times = figure_of(page, "travel-time-merge");
     EXPECT_EQ(count_of(times, "<polyline class=\"line s0\""), 3u) << "the baseline is in each";

@@ -36,7 +36,7 @@ Look look_of(const Series& series) {
     };
     if (series.levels) {
         const std::size_t colour = cycled(series.levels->colour, Series::most_levels);
-        return {colour, colour, cycled(series.levels->mark, Series::most_levels)};
+        return {colour, colour == 0 ? 0 : colour + 1, cycled(series.levels->mark, Series::most_levels)};
     }
     return {cycled(series.number, colours), cycled(series.number, dashes), cycled(series.number, marks)};
 }

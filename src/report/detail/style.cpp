@@ -173,7 +173,7 @@ stroke-width:4px;stroke-linejoin:round}
 .plot .call{fill:none;stroke:var(--better);stroke-width:2}.plot .block{fill:var(--worse);stroke:var(--paper);stroke-width:1}.plot .blockBar{fill:var(--paper)}.plot .blocked{fill:none;stroke:var(--worse);stroke-width:4;stroke-dasharray:4 3}
 .plot .station{fill:var(--paper);stroke:var(--ink);stroke-width:1.8}
 .plot .d1{stroke-dasharray:8 3}.plot .d2{stroke-dasharray:3 2}.plot .d3{stroke-dasharray:10 3 2 3}
-.plot .d4{stroke-dasharray:6 2 2 2 2 2}.plot .d5{stroke-dasharray:1 3}
+.plot .d4{stroke-dasharray:6 2 2 2 2 2}.plot .d5{stroke-dasharray:1 3}.plot .d6{stroke-dasharray:16 4}
 )css";
 
 /// Tables that need more room than they have become lists: a block for each row, a line for each cell.

@@ -75,7 +75,7 @@ constexpr const char* hollow = " hollow";        ///< The mark of a condition th
 
 /// The dash tells colours apart without colour.
 std::string interval_style(const Series& series) {
-    return series.levels ? fmt::format("{} d{}", colour_of(series), series.levels->colour - 1)
+    return series.levels ? fmt::format("{} d{}", colour_of(series), series.levels->colour)
                          : colour_of(series);
 }
 
