@@ -120,7 +120,9 @@ std::string question(const std::string& name, const std::vector<std::string>& of
     return core::did_you_mean(same != known.end() ? *same
                               : near.empty()      ? name
                                                   : near + "." + last,
-                              known, "`clearway list settings` shows them all");
+                              known,
+                              "`clearway list settings` shows them all; of a class in Python they are the "
+                              "arguments of its __init__");
 }
 
 void check_model(const ConditionSpec& condition, const std::string& where,

@@ -291,11 +291,15 @@ TEST(SettingsPage, OfAPolicyThatCombinesOthersHasTheirs) {
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);)
         EXPECT_LE(line.size(), 80U) << line;
-    try {
-        components_named("corridr");
-        FAIL();
-    } catch (const core::InputError& error) {
-        EXPECT_THAT(error.what(), HasSubstr("Did you mean 'corridor'?"));
+    for (const auto& [name, cure] :
+         {std::pair("corridr", "Did you mean 'corridor'?"),
+          std::pair("Leave", "of a class in Python they are the arguments of its __init__")}) {
+        try {
+            components_named(name);
+            FAIL();
+        } catch (const core::InputError& error) {
+            EXPECT_THAT(error.what(), HasSubstr(cure));
+        }
     }
 }
 
