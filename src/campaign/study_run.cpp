@@ -183,6 +183,16 @@ void take_over(const results::Store& store, const std::filesystem::path& from) {
             : fmt::format("; not those of {}, which differ", fmt::join(reused.other_conditions, ", ")));
 }
 
+/// Whether all runs of what is compared failed: the cause is the answer then.
+bool is_all_lost(const report::StudyFacts& facts) {
+    std::size_t lost = 0, kept = 0;
+    for (const report::ScenarioFacts& scenario : facts.scenarios)
+        for (const report::ConditionFacts& condition : scenario.conditions)
+            if (condition.is_compared())
+                ++(condition.complete_runs == 0 && !condition.failed.empty() ? lost : kept);
+    return lost > 0 && kept == 0;
+}
+
 }  // namespace
 
 void check_seed(const study::StudyConfig& config, const std::filesystem::path& file,
@@ -364,12 +374,16 @@ core::ExitCode publish(const results::Store& store, const PublishOptions& option
     const results::Results results = results::read_results(store, results::VehicleRows::emergency);
     const analysis::Summary summary =
         analysis::summarise(results, analysis::usual_level, options.response_threshold_s);
-    const report::StudyFacts facts = report::facts_of(store, results, summary, options.least_relevant_s,
-                                                      condition_called(options.condition, store));
+    report::StudyFacts facts = report::facts_of(store, results, summary, options.least_relevant_s,
+                                                condition_called(options.condition, store));
     require_replayable(store, results, facts, options.replays);
+    const bool all_lost = is_all_lost(facts);
+    if (all_lost) name_errors(store, results);
+    for (report::ScenarioFacts& scenario : facts.scenarios)
+        if (all_lost) scenario.outlook.clear();
     fmt::print("{}", options.printing == Printing::json ? report::json_tables(facts)
                                                         : report::console_tables(facts, options.tables));
-    name_errors(store, results);
+    if (!all_lost) name_errors(store, results);
     tell_printed(store);
     warn_of_changed_scenarios(store);
     renew_edited_tables(store);

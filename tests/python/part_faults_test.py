@@ -551,6 +551,10 @@ class FaultTest(FolderCase):
         self.assertIn("Mine: 3 of 3 runs failed; no verdict", ended.stdout)
         self.assertNotIn("Measure, condition", ended.stdout)
         self.assertNotIn("KeyError", ended.stdout)
+        seen = subprocess.run(["stdbuf", "-oL", str(PROGRAMS / "clearway"), "report", "runs"], stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, check=False).stdout
+        self.assertLess(seen.index("KeyError: "), seen.index("intersection: 3 replications"), "the cause comes first")
+        self.assertNotIn("preemption is likely", seen)
         self.assertRegex(program("compare", "runs"), r"^Not paired: intersection/Mine: 3 of 3 runs failed or are missing\n")
 
     def test_two_kinds_of_failure_are_two(self) -> None:
