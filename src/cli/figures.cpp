@@ -159,7 +159,8 @@ Action configure_figures(App& app) {
         .option_text("NAME [all]");
     app.add_flag_callback(
            "--bare", [arguments] { arguments->choice.words = report::FigureChoice::Words::bare; },
-           "Leave title, seeds and note out of the drawings, for a text that has them in its captions")
+           "Leave title, seeds and note out of the drawings, for a text that has them in its captions; what "
+           "explains a mark stays")
         .option_text("[off]");
     return [arguments](const Invocation&) { return write(*arguments); };
 }

@@ -294,8 +294,9 @@ std::vector<LegendEntry> entries_of(const std::vector<Grid>& grids) {
 Figure factors_figure(const std::vector<Made>& made, const std::vector<Factor>& factors, Measure measure,
                       const char* name, const std::string& caption) {
     std::vector<Grid> grids;
-    for (const auto& [heading, panel] : panels_of(made, factors))
-        grids.push_back(grid_of(heading, panel, factors, measure));
+    const Panels panels = panels_of(made, factors);
+    for (const auto& [heading, panel] : panels)  // a single one is named by the caption
+        grids.push_back(grid_of(panels.size() > 1 ? heading : "", panel, factors, measure));
     Canvas canvas =
         draw_grids(caption, grids,
                    {fmt::format("{} [95 % interval]", caption),
