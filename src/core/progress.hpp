@@ -31,14 +31,23 @@ class Progress {
     /// a short extra text, for example the current estimate of the headline metric.
     void update(std::size_t done, std::size_t failed, const std::string& note = {});
     /// Share of the work of this job that is done, 0 to 1, for bar and time left.
-    void set_work(double share) { work_ = share; }
+    void set_work(double share);
     /// Prints the final state and ends the line.
     void finish();
 
-    /// `label  [=====>    ] 120/300, 2 failed, 1:05 elapsed, 1:40 left  note`. Pure, for tests.
-    static std::string render_bar(const std::string& label, std::size_t done, std::size_t total,
-                                  std::size_t failed, double elapsed_s, std::size_t before = 0,
-                                  std::size_t width = 30, std::optional<double> work = {});
+    /// What a line shows.
+    struct Counts {
+        std::size_t done = 0;
+        std::size_t total = 0;
+        std::size_t failed = 0;
+        double elapsed_s = 0.0;
+        std::size_t before = 0;           ///< Done when the clock started.
+        std::optional<double> work = {};  ///< Share of the work that is done, if it is known.
+        double resting_s = 0.0;           ///< Since the counts last changed.
+    };
+    /// `label  [=====>    ] 120/300, 2 failed, 1:05 elapsed, 1:40 left  note`. The time left passes while
+    /// nothing ends, as long as the next end may still come at the pace so far. Pure, for tests.
+    static std::string render_bar(const std::string& label, const Counts& counts, std::size_t width = 30);
     /// The line as it is printed now. With a bar it has at most `columns` characters: the bar is shortened,
     /// then left out, then the time elapsed, so that the note stays up to its first `: `; then it is cut.
     std::string line(std::size_t columns) const;
@@ -56,6 +65,7 @@ class Progress {
     std::optional<double> work_;
     std::string note_;
     Clock::time_point started_ = Clock::now();
+    Clock::time_point changed_ = started_;
     Clock::time_point printed_{};
     bool ever_printed_ = false;
 };

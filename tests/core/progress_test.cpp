@@ -22,12 +22,12 @@ TEST(ClockText, ShowsHoursOnlyWhenThereAreAny) {
 }
 
 TEST(ProgressBar, ShowsCountsFailuresAndTimes) {
-    EXPECT_EQ(Progress::render_bar("merge", 15, 60, 2, 65.0),
+    EXPECT_EQ(Progress::render_bar("merge", {15, 60, 2, 65.0}),
               "merge [=======>                      ] 15/60, 2 failed, 1:05 elapsed, 3:15 left");
-    EXPECT_THAT(Progress::render_bar("x", 0, 60, 0, 1.0), EndsWith("0/60, 0:01 elapsed"));
-    EXPECT_THAT(Progress::render_bar("x", 60, 60, 0, 9.0),
+    EXPECT_THAT(Progress::render_bar("x", {0, 60, 0, 1.0}), EndsWith("0/60, 0:01 elapsed"));
+    EXPECT_THAT(Progress::render_bar("x", {60, 60, 0, 9.0}),
                 StartsWith("x [==============================] 60/60, 0:09 elapsed"));
-    EXPECT_THAT(Progress::render_bar("x", 0, 0, 0, 0.0), HasSubstr("0/0"));
+    EXPECT_THAT(Progress::render_bar("x", {}), HasSubstr("0/0"));
 }
 
 TEST(ProgressLine, FitsTheTerminalAndGivesUpTheBarFirst) {
@@ -64,10 +64,21 @@ TEST(ProgressLine, KeepsTheNumbersOfItsNoteOnATerminalOf80Columns) {
 
 TEST(ProgressBar, FollowsTheWorkWhereItIsGiven) {
     // Half of the runs took 60 s, and are a tenth of the work: the rest takes 540 s.
-    EXPECT_EQ(Progress::render_bar("x", 30, 60, 0, 60.0, 0, 30, 0.1),
+    EXPECT_EQ(Progress::render_bar("x", {30, 60, 0, 60.0, 0, 0.1}),
               "x [===>                          ] 30/60, 1:00 elapsed, 9:00 left");
     // 20 of 40 were there before, and half of the others' work is done: three quarters.
-    EXPECT_THAT(Progress::render_bar("x", 25, 40, 0, 9.0, 20, 8, 0.5), StartsWith("x [======> ] 25/40"));
+    EXPECT_THAT(Progress::render_bar("x", {25, 40, 0, 9.0, 20, 0.5}, 8), StartsWith("x [======> ] 25/40"));
+}
+
+TEST(ProgressBar, LetsTheTimeLeftPassWhileNothingEnds) {
+    const auto after = [](double resting_s) {
+        return Progress::render_bar(
+            "x", {.done = 10, .total = 20, .elapsed_s = 100.0 + resting_s, .resting_s = resting_s});
+    };
+    EXPECT_THAT(after(0.0), EndsWith("1:40 left"));
+    EXPECT_THAT(after(5.0), EndsWith("1:35 left"));
+    EXPECT_THAT(after(100.0), EndsWith("2:44 left"))
+        << "an eleventh, if it ended now, would have taken longer";
 }
 
 TEST(Terminal, CutsBetweenCharactersOfUtf8) {
