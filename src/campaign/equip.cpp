@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <sstream>
@@ -173,9 +174,14 @@ analysis::EquipPlan raced(const EquipRequest& request, Search& search, Look& loo
                                        .replications = request.replications,
                                        .search = request.search,
                                        .pairs = search.signals.candidates.neighbours};
+    const EquipForecast forecast = search.rounds.forecast();
+    const auto started = std::chrono::steady_clock::now();
     return analysis::equip_greedily(
         config, [&](const std::vector<analysis::SignalSet>& sets, std::size_t replications) {
             std::vector<analysis::Values> values = search.rounds.measure(sets, replications);
+            const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - started;
+            if (look.sets.empty())
+                core::print_message(late_warning(forecast, spent.count(), request.within_s));
             look = {sets.front().empty() ? values.front() : look.none, sets, values, replications};
             return values;
         });
@@ -250,12 +256,16 @@ bool is_equip_folder(const std::filesystem::path& folder) {
            std::filesystem::exists(folder / EquipRounds::first_round / "manifest.json");
 }
 
-void print_equip_folder(const std::filesystem::path& folder, Printing printing) {
-    const std::filesystem::path file = folder / (printing == Printing::json ? json_name : text_name);
-    if (!std::filesystem::exists(file))
+void require_equip_file(const std::filesystem::path& folder, const char* name) {
+    if (!std::filesystem::exists(folder / name))
         throw core::InputError({folder.string(), "is of a search by clearway equip that has no answer yet",
                                 "", "The same `clearway equip` command continues it"});
-    fmt::print("{}", core::read_file(file));
+}
+
+void print_equip_folder(const std::filesystem::path& folder, Printing printing) {
+    const char* const name = printing == Printing::json ? json_name : text_name;
+    require_equip_file(folder, name);
+    fmt::print("{}", core::read_file(folder / name));
 }
 
 }  // namespace clearway::campaign

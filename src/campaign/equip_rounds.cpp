@@ -16,6 +16,7 @@
 
 #include "analysis/response.hpp"
 #include "campaign/detail/lock_findings.hpp"
+#include "campaign/detail/run_cost.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/terminal.hpp"
@@ -116,6 +117,20 @@ std::string lock_warning(const report::UnsoundRuns& unsound, const std::string& 
                            unsound.words()),
                0) +
            "\n  " + calmer + "\n";
+}
+
+std::string late_warning(const EquipForecast& forecast, double first_look_s, double within_s) {
+    constexpr double slack = 1.25;
+    if (within_s <= 0.0 || forecast.first_look == 0) return "";
+    const double whole_s =
+        first_look_s * static_cast<double>(forecast.likely()) / static_cast<double>(forecast.first_look);
+    if (whole_s <= slack * within_s) return "";
+    return core::wrapped(
+               fmt::format("clearway: at this pace the search takes about {}, not {}: runs are slower than "
+                           "foretold. Ctrl-C says what is known by then and keeps the runs.",
+                           clock_words(whole_s), clock_words(within_s)),
+               0) +
+           "\n";
 }
 
 EquipRounds::EquipRounds(EquipQuestion question, RunOptions options)

@@ -78,6 +78,9 @@ struct EquipForecast {
     std::size_t most() const { return first_look + race + later_most + fresh; }
 };
 
+/// That a search will take longer than `within_s`, by the time of its first look; empty where it will hardly.
+std::string late_warning(const EquipForecast& forecast, double first_look_s, double within_s);
+
 /// The runs behind a choice of signals, in folders below `options.folder`, so that the same call continues
 /// what was interrupted. `round-01` and `round-xxxxxx` hold what the search needed: a set and a replication
 /// whose emergency vehicles pass none of its signals but those of another set is the run of that set, and is

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "campaign/equip.hpp"
 #include "campaign/names.hpp"
 #include "campaign/programs.hpp"
 #include "campaign/stored_folder.hpp"
@@ -74,6 +75,7 @@ void convert(const std::vector<std::filesystem::path>& drawings, const std::stri
 
 /// Of a folder of clearway equip, which is no run folder.
 core::ExitCode write_equipment(const FiguresArguments& arguments) {
+    campaign::require_equip_file(arguments.folder, "equip.json");
     if (!arguments.against.empty())
         throw core::InputError({"--against", "is given for a folder of clearway equip",
                                 "a folder of run or study", "Leave it out"});
@@ -97,7 +99,7 @@ core::ExitCode write_equipment(const FiguresArguments& arguments) {
 }
 
 core::ExitCode write(const FiguresArguments& arguments) {
-    if (std::filesystem::exists(arguments.folder / "equip.json")) return write_equipment(arguments);
+    if (campaign::is_equip_folder(arguments.folder)) return write_equipment(arguments);
     if (std::filesystem::exists(arguments.folder / "evaluation.tex"))
         throw core::InputError(
             {arguments.folder.string(), "is of clearway links evaluate", "a folder of run, study or equip",

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "campaign/equip_rounds.hpp"
+
 namespace clearway::campaign::detail {
 namespace {
 
@@ -58,14 +60,26 @@ TEST_F(EquipLook, tells_what_was_chosen_where_fresh_seeds_are_interrupted) {
         chosen_words(plan, signals_),
         AllOf(HasSubstr("the search has ended"), HasSubstr("in this order, which no gain confirms yet"),
               HasSubstr("  1) #8 Low Road: 10.0, not shown\n"),
-              HasSubstr("together (Bonferroni):\n  #8 Low Road: 10.0"), HasSubstr("  #4 High Street: ")));
+              HasSubstr("Each alone, 2 seeds, too few for intervals, which need 5:\n  #8 Low Road: 10.0"),
+              HasSubstr("  #4 High Street: "), HasSubstr("What the others lose, and locks, the complete")));
     plan.steps.back().gain = less_time({90.0, 92.0, 91.0, 89.0, 93.0}, {80.0, 82.5, 81.0, 79.0, 83.0});
     plan.steps.back().partner = 0;
+    plan.candidates[1].gain = plan.steps.back().gain;
     EXPECT_THAT(
         chosen_words(plan, signals_),
-        AllOf(HasSubstr("  1) #8 Low Road with #4, half of what both gain:"), HasSubstr("], shown\n")));
+        AllOf(
+            HasSubstr("  1) #8 Low Road with #4, half of what both gain:"), HasSubstr("], shown\n"),
+            HasSubstr("Each alone, 5 seeds, with intervals for all rows together (Bonferroni):\n  #8 Low")));
     plan.steps.clear();
     EXPECT_THAT(chosen_words(plan, signals_), HasSubstr("It chose no signal."));
+}
+
+TEST(EquipLate, is_told_where_the_first_look_took_longer_than_foretold) {
+    const EquipForecast forecast{.first_look = 10, .race = 10, .later = 5, .later_most = 20, .fresh = 15};
+    EXPECT_THAT(late_warning(forecast, 150.0, 300.0), HasSubstr("takes about 10:00 (m:s), not 5:00"));
+    EXPECT_EQ(late_warning(forecast, 80.0, 300.0), "");
+    EXPECT_EQ(late_warning(forecast, 150.0, 0.0), "") << "no time was given";
+    EXPECT_EQ(late_warning({.fresh = 15}, 150.0, 300.0), "") << "nothing to race";
 }
 
 }  // namespace

@@ -316,6 +316,8 @@ TEST_F(InterruptedEquipTest, prints_what_the_last_look_knew) {
     EXPECT_EQ(report.code, 0) << report.err;
     EXPECT_THAT(report.out, AllOf(HasSubstr("no ranking yet"), HasSubstr("  #1")));
     EXPECT_EQ(clearway({"report", "out", "--json"}).code, 3) << "there is no answer";
+    EXPECT_THAT(clearway({"export", "figures", "out", "--out", "figures"}).err,
+                HasSubstr("a search by clearway equip that has no answer yet"));
 }
 
 TEST_F(InterruptedEquipTest, continues_with_the_seeds_that_a_time_allowed) {

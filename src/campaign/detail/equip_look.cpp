@@ -43,7 +43,15 @@ std::string gain_lines(std::vector<Gain> gains, const Signals& signals) {
     return text;
 }
 
-constexpr const char* flatters = "Gains, s, of which the largest flatters itself:\n";
+constexpr const char* flatters = "Gains, s; chance makes the largest look larger:\n";
+
+/// What keeps any of these figures small, and that costs are not told yet.
+std::string reserve(const Signals& signals) {
+    return core::wrapped(signals.candidates.met.words() +
+                             " What the others lose, and locks, the complete answer tells.",
+                         0) +
+           "\n";
+}
 
 }  // namespace
 
@@ -61,13 +69,15 @@ std::string interim_words(const Look& look, const Signals& signals) {
             core::listed(core::texts_of(look.sets.front(),
                                         [&](std::size_t candidate) { return name_of(candidate, signals); })),
             report::estimate(less_time(look.none, look.values.front()), {}));
-    return text + ". " + flatters + gain_lines(std::move(gains), signals);
+    return text + ". " + flatters + gain_lines(std::move(gains), signals) + reserve(signals);
 }
 
 std::string chosen_words(const analysis::EquipPlan& plan, const Signals& signals) {
     std::string text = "clearway: the search has ended, the fresh seeds that tell its gain have not. ";
-    text += plan.steps.empty() ? "It chose no signal. "
-                               : "It chose, in this order, which no gain confirms yet, with what each adds. ";
+    text += plan.steps.empty()
+                ? "It chose no signal. "
+                : "It chose, in this order, which no gain confirms yet, with what each adds to "
+                  "those before it. ";
     text += flatters;
     for (std::size_t rank = 0; rank < plan.steps.size(); ++rank) {
         const analysis::EquipStep& step = plan.steps[rank];
@@ -77,11 +87,19 @@ std::string chosen_words(const analysis::EquipPlan& plan, const Signals& signals
         text += line_of(fmt::format("{}) {}{}", rank + 1, name_of(step.candidate, signals), with), step.gain,
                         report::is_shown(step.gain) ? ", shown" : ", not shown");
     }
+    std::size_t seeds = 0;
     std::vector<Gain> alone;
     for (std::size_t candidate = 0; candidate < plan.candidates.size(); ++candidate)
         alone.emplace_back(plan.candidates[candidate].gain, candidate);
-    return text + "Each alone, with intervals for all rows together (Bonferroni):\n" +
-           gain_lines(std::move(alone), signals);
+    for (const auto& [gain, candidate] : alone)
+        seeds = std::max(seeds, gain ? gain->n : 0);
+    return text +
+           fmt::format(
+               "Each alone, {} seeds, {}:\n", seeds,
+               seeds < analysis::fewest_for_interval
+                   ? fmt::format("too few for intervals, which need {}", analysis::fewest_for_interval)
+                   : "with intervals for all rows together (Bonferroni)") +
+           gain_lines(std::move(alone), signals) + reserve(signals);
 }
 
 }  // namespace clearway::campaign::detail
