@@ -151,18 +151,20 @@ Finding jams_finding(const metrics::RunMetrics& run, const RoadUse& use, const C
             : density_advice(checked.config, use.factor)};
 }
 
+constexpr const char* signals_name = "signals";
+
 /// `outlook`: scenario::outlook_json.
 Finding signals_finding(const core::Json& outlook) {
     const auto count = outlook.at("signals").get<std::size_t>();
     if (count == 0)
         return {
-            "signals", Grade::note,
+            signals_name, Grade::note,
             "0 in the network: signal policies have no effect here; only policies that make vehicles give "
             "way can help",
             "", outlook};
     const auto passing = outlook.at("trips_passing").get<std::size_t>();
     const bool is_little = outlook.at("prospect") == core::name(scenario::Prospect::little);
-    return {"signals", is_little ? Grade::note : Grade::ok,
+    return {signals_name, is_little ? Grade::note : Grade::ok,
             fmt::format("{} in the network; {} of {} {} one", count, passing,
                         core::counted(outlook.at("trips").get<std::size_t>(), "EV"),
                         passing == 1 ? "passes" : "pass"),
@@ -228,15 +230,18 @@ std::string conclusion_of(const std::string& scenario, const std::vector<Finding
         has_trials = has_trials || finding.name == detail::trials_name;
     }
     if (!failed.empty()) return fmt::format("{} cannot be run: {}.", scenario, core::listed(failed));
-    if (short_of.empty() && noted.empty()) return scenario + " is fit for a study.";
+    const bool is_of_signals = std::ranges::find(noted, signals_name) == noted.end();
+    const std::string fit = scenario + (is_of_signals ? " is fit for a study"
+                                                      : " is fit for a study, though hardly to rank signals");
+    if (short_of.empty() && noted.empty()) return fit + ".";
     if (!short_of.empty())
         return fmt::format("{} is not fit for a study as it is: {}.", scenario, core::listed(short_of));
     if (!has_trials && std::ranges::find(noted, detail::locks_name) != noted.end())
         return fmt::format(
-            "{} is fit for a study as far as its one run tells, which locks; others may lock more: "
-            "--lock-trials 6 tells. Noted: {}.",
-            scenario, core::listed(noted));
-    return fmt::format("{} is fit for a study, with what is noted: {}.", scenario, core::listed(noted));
+            "{} as far as its one run tells, which locks; others may lock more: --lock-trials 6 tells. "
+            "Noted: {}.",
+            fit, core::listed(noted));
+    return fmt::format("{}, with what is noted: {}.", fit, core::listed(noted));
 }
 
 const char* word_of(Grade grade) {
@@ -411,6 +416,7 @@ core::ExitCode check_scenario(const scenario::ScenarioConfig& scenario, std::uin
         study_of(scenario, {experiment::built_in_condition("baseline", "check")}, seed, 1);
     options.folder = std::filesystem::path("runs") / ("check-" + scenario.name);
     options.workers = 1;
+    options.stays_if_failed = true;
     std::filesystem::remove_all(options.folder);
     const study::Plan plan = plan_for(config, options);
     const results::Store store = prepare_run_folder(plan, options);

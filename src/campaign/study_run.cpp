@@ -284,7 +284,8 @@ StudyResult run_missing(const study::Plan& plan, const results::Store& store, co
     const bool few = plan.manifest.conditions.size() > 1 && !plan.manifest.precision &&
                      plan.manifest.replications < analysis::fewest_for_interval;
     fmt::print(
-        stderr, "clearway: {} into {}{}\n", core::counted(plan.run_count(), "run"), options.folder.string(),
+        stderr, "clearway: {} into {}{}{}\n", core::counted(plan.run_count(), "run"), options.folder.string(),
+        options.stays_if_failed ? ", which stays if one fails" : "",
         few ? fmt::format("; fewer than {} seeds give no interval", analysis::fewest_for_interval) : "");
     const auto started = std::chrono::steady_clock::now();
     core::Progress progress("runs", plan.run_count(), core::Progress::style_for_stderr());

@@ -38,7 +38,8 @@ struct RunOptions {
     experiment::RunLimits limits = {};  ///< Of each run.
     RetriedRuns retried = RetriedRuns::ended_by_machine;
     experiment::StepRecording recording = experiment::StepRecording::off;
-    std::string command = {};  ///< What the user typed, for the report and for resuming.
+    std::string command = {};      ///< What the user typed, for the report and for resuming.
+    bool stays_if_failed = false;  ///< The caller removes the folder otherwise.
     PublishOptions publish = {};
 };
 
