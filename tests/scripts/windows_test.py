@@ -40,8 +40,8 @@ class Grid(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
         self.file = self.folder / "grid.net.xml"
-        subprocess.run(["netgenerate", "--grid", "--grid.number", "3", "--grid.length", "200", "--tls.set", "B1,B2", "--no-turnarounds",
-                        "-o", self.file], check=True, capture_output=True)
+        subprocess.run(["netgenerate", "--grid", "--grid.number", "3", "--grid.length", "200", "--tls.set", "B1,B2",
+                        "--no-turnarounds", "-o", self.file], check=True, capture_output=True)
         self.network = windows.Network(self.file)
         self.window = windows.Window.around(self.network, ["A1B1", "B1C1"], 50.0)
         (self.folder / "routes.xml").write_text(ROUTES)
@@ -61,8 +61,8 @@ class Grid(unittest.TestCase):
         windows.write(self.window.network(self.network), self.folder / "window.net.xml")
         windows.write(self.cut(), self.folder / "cut.xml")
         (self.folder / "types.xml").write_text('<additional><vType id="car"/></additional>')
-        subprocess.run(["sumo", "-n", self.folder / "window.net.xml", "-r", self.folder / "cut.xml", "-a", self.folder / "types.xml",
-                        "--tripinfo-output", self.folder / "trips.xml"], check=True, capture_output=True)
+        subprocess.run(["sumo", "-n", self.folder / "window.net.xml", "-r", self.folder / "cut.xml", "-a",
+                        self.folder / "types.xml", "--tripinfo-output", self.folder / "trips.xml"], check=True, capture_output=True)
         self.assertEqual(len(ElementTree.parse(self.folder / "trips.xml").getroot()), 5)
         for row in self.network.root.iter("tlLogic"):
             window = windows.parse(self.folder / "window.net.xml")
