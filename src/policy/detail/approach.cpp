@@ -75,11 +75,12 @@ std::size_t queue_ahead(const View& view, const traffic::BelievedVehicle& vehicl
     std::size_t longest = 0;
     core::EdgeIndex edge;
     for (auto at = halted.begin(); at != halted.end();) {
-        const auto on_lane = std::ranges::equal_range(at, halted.end(), lane_of(*at), {}, lane_of);
+        const auto end = std::find_if(
+            at, halted.end(), [&](const VehicleAhead& ahead) { return lane_of(ahead) != lane_of(*at); });
         const core::EdgeIndex here = view.network().lane(lane_of(*at)).edge;
         if (here != std::exchange(edge, here)) sum += std::exchange(longest, 0);
-        longest = std::max(longest, on_lane.size());
-        at = on_lane.end();
+        longest = std::max(longest, static_cast<std::size_t>(end - at));
+        at = end;
     }
     return sum + longest;
 }
