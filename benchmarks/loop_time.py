@@ -29,8 +29,8 @@ def run(command):
     """What it prints, and the processor time of the workers that it waited for, s."""
     ticks_s = os.sysconf("SC_CLK_TCK")
     workers_s = 0.0
-    with tempfile.TemporaryFile("w+", encoding="utf-8") as said:
-        child = subprocess.Popen(command, stdout=said, stderr=subprocess.PIPE, text=True)
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as said, tempfile.TemporaryFile("w+", encoding="utf-8") as errors:
+        child = subprocess.Popen(command, stdout=said, stderr=errors)
         while child.poll() is None:
             try:
                 fields = pathlib.Path(f"/proc/{child.pid}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()
@@ -39,7 +39,8 @@ def run(command):
                 pass
             time.sleep(0.01)
         if child.returncode != 0:
-            sys.exit(child.stderr.read())
+            errors.seek(0)
+            sys.exit(errors.read())
         said.seek(0)
         return said.read(), workers_s
 

@@ -64,6 +64,8 @@ void adjust_by(const results::Results& baselines, Summary& summary) {
     const results::Manifest& manifest = baselines.manifest;
     if (manifest.study_seed != summary.manifest.study_seed) refuse(baselines, "it has another seed");
     if (manifest.replications < summary.manifest.replications) refuse(baselines, "it has fewer replications");
+    if (manifest.clearway_build != summary.manifest.clearway_build)
+        summary.builds.emplace(summary.manifest.clearway_build, manifest.clearway_build);
     const detail::Index index(baselines);
     for (const ScenarioSummary& scenario : summary.scenarios) {
         for (const ConditionSummary& condition : scenario.conditions) {
@@ -73,7 +75,10 @@ void adjust_by(const results::Results& baselines, Summary& summary) {
             const MaybeEstimate found =
                 adjusted(condition, *scenario.find(condition.baseline), losses_s, summary.level);
             const MaybeEstimate& plain = condition.metric(primary_metric).comparison->difference;
-            if (!found || !plain || !(found->interval->half_width() > 0.0)) continue;
+            if (!found || !plain || !(found->interval->half_width() > 0.0)) {
+                summary.not_adjusted.push_back(scenario.scenario + ": " + condition.condition.name);
+                continue;
+            }
             summary.adjusted.push_back(
                 {scenario.scenario, condition.condition.name, *found, losses_s.size(),
                  required_replications(plain->deviation, found->interval->half_width(), summary.level)});

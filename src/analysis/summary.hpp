@@ -174,6 +174,7 @@ struct Summary {
     /// Builds of the programs that made two studies, if they differ.
     std::optional<std::pair<std::string, std::string>> builds;
     std::vector<AdjustedDifference> adjusted;  ///< Empty unless `adjust_by` filled it.
+    std::vector<std::string> not_adjusted;     ///< What it left out, as `scenario: condition`.
 };
 
 /// Compares each condition of `second` with the condition of the same name in `first`, in the same scenario

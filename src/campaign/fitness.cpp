@@ -231,8 +231,9 @@ std::string conclusion_of(const std::string& scenario, const std::vector<Finding
     }
     if (!failed.empty()) return fmt::format("{} cannot be run: {}.", scenario, core::listed(failed));
     const bool is_of_signals = std::ranges::find(noted, signals_name) == noted.end();
-    const std::string fit = scenario + (is_of_signals ? " is fit for a study"
-                                                      : " is fit for a study, though hardly to rank signals");
+    const std::string fit =
+        scenario +
+        (is_of_signals ? " is fit for a study" : " is fit for a study, though signals have little to gain");
     if (short_of.empty() && noted.empty()) return fit + ".";
     if (!short_of.empty())
         return fmt::format("{} is not fit for a study as it is: {}.", scenario, core::listed(short_of));

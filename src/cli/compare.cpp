@@ -206,10 +206,11 @@ core::ExitCode compare(CompareArguments arguments) {
     if (!arguments.publication.file.empty() && !arguments.against.empty())
         throw core::InputError({"--publish", "writes differences from baselines, and there is --against", "",
                                 "Leave out one of them"});
-    if (!arguments.baselines.empty() && !arguments.second.empty())
+    if (const std::string& other = arguments.second.empty() ? arguments.against : arguments.second;
+        !arguments.baselines.empty() && !other.empty())
         throw core::InputError({"--baselines",
-                                "adjusts differences from baselines, and there are two folders", "",
-                                "Leave out " + arguments.second});
+                                "adjusts differences from the baselines of one folder, and there is " + other,
+                                "", "Leave out " + other});
     const std::vector<report::Tolerance> tolerances = check(arguments);
     analysis::Reference reference;
     analysis::Summary summary = summary_of(arguments, reference);

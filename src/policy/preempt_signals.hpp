@@ -94,8 +94,9 @@ struct PreemptSignalsConfig {
                   "With `queues`: a hold begins at most so much earlier than the lead says",
                   "trials: without a limit the others lose 4 % more in the dense city"},
             Field{"longest_late_s", "s", &C::longest_late_s, 0.0, 60.0,
-                  "With `queues`: a hold begins at most so much later than the lead says, where that or none "
-                  "costs less by `emergency_worth`",
+                  "With `queues`: where that or none costs less by `emergency_worth`, a hold begins later, "
+                  "until "
+                  "the vehicle is so much nearer than the lead asks for; from 40 on: no limit",
                   "0: never later, as in docs/findings/cities.md where it is not named"});
     }
 };

@@ -328,6 +328,13 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
         if (std::ranges::any_of(metrics, is_travel_time)) text += response_text(scenario, titles);
     }
     text += adjusted_text(summary, titles);
+    if (!summary.not_adjusted.empty())
+        text += core::wrapped(
+                    fmt::format("Not adjusted, where EVs do not arrive in a run, pairs are few or nothing "
+                                "differs: {}.",
+                                printable(core::listed(summary.not_adjusted))),
+                    4) +
+                "\n";
     for (const analysis::Unpaired& lost : summary.unpaired)
         text += unpaired_line(lost);
     if (const std::string few = few_seeds_sentence(fewest_pairs); !few.empty()) text += few + '\n';

@@ -58,10 +58,11 @@ TEST_F(EquipLook, tells_what_was_chosen_where_fresh_seeds_are_interrupted) {
     plan.candidates[1].gain = gain;
     EXPECT_THAT(
         chosen_words(plan, signals_),
-        AllOf(HasSubstr("the search has ended"), HasSubstr("in this order, which no gain confirms yet"),
-              HasSubstr("  1) #8 Low Road: 10.0, not shown\n"),
-              HasSubstr("Each alone, 2 seeds, too few for intervals, which need 5:\n  #8 Low Road: 10.0"),
-              HasSubstr("  #4 High Street: "), HasSubstr("What the others lose, and locks, the complete")));
+        AllOf(
+            HasSubstr("the search has ended"), HasSubstr("in this order, which no gain confirms yet"),
+            HasSubstr("  1) #8 Low Road: 10.0, not shown\n"),
+            HasSubstr("Each alone, up to 2 seeds, too few for intervals, which need 5:\n  #8 Low Road: 10.0"),
+            HasSubstr("  #4 High Street: "), HasSubstr("What the others lose, and locks, the complete")));
     plan.steps.back().gain = less_time({90.0, 92.0, 91.0, 89.0, 93.0}, {80.0, 82.5, 81.0, 79.0, 83.0});
     plan.steps.back().partner = 0;
     plan.candidates[1].gain = plan.steps.back().gain;
@@ -69,7 +70,8 @@ TEST_F(EquipLook, tells_what_was_chosen_where_fresh_seeds_are_interrupted) {
         chosen_words(plan, signals_),
         AllOf(
             HasSubstr("  1) #8 Low Road with #4, half of what both gain:"), HasSubstr("], shown\n"),
-            HasSubstr("Each alone, 5 seeds, with intervals for all rows together (Bonferroni):\n  #8 Low")));
+            HasSubstr(
+                "Each alone, up to 5 seeds, with intervals for all rows together (Bonferroni):\n  #8 Low")));
     plan.steps.clear();
     EXPECT_THAT(chosen_words(plan, signals_), HasSubstr("It chose no signal."));
 }

@@ -142,7 +142,7 @@ TEST(Conclusion, knows_nothing_of_a_scenario_whose_one_run_locks) {
         << "a note makes no scenario unfit";
     findings.push_back({"signals", Grade::note, "4 in the network; 1 of 6 EVs passes one"});
     EXPECT_EQ(conclusion_of("town", findings),
-              "town is fit for a study, though hardly to rank signals, with what is noted: locks, "
+              "town is fit for a study, though signals have little to gain, with what is noted: locks, "
               "collisions, trials, signals.");
     findings.pop_back();
     findings.back().grade = Grade::falls_short;

@@ -78,7 +78,7 @@ TEST_F(CompareTest, adjusts_by_more_runs_of_the_baseline) {
     EXPECT_FALSE(nlohmann::json::parse(clearway({"compare", "runs/s", "--json"}).out).contains("adjusted"));
     const Ended both = clearway({"compare", "runs/s", "runs/s", "--baselines", "runs/s-baselines"});
     EXPECT_EQ(both.code, 3);
-    EXPECT_THAT(both.err, HasSubstr("there are two folders"));
+    EXPECT_THAT(both.err, HasSubstr("and there is runs/s"));
 }
 
 TEST_F(CompareTest, compares_with_a_condition_that_is_named) {

@@ -95,7 +95,7 @@ std::string chosen_words(const analysis::EquipPlan& plan, const Signals& signals
         seeds = std::max(seeds, gain ? gain->n : 0);
     return text +
            fmt::format(
-               "Each alone, {} seeds, {}:\n", seeds,
+               "Each alone, up to {} seeds, {}:\n", seeds,
                seeds < analysis::fewest_for_interval
                    ? fmt::format("too few for intervals, which need {}", analysis::fewest_for_interval)
                    : "with intervals for all rows together (Bonferroni)") +

@@ -66,9 +66,8 @@ bool HoldPlanner::is_due(const View& view, const Arrival& arrival, double rule_s
     const QueueModel::Outcome held_now = model.outcome(0.0);
     QueueModel::Outcome best = held_now;
     const bool is_late = rule_s <= 0.0;
-    const bool must_hold = is_held || (is_late && -rule_s >= settings_.longest_late_s);
-    bool is_due = must_hold || rule_s <= settings_.longest_early_s;
-    if (!must_hold) {
+    bool is_due = rule_s <= settings_.longest_early_s;
+    if (!is_held) {
         const auto consider = [&](std::optional<double> start_s) {
             const QueueModel::Outcome other = model.outcome(start_s);
             if (cost(other) > cost(best)) return;
@@ -78,10 +77,11 @@ bool HoldPlanner::is_due(const View& view, const Arrival& arrival, double rule_s
         std::ranges::for_each(later_s, consider);
         consider(std::nullopt);
     }
-    if (!must_hold && !is_late) {
+    if (!is_late) {
         const double by_rule_s = model.outcome(std::min(rule_s, later_s.back())).passing_s;
         is_due = is_due && by_rule_s - held_now.passing_s >= settings_.least_gain_s;
     }
+    is_due = is_due || is_held || (is_late && -rule_s >= settings_.longest_late_s);
     reached->second = {free_s, best.passing_s};
     return is_due;
 }

@@ -42,7 +42,7 @@ class HoldPlanner {
         double emergency_worth = 0.0;  ///< How many vehicle-seconds a second of an emergency vehicle counts.
         double least_gain_s = 0.0;     ///< Less is not worth an early hold.
         double longest_early_s = 0.0;  ///< How much earlier than the rule at most.
-        double longest_late_s = 0.0;   ///< How much later.
+        double longest_late_s = 0.0;   ///< How much later, as `rule_s` of `is_due` tells.
         ModelSight sight = ModelSight::all;
     };
     explicit HoldPlanner(Settings settings) : settings_(settings) {}
