@@ -5,11 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "campaign/names.hpp"
+#include "campaign/run_name.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/own_output.hpp"
-#include "results/run_name.hpp"
 #include "scenario/config.hpp"
 #include "scenario/network.hpp"
 #include "view/drawing.hpp"
@@ -99,11 +98,11 @@ std::string written_words(const std::filesystem::path& file, std::size_t bytes) 
 }
 
 core::ExitCode write_replay_page(const ReplayPage& page) {
-    std::vector<results::NamedRecording> recordings;
+    std::vector<NamedRecording> recordings;
     std::vector<experiment::RunKey> keys;
     std::string title;
     for (const std::string& run : page.runs) {
-        recordings.push_back(results::recording_named(run, "RUN", condition_called));
+        recordings.push_back(recording_named(run, "RUN"));
         const trace::RecordingInfo& info = recordings.back().reader->info();
         require_one_network(recordings.front().reader->info(), info);
         say_other_traffic(recordings.front().reader->info(), info);
@@ -114,7 +113,7 @@ core::ExitCode write_replay_page(const ReplayPage& page) {
         recorded_network(recordings.front().reader->info(), recordings.front().file, page.network);
     view::Play play;
     play.title = title;
-    for (const results::NamedRecording& recording : recordings)
+    for (const NamedRecording& recording : recordings)
         play.runs.push_back(view::view_of(*recording.reader, network, page.window, {}));
     const std::filesystem::path file = page.file.empty() ? usual_name(keys) : page.file;
     const std::string text = view::player_page(title, {{view::drawing_of(network)}, {play}});

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "campaign/run_name.hpp"
 #include "report/text.hpp"
-#include "results/run_name.hpp"
 #include "roads/program_times.hpp"
 #include "scenario/network.hpp"
 
@@ -100,8 +100,8 @@ AuditReport audit_runs(const results::Store& store, const std::vector<experiment
         }
         if (!audited.contains(key.scenario)) audited[key.scenario] = limits_of(store, key.scenario);
         const Audited& owed = audited[key.scenario];
-        report.runs.push_back({results::run_name(store.folder(), key),
-                               analysis::audit_signals(*events, owed.limits, owed.step_s)});
+        report.runs.push_back(
+            {run_name(store.folder(), key), analysis::audit_signals(*events, owed.limits, owed.step_s)});
     }
     return report;
 }

@@ -19,6 +19,7 @@
 #include "campaign/plan_text.hpp"
 #include "campaign/printout.hpp"
 #include "campaign/programs.hpp"
+#include "campaign/run_name.hpp"
 #include "campaign/stored_folder.hpp"
 #include "core/counted.hpp"
 #include "core/leftovers.hpp"
@@ -32,7 +33,6 @@
 #include "report/console.hpp"
 #include "report/html.hpp"
 #include "report/read_facts.hpp"
-#include "results/run_name.hpp"
 #include "results/table_reader.hpp"
 #include "results/table_writer.hpp"
 #include "study/fresh_seeds.hpp"
@@ -270,8 +270,8 @@ StudyResult run_part(const study::Plan& plan, const results::Store& store, const
     workers.retried = options.retried;
     workers.on_set_aside = [&store](const results::SetAside& damaged) {
         fmt::print(stderr, "clearway: {}: the {} is damaged: {}. It is kept in {}, and the run is {}\n",
-                   results::run_name(store.folder(), damaged.key),
-                   damaged.is_recording ? "recording" : "record", damaged.why, damaged.place.string(),
+                   run_name(store.folder(), damaged.key), damaged.is_recording ? "recording" : "record",
+                   damaged.why, damaged.place.string(),
                    damaged.is_recording ? "recorded again" : "made again");
     };
     const std::unique_ptr<python::Nursery> nursery = nursery_for(plan);

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "campaign/names.hpp"
 #include "campaign/printout.hpp"
 #include "campaign/programs.hpp"
+#include "campaign/run_name.hpp"
 #include "campaign/signal_audit.hpp"
 #include "campaign/study_run.hpp"
 #include "campaign/worker_jobs.hpp"
@@ -24,7 +24,6 @@
 #include "core/terminal.hpp"
 #include "report/read_facts.hpp"
 #include "results/record_difference.hpp"
-#include "results/run_name.hpp"
 #include "study/plan.hpp"
 #include "trace/difference.hpp"
 #include "trace/recording.hpp"
@@ -102,13 +101,13 @@ struct Chosen {
 };
 
 Chosen chosen_run(const std::string& name) {
-    results::NamedRun run = results::run_named(name, "RUN", condition_called);
+    NamedRun run = run_named(name, "RUN");
     if (run.store.complete(run.key)) return {std::move(run.store), {run.key}};
     const auto failure = run.store.read_error(run.key);
-    throw core::Error(core::ExitCode::incomplete,
-                      fmt::format("run {} {}; there is nothing to compare with",
-                                  results::run_name(run.store.folder(), run.key),
-                                  failure ? "failed: " + failure->message : "has not been made yet"));
+    throw core::Error(
+        core::ExitCode::incomplete,
+        fmt::format("run {} {}; there is nothing to compare with", run_name(run.store.folder(), run.key),
+                    failure ? "failed: " + failure->message : "has not been made yet"));
 }
 
 /// As equally many runs of each condition in each scenario as possible, of different replications; where they
@@ -170,12 +169,12 @@ Chosen chosen_runs(const VerifyRequest& request) {
     const bool is_folder = std::filesystem::exists(std::filesystem::path(request.what) / "manifest.json");
     const bool wants_many = request.all || request.sample > 0 || (request.signals && is_folder);
     if (is_folder && !wants_many)
-        throw core::InputError({"RUN", fmt::format("{} is a whole run folder", request.what),
-                                results::run_name_form, "Name one of its runs, or add --all or --sample N"});
-    if (request.signals && !is_folder && !results::names_a_run(request.what))
+        throw core::InputError({"RUN", fmt::format("{} is a whole run folder", request.what), run_name_form,
+                                "Name one of its runs, or add --all or --sample N"});
+    if (request.signals && !is_folder && !names_a_run(request.what))
         throw core::InputError(
             {"RUN|DIR", fmt::format("{} is not a run folder", request.what),
-             fmt::format("a folder written with --out, or one run of it, {}", results::run_name_form),
+             fmt::format("a folder written with --out, or one run of it, {}", run_name_form),
              "It holds a manifest.json"});
     if (!wants_many) return chosen_run(request.what);
     if (!is_folder)
@@ -246,7 +245,7 @@ std::string first_differing_step(const std::filesystem::path& one, const std::fi
 Verification verify(const results::Store& stored, const results::Store& again,
                     const experiment::RunKey& key) {
     Verification verification;
-    verification.run = results::run_name(stored.folder(), key);
+    verification.run = run_name(stored.folder(), key);
     try {
         stored.check(key);
         if (const auto record = stored.read(key)) verification.hash = record->provenance.trace_hash;

@@ -14,6 +14,7 @@
 #include "campaign/names.hpp"
 #include "campaign/printout.hpp"
 #include "campaign/replay_page.hpp"
+#include "campaign/run_name.hpp"
 #include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/condition_options.hpp"
@@ -22,7 +23,6 @@
 #include "core/json.hpp"
 #include "experiment/code_parts.hpp"
 #include "experiment/settings.hpp"
-#include "results/run_name.hpp"
 #include "trace/failure_log.hpp"
 #include "trace/recording_tables.hpp"
 
@@ -214,7 +214,7 @@ Json agreement_json(const trace::Agreement& agreement) {
 std::string run_of(const std::filesystem::path& recording, const experiment::RunKey& key) {
     const std::filesystem::path folder = campaign::run_folder_of(recording);
     if (!std::filesystem::exists(folder / "manifest.json")) return experiment::to_text(key);
-    return results::run_name(std::filesystem::proximate(folder), key);
+    return campaign::run_name(std::filesystem::proximate(folder), key);
 }
 
 Json facts_of(const std::string& run, const trace::RecordingInfo& info,
@@ -303,8 +303,7 @@ core::ExitCode replay_file(ReplayArguments arguments) {
     if (arguments.runs.size() != 1)
         throw core::InputError(
             {"RUN", fmt::format("{} runs are named", arguments.runs.size()), "one run; two with --view", ""});
-    const results::NamedRecording named =
-        results::recording_named(arguments.runs.front(), "RUN", campaign::condition_called);
+    const campaign::NamedRecording named = campaign::recording_named(arguments.runs.front(), "RUN");
     arguments.file = named.file;
     trace::RecordingReader& recording = *named.reader;
     if (!arguments.table.empty()) return print_table(recording, arguments);
@@ -368,7 +367,7 @@ Action configure_replay(App& app) {
                "Tables: " + core::listed(table_names()) + "\n\n" + open_loop);
     app.add_option(
            "run", arguments->runs,
-           fmt::format("{} of a recorded run, or a recording; two with --view", results::run_name_form))
+           fmt::format("{} of a recorded run, or a recording; two with --view", campaign::run_name_form))
         .required()
         .expected(1, 2)
         .option_text("RUN (required)");

@@ -6,13 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "campaign/names.hpp"
+#include "campaign/run_name.hpp"
 #include "cli/detail/app.hpp"
 #include "cli/verb.hpp"
 #include "core/counted.hpp"
 #include "core/files.hpp"
 #include "core/own_output.hpp"
-#include "results/run_name.hpp"
 #include "scenario/sumo_files.hpp"
 
 namespace clearway::cli {
@@ -26,8 +25,7 @@ struct TrajectoriesArguments {
 };
 
 core::ExitCode write(const TrajectoriesArguments& arguments) {
-    const results::NamedRecording named =
-        results::recording_named(arguments.run, "RUN", campaign::condition_called);
+    const campaign::NamedRecording named = campaign::recording_named(arguments.run, "RUN");
     trace::RecordingReader& recording = *named.reader;
     const experiment::RunKey key = recording.info().key;
     const experiment::ConditionSpec condition = recording.info().condition;
@@ -55,7 +53,7 @@ core::ExitCode write(const TrajectoriesArguments& arguments) {
         recording, network.network, {core::Seconds(arguments.every_s), core::Metres(arguments.reach_m)},
         folder);
     scenario::write_sumo_files(config, network, run, folder / "sumo");
-    fmt::print("{}: {} and {} at {}\n", results::run_name(std::filesystem::proximate(run_folder), key),
+    fmt::print("{}: {} and {} at {}\n", campaign::run_name(std::filesystem::proximate(run_folder), key),
                core::counted(counts.emergency_vehicles, "EV"), core::counted(counts.neighbours, "neighbour"),
                core::counted(counts.places, "place"));
     fmt::print("  {0}/trajectories.csv\n{1}  {0}/sumo/run.sumocfg, {2}\n", folder.string(),
@@ -75,7 +73,7 @@ core::ExitCode write(const TrajectoriesArguments& arguments) {
 Action configure_trajectories(App& app) {
     const auto arguments = std::make_shared<TrajectoriesArguments>();
     app.add_option("run", arguments->run,
-                   fmt::format("{} of a recorded run, or a recording", results::run_name_form))
+                   fmt::format("{} of a recorded run, or a recording", campaign::run_name_form))
         .required()
         .option_text("RUN (required)");
     app.add_option("--out", arguments->folder, "Folder to write into")

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "campaign/run_name.hpp"
 #include "campaign/verification.hpp"
 #include "cli/detail/app.hpp"
 #include "cli/detail/common_options.hpp"
 #include "cli/detail/trust_option.hpp"
 #include "cli/verb.hpp"
-#include "results/run_name.hpp"
 
 namespace clearway::cli {
 
@@ -15,7 +15,7 @@ Action configure_verify(App& app) {
     const auto arguments = std::make_shared<campaign::VerifyRequest>();
     app.add_option("run", arguments->what,
                    fmt::format("Run to repeat: {}; with --all, --sample or --signals a folder",
-                               results::run_name_form))
+                               campaign::run_name_form))
         .required()
         .option_text("RUN|DIR (required)");
     const Option all = app.add_flag("--all", arguments->all, "Every complete run of the folder [off]");

@@ -13,9 +13,9 @@
 #include <fmt/ranges.h>
 
 #include "campaign/detail/abort_cure.hpp"
+#include "campaign/run_name.hpp"
 #include "core/counted.hpp"
 #include "report/text.hpp"
-#include "results/run_name.hpp"
 
 namespace clearway::campaign {
 namespace {
@@ -85,7 +85,7 @@ void name_errors(const results::Store& store, const results::Results& results) {
     }
     for (const std::string& kind : std::span(order).first(std::min(order.size(), named_errors))) {
         const results::RunError& first = *kinds[kind].front();
-        fmt::print(stderr, "  {}{}: {}{}\n    in full: {}\n", results::run_name(store.folder(), first.key),
+        fmt::print(stderr, "  {}{}: {}{}\n    in full: {}\n", run_name(store.folder(), first.key),
                    in_runs(kinds[kind].size(), results.manifest), told(first.message), last_words(first),
                    store.error_file(first.key).string());
         if (const std::string cure = cure_of_abort(first); !cure.empty()) cures.insert(cure);

@@ -1,4 +1,4 @@
-#include "results/run_name.hpp"
+#include "campaign/run_name.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -7,12 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "campaign/names.hpp"
 #include "core/error.hpp"
 #include "core/number.hpp"
 #include "core/read_failure.hpp"
 #include "trace/recording.hpp"
 
-namespace clearway::results {
+namespace clearway::campaign {
 namespace {
 
 namespace fs = std::filesystem;
@@ -60,7 +61,7 @@ bool names_a_run(const std::string& text) {
     return parts && is_run_folder(parts->folder);
 }
 
-NamedRun run_named(const std::string& name, const std::string& where, const ConditionCalled& called) {
+NamedRun run_named(const std::string& name, const std::string& where) {
     const std::optional<Parts> parts = parts_of(name);
     if (!parts || !is_run_folder(parts->folder))
         throw core::InputError(
@@ -68,15 +69,15 @@ NamedRun run_named(const std::string& name, const std::string& where, const Cond
              parts ? fmt::format("`{}` is not a run: {} is not a run folder", name, parts->folder.string())
                    : fmt::format("`{}` is not a run", name),
              run_name_form, "for example runs/city-1a2b3c/city/corridor/0"});
-    NamedRun run{Store::open(parts->folder), {parts->scenario, {}, 0}};
-    const Manifest& manifest = run.store.manifest();
+    NamedRun run{results::Store::open(parts->folder), {parts->scenario, {}, 0}};
+    const results::Manifest& manifest = run.store.manifest();
     std::vector<core::Problem> problems;
-    const std::vector<std::string> known = core::texts_of(manifest.scenarios, &ScenarioEntry::name);
+    const std::vector<std::string> known = core::texts_of(manifest.scenarios, &results::ScenarioEntry::name);
     if (std::ranges::find(known, parts->scenario) == known.end())
         problems.push_back({name + ": scenario", fmt::format("`{}` is not in this study", parts->scenario),
                             core::listed(known), core::did_you_mean(parts->scenario, known)});
     try {
-        run.key.condition = called(parts->condition, run.store, name + ": condition");
+        run.key.condition = condition_called(parts->condition, run.store, name + ": condition");
     } catch (const core::InputError& error) {
         std::ranges::copy(error.problems(), std::back_inserter(problems));
     }
@@ -91,14 +92,13 @@ NamedRun run_named(const std::string& name, const std::string& where, const Cond
     return run;
 }
 
-NamedRecording recording_named(const std::string& name, const std::string& where,
-                               const ConditionCalled& called) {
+NamedRecording recording_named(const std::string& name, const std::string& where) {
     const auto open = [](const fs::path& file) {
         return NamedRecording{fs::absolute(file).lexically_normal(),
                               std::make_unique<trace::RecordingReader>(file)};
     };
     if (fs::is_regular_file(name)) return open(name);
-    const NamedRun run = run_named(name, where, called);
+    const NamedRun run = run_named(name, where);
     const fs::path file = trace::recording_file(run.store.folder(), run.key);
     if (!fs::exists(file))
         throw core::InputError(
@@ -114,4 +114,4 @@ NamedRecording recording_named(const std::string& name, const std::string& where
     return recording;
 }
 
-}  // namespace clearway::results
+}  // namespace clearway::campaign

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 
 #include "results/store.hpp"
 #include "trace/recording.hpp"
 
-namespace clearway::results {
+namespace clearway::campaign {
 
 /// How a run is named in arguments and messages.
 inline constexpr const char* run_name_form = "FOLDER/SCENARIO/CONDITION/N";
@@ -21,18 +20,14 @@ bool names_a_run(const std::string& text);
 
 /// A run of a study in its run folder; it need not be complete.
 struct NamedRun {
-    Store store;
+    results::Store store;
     experiment::RunKey key;
 };
 
-/// Returns the name of the condition that a word calls; throws core::InputError, which names the third, for
-/// others.
-using ConditionCalled = std::function<std::string(const std::string&, const Store&, const std::string&)>;
-
-/// The run that `name` means. Throws core::InputError: naming `where` (an option or argument) for text that
-/// is not a run's name, and naming the run for an unknown scenario, condition or replication, with the
-/// nearest.
-NamedRun run_named(const std::string& name, const std::string& where, const ConditionCalled& called);
+/// The run that `name` means, by the name or the title of its condition. Throws core::InputError: naming
+/// `where` (an option or argument) for text that is not a run's name, and naming the run for an unknown
+/// scenario, condition or replication, with the nearest.
+NamedRun run_named(const std::string& name, const std::string& where);
 
 /// A recording, opened: its whole content is hashed then, so it is opened once.
 struct NamedRecording {
@@ -43,7 +38,6 @@ struct NamedRecording {
 /// The recording of a run, given by the run's name or as the file itself. Throws core::InputError as above,
 /// for a run that was not recorded, and for the recording of another run in its place; otherwise as
 /// RecordingReader.
-NamedRecording recording_named(const std::string& name, const std::string& where,
-                               const ConditionCalled& called);
+NamedRecording recording_named(const std::string& name, const std::string& where);
 
-}  // namespace clearway::results
+}  // namespace clearway::campaign

@@ -1,4 +1,4 @@
-#include "results/run_name.hpp"
+#include "campaign/run_name.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,7 +7,7 @@
 #include "support/temporary_folder.hpp"
 #include "trace/recording.hpp"
 
-namespace clearway::results {
+namespace clearway::campaign {
 namespace {
 
 using testing::AllOf;
@@ -16,18 +16,13 @@ using testing::HasSubstr;
 class RunName : public testing::Test {
   protected:
     const support::TemporaryFolder folder;
-    const Store store = Store::create(folder.path() / "mine", synthetic::manifest());
+    const results::Store store =
+        results::Store::create(folder.path() / "mine", results::synthetic::manifest());
 
-    /// By its name; of campaign, by its title too.
-    static std::string called(const std::string& word, const Store& opened, const std::string& where) {
-        for (const experiment::ConditionSpec& condition : opened.manifest().conditions)
-            if (condition.name == word) return word;
-        throw core::InputError({where, "is unknown", "", core::did_you_mean(word, {"treated"})});
-    }
     std::string name(const std::string& end) const { return (folder.path() / "mine").string() + "/" + end; }
     std::string error_of(const std::string& word) const {
         try {
-            run_named(word, "RUN", called);
+            run_named(word, "RUN");
         } catch (const core::InputError& error) {
             return error.what();
         }
@@ -37,7 +32,7 @@ class RunName : public testing::Test {
 
 TEST_F(RunName, IsReadAsItIsWritten) {
     store.manifest().for_each_run([&](const experiment::RunKey& key) {
-        const NamedRun run = run_named(run_name(store.folder(), key), "RUN", called);
+        const NamedRun run = run_named(run_name(store.folder(), key), "RUN");
         EXPECT_EQ(run.key, key);
         EXPECT_TRUE(std::filesystem::equivalent(run.store.folder(), store.folder()));
     });
@@ -48,7 +43,7 @@ TEST_F(RunName, MayBeTheFolderOfTheRunsFiles) {
     const experiment::RunKey key{"alpha", "treated", 1};
     for (const char* const end :
          {"runs/alpha/treated/00001", "alpha/treated/00001/", "recordings/alpha/treated/1"})
-        EXPECT_EQ(run_named(name(end), "RUN", called).key, key) << end;
+        EXPECT_EQ(run_named(name(end), "RUN").key, key) << end;
 }
 
 TEST_F(RunName, OfNoRunIsRefusedWithTheNearest) {
@@ -65,7 +60,7 @@ TEST_F(RunName, OfNoRunIsRefusedWithTheNearest) {
 
 TEST_F(RunName, LeadsToItsRecording) {
     const experiment::RunKey key{"alpha", "treated", 1};
-    EXPECT_THROW(recording_named(name("alpha/treated/1"), "RUN", called), core::InputError);
+    EXPECT_THROW(recording_named(name("alpha/treated/1"), "RUN"), core::InputError);
     const std::filesystem::path file = trace::recording_file(store.folder(), key);
     std::filesystem::create_directories(file.parent_path());
     const auto record = [&](const experiment::RunKey& held) {
@@ -75,13 +70,11 @@ TEST_F(RunName, LeadsToItsRecording) {
         trace::RecordingWriter(file, info).finish();
     };
     record({"alpha", "baseline", 1});
-    EXPECT_THROW(recording_named(name("alpha/treated/1"), "RUN", called), core::InputError)
-        << "that of another run";
+    EXPECT_THROW(recording_named(name("alpha/treated/1"), "RUN"), core::InputError) << "that of another run";
     record(key);
-    EXPECT_TRUE(
-        std::filesystem::equivalent(recording_named(name("alpha/treated/1"), "RUN", called).file, file));
-    EXPECT_TRUE(std::filesystem::equivalent(recording_named(file.string(), "RUN", called).file, file));
+    EXPECT_TRUE(std::filesystem::equivalent(recording_named(name("alpha/treated/1"), "RUN").file, file));
+    EXPECT_TRUE(std::filesystem::equivalent(recording_named(file.string(), "RUN").file, file));
 }
 
 }  // namespace
-}  // namespace clearway::results
+}  // namespace clearway::campaign
