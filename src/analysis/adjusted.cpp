@@ -75,13 +75,11 @@ void adjust_by(const results::Results& baselines, Summary& summary) {
             const MaybeEstimate found =
                 adjusted(condition, *scenario.find(condition.baseline), losses_s, summary.level);
             const MaybeEstimate& plain = condition.metric(primary_metric).comparison->difference;
-            if (!found || !plain || !(found->interval->half_width() > 0.0)) {
-                summary.not_adjusted.push_back(scenario.scenario + ": " + condition.condition.name);
-                continue;
-            }
-            summary.adjusted.push_back(
-                {scenario.scenario, condition.condition.name, *found, losses_s.size(),
-                 required_replications(plain->deviation, found->interval->half_width(), summary.level)});
+            AdjustedDifference& one = summary.adjusted.emplace_back(
+                AdjustedDifference{scenario.scenario, condition.condition.name, {}, losses_s.size()});
+            if (!found || !plain || !(found->interval->half_width() > 0.0)) continue;
+            one.difference = found;
+            one.worth = required_replications(plain->deviation, found->interval->half_width(), summary.level);
         }
     }
 }

@@ -159,7 +159,7 @@ struct Unpaired {
 struct AdjustedDifference {
     std::string scenario;
     std::string condition;
-    Estimate difference;        ///< See `estimate_adjusted`.
+    MaybeEstimate difference;   ///< See `estimate_adjusted`; nothing where it cannot be adjusted.
     std::size_t baselines = 0;  ///< Runs of the baseline behind it.
     std::size_t worth = 0;      ///< Pairs whose interval, not adjusted, would be as narrow.
 };
@@ -174,7 +174,6 @@ struct Summary {
     /// Builds of the programs that made two studies, if they differ.
     std::optional<std::pair<std::string, std::string>> builds;
     std::vector<AdjustedDifference> adjusted;  ///< Empty unless `adjust_by` filled it.
-    std::vector<std::string> not_adjusted;     ///< What it left out, as `scenario: condition`.
 };
 
 /// Compares each condition of `second` with the condition of the same name in `first`, in the same scenario
@@ -185,9 +184,9 @@ Summary compare_studies(const results::Results& first, const results::Results& s
                         double level = usual_level, std::optional<double> response_threshold_s = {});
 
 /// Fills `Summary::adjusted` by a study of the same seed with more replications that has the baselines.
-/// Leaves out what cannot be adjusted: fewer pairs than `fewest_for_interval`, pairs that do not differ,
-/// baselines without a loss, all with the same one, or fewer than pairs. Throws core::InputError for another
-/// seed, scenario or baseline, or fewer replications.
+/// Without a difference stands what cannot be adjusted: fewer pairs than `fewest_for_interval`, pairs that do
+/// not differ, baselines without a loss, all with the same one, or fewer than pairs. Names their builds if
+/// they differ. Throws core::InputError for another seed, scenario or baseline, or fewer replications.
 void adjust_by(const results::Results& baselines, Summary& summary);
 
 /// What conditions are compared with: one condition of the study, by its name; or for each the one that has

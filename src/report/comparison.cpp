@@ -220,15 +220,18 @@ std::string adjusted_text(const analysis::Summary& summary, const ConditionTitle
     std::string text;
     for (const analysis::AdjustedDifference& one : summary.adjusted) {
         const auto title = titles.find({one.scenario, one.condition});
+        const std::string what =
+            one.difference
+                ? fmt::format(
+                      "{} s of EV travel time, adjusted by {} runs of the baseline: as narrow as {} pairs "
+                      "without.",
+                      estimate(one.difference, {.decimals = 1, .sign = Sign::always}), one.baselines,
+                      one.worth)
+                : "not adjusted: EVs do not arrive in a run, pairs are few or nothing differs.";
         text +=
-            core::wrapped(
-                fmt::format(
-                    "{}: {}: {} s of EV travel time, adjusted by {} runs of the baseline: as narrow as "
-                    "{} pairs without.",
-                    printable(one.scenario), printable(title == titles.end() ? one.condition : title->second),
-                    estimate(one.difference, {.decimals = 1, .sign = Sign::always}), one.baselines,
-                    one.worth),
-                4) +
+            core::wrapped(fmt::format("{}: {}: {}", printable(one.scenario),
+                                      printable(title == titles.end() ? one.condition : title->second), what),
+                          4) +
             "\n";
     }
     return text;
@@ -328,13 +331,6 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
         if (std::ranges::any_of(metrics, is_travel_time)) text += response_text(scenario, titles);
     }
     text += adjusted_text(summary, titles);
-    if (!summary.not_adjusted.empty())
-        text += core::wrapped(
-                    fmt::format("Not adjusted, where EVs do not arrive in a run, pairs are few or nothing "
-                                "differs: {}.",
-                                printable(core::listed(summary.not_adjusted))),
-                    4) +
-                "\n";
     for (const analysis::Unpaired& lost : summary.unpaired)
         text += unpaired_line(lost);
     if (const std::string few = few_seeds_sentence(fewest_pairs); !few.empty()) text += few + '\n';
@@ -387,12 +383,13 @@ std::string comparison_json(const analysis::Summary& summary, const std::vector<
                    {"unpaired", std::move(unpaired)},
                    {"short_of_tolerance", std::move(gates)}};
     for (const analysis::AdjustedDifference& one : summary.adjusted)
-        result["adjusted"].push_back({{"scenario", one.scenario},
-                                      {"condition", one.condition},
-                                      {"difference", one.difference.mean},
-                                      {"interval_95", json_of(one.difference.interval)},
-                                      {"baselines", one.baselines},
-                                      {"worth_pairs", one.worth}});
+        result["adjusted"].push_back(
+            {{"scenario", one.scenario},
+             {"condition", one.condition},
+             {"difference", json_of(mean_of(one.difference))},
+             {"interval_95", one.difference ? json_of(one.difference->interval) : Json(nullptr)},
+             {"baselines", one.baselines},
+             {"worth_pairs", one.worth}});
     if (summary.builds)
         result["builds"] = {{"first", summary.builds->first}, {"second", summary.builds->second}};
     return detail::to_text(result);

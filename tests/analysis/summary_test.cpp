@@ -106,31 +106,43 @@ class AdjustedStudy : public SmallStudy {
 
 TEST_F(AdjustedStudy, HasTheMeanOfMoreBaselines) {
     const std::vector<AdjustedDifference> found = adjusted();
-    ASSERT_EQ(found.size(), 1U) << "`other` has no runs";
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_FALSE(found[1].difference) << "`" << found[1].condition << "` has no runs";
+    ASSERT_TRUE(found[0].difference);
     EXPECT_EQ(found[0].scenario, "alpha");
     EXPECT_EQ(found[0].condition, "treated");
-    EXPECT_NEAR(found[0].difference.mean, -0.6 * 510.0 / 9.0, 1e-9);
-    EXPECT_EQ(found[0].difference.n, 6U);
+    EXPECT_NEAR(found[0].difference->mean, -0.6 * 510.0 / 9.0, 1e-9);
+    EXPECT_EQ(found[0].difference->n, 6U);
     EXPECT_EQ(found[0].baselines, 9U);
     const Estimate plain = *scenario().find("treated")->metric(primary_metric).comparison->difference;
     EXPECT_EQ(found[0].worth,
-              required_replications(plain.deviation, found[0].difference.interval->half_width()));
+              required_replications(plain.deviation, found[0].difference->interval->half_width()));
 }
 
 TEST_F(AdjustedStudy, HasNothingWhereABaselineHasNoLossOrMostAreMissing) {
     const std::vector<RunRecord> runs = results_.runs;
     for (std::size_t row = 1; row < runs.size(); row += 2)
         results_.runs[row].metrics = runs[row - 1].metrics;
-    EXPECT_TRUE(adjusted().empty()) << "the condition does nothing";
+    EXPECT_FALSE(adjusted().front().difference) << "the condition does nothing";
     results_.runs = runs;
-    EXPECT_FALSE(adjusted().empty());
+    EXPECT_TRUE(adjusted().front().difference);
     results_.runs[4].metrics.emergency_time_loss_s.reset();
-    EXPECT_TRUE(adjusted().empty()) << "a pair without it";
+    EXPECT_FALSE(adjusted().front().difference) << "a pair without it";
     results_.runs = runs;
     baselines_.runs[8].metrics.emergency_time_loss_s.reset();
-    EXPECT_TRUE(adjusted().empty()) << "a baseline without it";
+    EXPECT_FALSE(adjusted().front().difference) << "a baseline without it";
     baselines_.runs.resize(5);
-    EXPECT_TRUE(adjusted().empty()) << "fewer than pairs";
+    EXPECT_FALSE(adjusted().front().difference) << "fewer than pairs";
+}
+
+TEST_F(AdjustedStudy, NamesTheBuildsOfBaselinesThatAnotherProgramMade) {
+    Summary summary = summarise(results_);
+    adjust_by(baselines_, summary);
+    EXPECT_FALSE(summary.builds);
+    baselines_.manifest.clearway_build = "another";
+    adjust_by(baselines_, summary);
+    ASSERT_TRUE(summary.builds);
+    EXPECT_EQ(summary.builds->second, "another");
 }
 
 TEST_F(AdjustedStudy, RefusesBaselinesOfAnotherStudy) {

@@ -63,22 +63,27 @@ TEST_F(CompareTest, adjusts_by_more_runs_of_the_baseline) {
     write("s.toml",
           "name = \"s\"\nreplications = 5\nscenarios = [\"line\"]\n"
           "conditions = [\"baseline\", \"solo\"]\n[overrides]\ndensity = 4.0\n"
-          "[[condition]]\nname = \"room\"\npolicy = [\"clear_lane\"]\n");
+          "[[condition]]\nname = \"room\"\npolicy = [\"clear_lane\"]\n"
+          "[[condition]]\nname = \"idle\"\npolicy = [\"line_of_sight\"]\n");
     ASSERT_EQ(clearway({"study", "s.toml"}).code, 0);
     const Ended more = clearway({"study", "s.toml", "--baselines", "9", "--reuse", "runs/s"});
     ASSERT_EQ(more.code, 0) << more.err;
     const Ended shown = clearway({"compare", "runs/s", "--baselines", "runs/s-baselines"});
     EXPECT_EQ(shown.code, 0) << shown.err;
-    EXPECT_THAT(shown.out, AllOf(HasSubstr("line: room: "), HasSubstr("adjusted by 9 runs of the")));
+    EXPECT_THAT(shown.out, AllOf(HasSubstr("line: room: "), HasSubstr("adjusted by 9 runs of the"),
+                                 HasSubstr("line: idle: not adjusted: ")));
     const auto tables = nlohmann::json::parse(
         clearway({"compare", "runs/s", "--baselines", "runs/s-baselines", "--json"}).out);
-    ASSERT_EQ(tables.at("adjusted").size(), 1U);
+    ASSERT_EQ(tables.at("adjusted").size(), 2U);
+    EXPECT_TRUE(tables["adjusted"][1]["difference"].is_null());
     EXPECT_EQ(tables["adjusted"][0]["condition"], "room");
     EXPECT_EQ(tables["adjusted"][0]["baselines"], 9);
     EXPECT_FALSE(nlohmann::json::parse(clearway({"compare", "runs/s", "--json"}).out).contains("adjusted"));
     const Ended both = clearway({"compare", "runs/s", "runs/s", "--baselines", "runs/s-baselines"});
     EXPECT_EQ(both.code, 3);
     EXPECT_THAT(both.err, HasSubstr("and there is runs/s"));
+    EXPECT_THAT(clearway({"compare", "runs/s", "--against", "room", "--baselines", "runs/s-baselines"}).err,
+                HasSubstr("and there is room"));
 }
 
 TEST_F(CompareTest, compares_with_a_condition_that_is_named) {
