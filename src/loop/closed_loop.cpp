@@ -18,10 +18,10 @@ using Clock = std::chrono::steady_clock;
 /// Divides the time of a step among its phases.
 class ClosedLoop::Stopwatch {
   public:
-    /// Adds the time since the last call.
-    void lap(double& phase_s) {
+    /// Adds the time since the last call, but for that of another phase within it.
+    void lap(double& phase_s, double other_s = 0.0) {
         const Clock::time_point now = Clock::now();
-        phase_s += std::chrono::duration<double>(now - last_).count();
+        phase_s += std::chrono::duration<double>(now - last_).count() - other_s;
         last_ = now;
     }
 
@@ -122,8 +122,7 @@ void ClosedLoop::step() {
     Stopwatch watch;
     session_.step();
     const double step_s = session_.step_wall_time().value;
-    watch.lap(timing_.phases.reading_s);
-    timing_.phases.reading_s -= step_s;
+    watch.lap(timing_.phases.reading_s, step_s);
     const truth::Snapshot& snapshot = session_.snapshot();
     const bool decided = control(snapshot, watch);
     if (incidents_) incidents_->step(session_);
@@ -137,8 +136,7 @@ void ClosedLoop::step() {
     timing_.vehicle_steps += snapshot.size();
     watch.lap(timing_.phases.recording_s);
     timing_.simulator_s += step_s;
-    whole.lap(timing_.coupling_s);
-    timing_.coupling_s -= step_s;
+    whole.lap(timing_.coupling_s, step_s);
 }
 
 bool ClosedLoop::control(const truth::Snapshot& snapshot, Stopwatch& watch) {
@@ -159,11 +157,9 @@ bool ClosedLoop::control(const truth::Snapshot& snapshot, Stopwatch& watch) {
     auto decided = controller_->decide(
         std::move(observed), others_read_links ? prediction::Want::links : prediction::Want::places);
     const bool has_decision = decided.has_decision();
-    watch.lap(timing_.phases.policy_s);
-    if (has_decision) {
-        timing_.phases.prediction_s += chain.prediction_wall_time().value;
-        timing_.phases.policy_s -= chain.prediction_wall_time().value;
-    }
+    const double predicted_s = has_decision ? chain.prediction_wall_time().value : 0.0;
+    timing_.phases.prediction_s += predicted_s;
+    watch.lap(timing_.phases.policy_s, predicted_s);
     if (has_decision && dispatcher_ != nullptr) dispatcher_->see(chain.belief());
     if (has_decision && chain.observation().is_report) {
         true_links_.look(snapshot);

@@ -46,17 +46,6 @@ struct PhaseTimes {
     double policy_s = 0.0;      ///< Messages to signals, and leases.
     double actuation_s = 0.0;   ///< Requests, commands, and drivers.
     double recording_s = 0.0;   ///< Measures, incidents, and whoever listens.
-
-    static constexpr void fields(const auto& table) {
-        using T = PhaseTimes;
-        using core::Field;
-        table(Field{"reading_s", "s", &T::reading_s, 0.0, 1e9, "Reading SUMO's state", ""},
-              Field{"sensing_s", "s", &T::sensing_s, 0.0, 1e9, "What sensors observe", ""},
-              Field{"prediction_s", "s", &T::prediction_s, 0.0, 1e9, "The believed graph", ""},
-              Field{"policy_s", "s", &T::policy_s, 0.0, 1e9, "Policies", ""},
-              Field{"actuation_s", "s", &T::actuation_s, 0.0, 1e9, "Requests, commands, and drivers", ""},
-              Field{"recording_s", "s", &T::recording_s, 0.0, 1e9, "Measures, and whoever listens", ""});
-    }
 };
 
 /// What a run cost. Kept apart from the record because it differs from machine to machine.

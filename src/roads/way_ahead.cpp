@@ -7,13 +7,19 @@
 #include "roads/detail/walk.hpp"
 
 namespace clearway::roads {
+namespace {
+
+/// Edges and internal lanes of a way ahead that need one allocation.
+constexpr std::size_t usually_passed = 32;
+constexpr std::size_t usually_inside = 64;
+
+}  // namespace
 
 WayAhead::WayAhead(const Network& network, Route route, const traffic::MotionState& state,
                    core::Metres horizon)
     : network_(network), horizon_m_(horizon.value) {
-    // One allocation each, usually.
-    passed_.reserve(32);
-    inside_.reserve(64);
+    passed_.reserve(usually_passed);
+    inside_.reserve(usually_inside);
     detail::Walk walk(network, route, state);
     std::uint32_t step = 0;
     do {

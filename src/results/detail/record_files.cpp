@@ -212,7 +212,10 @@ std::string timing_to_json(const RunTiming& timing) {
     core::Json object;
     core::write_fields(object, timing);
     object["processor_s"] = timing.processor_s;
-    core::write_fields(object["phases"], timing.phases);
+    const PhaseTimes& phases = timing.phases;
+    object["phases"] = {{"reading_s", phases.reading_s},       {"sensing_s", phases.sensing_s},
+                        {"prediction_s", phases.prediction_s}, {"policy_s", phases.policy_s},
+                        {"actuation_s", phases.actuation_s},   {"recording_s", phases.recording_s}};
     object["steps"] = timing.steps;
     object["vehicle_steps"] = timing.vehicle_steps;
     object["made_at"] = timing.made_at;
