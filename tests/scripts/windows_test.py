@@ -81,6 +81,13 @@ class Grid(unittest.TestCase):
         self.assertEqual((found["through"].get("arrivalPos"), found["through@1"].get("arrivalPos")), (None, "7"))
         self.assertEqual([stop.get("lane") for row in found.values() for stop in row.iter("stop")], ["B1B2_0"])
 
+    def test_an_interval_needs_two_values(self):
+        self.assertEqual(repr(windows.interval([3.0])), "(3.0, nan, nan)")
+        mean, low, high = windows.interval([1.0, 2.0, 3.0])
+        self.assertEqual(mean, 2.0)
+        self.assertAlmostEqual(high - mean, mean - low)
+        self.assertEqual(repr(windows.interval([])), "(nan, nan, nan)")
+
     def test_roads_that_lead_out_have_the_mean_speed_of_the_background(self):
         signs = {row.get("id"): row for row in
                  windows.exit_speeds([(0.0, {"B1B2": 3.0, "A1B1": 2.0}), (60.0, {"B1B2": 0.1})], self.window, self.network)}
