@@ -17,7 +17,6 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
 import tomllib
 
 PHASES = ("reading", "sensing", "prediction", "policy", "actuation", "recording")
@@ -27,17 +26,12 @@ HALF_WIDTH_S = 1.0
 
 def run(command):
     """What it prints, and the processor time of the workers that it waited for, s."""
-    ticks_s = os.sysconf("SC_CLK_TCK")
-    workers_s = 0.0
     with tempfile.TemporaryFile("w+", encoding="utf-8") as said, tempfile.TemporaryFile("w+", encoding="utf-8") as errors:
         child = subprocess.Popen(command, stdout=said, stderr=errors)
-        while child.poll() is None:
-            try:
-                fields = pathlib.Path(f"/proc/{child.pid}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()
-                workers_s = max(workers_s, sum(map(int, fields[13:15])) / ticks_s)
-            except (FileNotFoundError, ProcessLookupError):
-                pass
-            time.sleep(0.01)
+        os.waitid(os.P_PID, child.pid, os.WEXITED | os.WNOWAIT)
+        fields = pathlib.Path(f"/proc/{child.pid}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()
+        workers_s = sum(map(int, fields[13:15])) / os.sysconf("SC_CLK_TCK")
+        child.wait()
         if child.returncode != 0:
             errors.seek(0)
             sys.exit(errors.read())

@@ -118,7 +118,6 @@ metrics::LeaseTotals ClosedLoop::finish() {
 }
 
 void ClosedLoop::step() {
-    Stopwatch whole;
     Stopwatch watch;
     session_.step();
     const double step_s = session_.step_wall_time().value;
@@ -136,7 +135,6 @@ void ClosedLoop::step() {
     timing_.vehicle_steps += snapshot.size();
     watch.lap(timing_.phases.recording_s);
     timing_.simulator_s += step_s;
-    whole.lap(timing_.coupling_s, step_s);
 }
 
 bool ClosedLoop::control(const truth::Snapshot& snapshot, Stopwatch& watch) {

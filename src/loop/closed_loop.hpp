@@ -21,10 +21,8 @@ namespace clearway::loop {
 
 /// Where the wall time of a run went, s.
 struct LoopTiming {
-    double simulator_s = 0.0;  ///< SUMO's own step.
-    /// Everything else: reading, sensing, graph, prediction, policy, commands, metrics.
-    double coupling_s = 0.0;
-    results::PhaseTimes phases;  ///< Of `coupling_s`.
+    double simulator_s = 0.0;    ///< SUMO's own step.
+    results::PhaseTimes phases;  ///< Of everything else.
     std::uint64_t steps = 0;
     std::uint64_t vehicle_steps = 0;
 };

@@ -40,7 +40,7 @@ experiment::Provenance own_provenance() {
 results::RunTiming timing_of(const LoopTiming& spent, std::chrono::steady_clock::time_point started) {
     results::RunTiming timing;
     timing.simulator_s = spent.simulator_s;
-    timing.coupling_s = spent.coupling_s;
+    timing.coupling_s = spent.phases.sum_s();
     timing.phases = spent.phases;
     timing.steps = spent.steps;
     timing.vehicle_steps = spent.vehicle_steps;

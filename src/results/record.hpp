@@ -46,6 +46,10 @@ struct PhaseTimes {
     double policy_s = 0.0;      ///< Messages to signals, and leases.
     double actuation_s = 0.0;   ///< Requests, commands, and drivers.
     double recording_s = 0.0;   ///< Measures, incidents, and whoever listens.
+
+    double sum_s() const {
+        return reading_s + sensing_s + prediction_s + policy_s + actuation_s + recording_s;
+    }
 };
 
 /// What a run cost. Kept apart from the record because it differs from machine to machine.

@@ -26,7 +26,7 @@ void measure(loop::ClosedLoop& loop, core::Seconds end) {
     CALLGRIND_STOP_INSTRUMENTATION;
     const loop::LoopTiming& after = loop.timing();
     std::printf("%.6f %.6f %llu\n", after.simulator_s - before.simulator_s,
-                after.coupling_s - before.coupling_s,
+                after.phases.sum_s() - before.phases.sum_s(),
                 static_cast<unsigned long long>(after.vehicle_steps - before.vehicle_steps));
 }
 
