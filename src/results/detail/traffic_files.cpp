@@ -2,6 +2,7 @@
 
 #include <new>
 #include <stdexcept>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -19,62 +20,36 @@ using metrics::RecoveryRow;
 using metrics::SignalHoldRow;
 
 /// The words before the numbers of a row.
-std::string words_of(const ApproachRow& row) {
-    return fmt::format("{},{}", core::csv_text(row.edge), traffic::name(row.vehicle_class));
+template <class Row>
+constexpr std::tuple<> words_of = {};
+template <>
+constexpr auto words_of<ApproachRow> = std::tuple(&ApproachRow::edge, &ApproachRow::vehicle_class);
+template <>
+constexpr auto words_of<JourneyRow> = std::tuple(&JourneyRow::vehicle, &JourneyRow::signal,
+                                                 &JourneyRow::state);
+template <>
+constexpr auto words_of<EdgeTimeRow> = std::tuple(&EdgeTimeRow::vehicle, &EdgeTimeRow::edge);
+template <>
+constexpr auto words_of<ConsideredRow> = std::tuple(&ConsideredRow::vehicle, &ConsideredRow::edge);
+template <>
+constexpr auto words_of<SignalHoldRow> = std::tuple(&SignalHoldRow::signal);
+template <>
+constexpr auto words_of<LockRow> = std::tuple(&LockRow::edge, &LockRow::junction);
+
+std::string cell_of(const std::string& word) {
+    return core::csv_text(word);
 }
-std::string words_of(const JourneyRow& row) {
-    return fmt::format("{},{},{}", core::csv_text(row.vehicle), core::csv_text(row.signal),
-                       core::csv_text(row.state));
-}
-std::string words_of(const EdgeTimeRow& row) {
-    return fmt::format("{},{}", core::csv_text(row.vehicle), core::csv_text(row.edge));
-}
-std::string words_of(const ConsideredRow& row) {
-    return fmt::format("{},{}", core::csv_text(row.vehicle), core::csv_text(row.edge));
-}
-std::string words_of(const SignalHoldRow& row) {
-    return core::csv_text(row.signal);
-}
-std::string words_of(const LockRow& row) {
-    return fmt::format("{},{}", core::csv_text(row.edge), core::csv_text(row.junction));
+std::string cell_of(traffic::VehicleClass word) {
+    return std::string(traffic::name(word));
 }
 
-using Cells = std::vector<std::string_view>;
-
-std::size_t read_words(const Cells& cells, ApproachRow& row) {
-    const auto vehicle_class = core::value_from<traffic::VehicleClass>(cells.at(1));
-    if (!vehicle_class) throw std::runtime_error(fmt::format("\"{}\" is not a class", cells[1]));
-    row.edge = cells[0];
-    row.vehicle_class = *vehicle_class;
-    return 2;
+void read_word(std::string_view cell, std::string& word) {
+    word = cell;
 }
-std::size_t read_words(const Cells& cells, JourneyRow& row) {
-    row.vehicle = cells.at(0);
-    row.signal = cells.at(1);
-    row.state = cells.at(2);
-    return 3;
-}
-std::size_t read_words(const Cells& cells, EdgeTimeRow& row) {
-    row.vehicle = cells.at(0);
-    row.edge = cells.at(1);
-    return 2;
-}
-std::size_t read_words(const Cells& cells, ConsideredRow& row) {
-    row.vehicle = cells.at(0);
-    row.edge = cells.at(1);
-    return 2;
-}
-std::size_t read_words(const Cells& cells, SignalHoldRow& row) {
-    row.signal = cells.at(0);
-    return 1;
-}
-std::size_t read_words(const Cells& cells, LockRow& row) {
-    row.edge = cells.at(0);
-    row.junction = cells.at(1);
-    return 2;
-}
-std::size_t read_words(const Cells&, RecoveryRow&) {
-    return 0;
+void read_word(std::string_view cell, traffic::VehicleClass& word) {
+    const auto known = core::value_from<traffic::VehicleClass>(cell);
+    if (!known) throw std::runtime_error(fmt::format("\"{}\" is not a class", cell));
+    word = *known;
 }
 
 template <class Row>
@@ -85,9 +60,9 @@ std::string to_csv(const std::vector<Row>& rows, const char* words) {
     std::string text = (head.starts_with(',') ? head.substr(1) : head) + "\n";
     for (const Row& row : rows) {
         std::string line;
-        if constexpr (!std::is_same_v<Row, RecoveryRow>) line = words_of(row);
+        std::apply([&](auto... word) { ((line += "," + cell_of(row.*word)), ...); }, words_of<Row>);
         core::append_cells(line, row);
-        text += (line.starts_with(',') && *words == '\0' ? line.substr(1) : line) + "\n";
+        text += line.substr(1) + "\n";
     }
     return text;
 }
@@ -103,9 +78,10 @@ std::vector<Row> from_csv(const core::Json& run, const char* name, const std::st
         reader.next();
         for (; reader.next(); ++line) {
             Row row;
-            std::size_t column = read_words(reader.cells(), row);
-            core::for_each_field<Row>(
-                [&](const auto& field) { core::read_cell(reader.cells().at(column++), row.*field.member); });
+            std::size_t column = 0;
+            const auto next = [&] { return reader.cells().at(column++); };
+            std::apply([&](auto... word) { (read_word(next(), row.*word), ...); }, words_of<Row>);
+            core::for_each_field<Row>([&](const auto& field) { core::read_cell(next(), row.*field.member); });
             rows.push_back(std::move(row));
         }
     } catch (const std::bad_alloc&) {
