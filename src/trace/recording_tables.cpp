@@ -43,33 +43,11 @@ class StepLines {
     StepLines(const RecordedStep& step, const RoadNames& names) : step_(step), names_(names) {}
 
     std::string write(RecordingTable table) {
-        switch (table) {
-            case RecordingTable::snapshot:
-                snapshot();
-                break;
-            case RecordingTable::signals:
-                signals();
-                break;
-            case RecordingTable::events:
-                events();
-                break;
-            case RecordingTable::observation:
-                if (step_.observation != nullptr) observation(*step_.observation);
-                break;
-            case RecordingTable::detections:
-                if (step_.observation != nullptr) detections(*step_.observation);
-                break;
-            case RecordingTable::belief:
-                if (step_.belief != nullptr) belief(*step_.belief);
-                break;
-            case RecordingTable::links:
-                if (step_.belief != nullptr) links(*step_.belief);
-                break;
-            case RecordingTable::leases:
-                for (const traffic::Lease& each : step_.leases)
-                    lease(each);
-                break;
-        }
+        constexpr std::array writers = {&StepLines::snapshot,    &StepLines::signals,    &StepLines::events,
+                                        &StepLines::observation, &StepLines::detections, &StepLines::belief,
+                                        &StepLines::links,       &StepLines::leases};
+        static_assert(writers.size() == tables.size());
+        (this->*writers[static_cast<std::size_t>(table)])();
         return std::move(text_);
     }
 
@@ -123,23 +101,28 @@ class StepLines {
         for (const truth::EmergencyBraking& braking : now.emergency_brakings)
             line("emergency_braking", vehicle(braking.vehicle), "", "", braking.deceleration_mps2);
     }
-    void observation(const traffic::Observation& now) {
-        for (const traffic::ObservedVehicle& each : now.vehicles)
-            line(now.is_report ? 1 : 0, vehicle(each.key), traffic::name(each.vehicle_class),
+    void observation() {
+        if (step_.observation == nullptr) return;
+        for (const traffic::ObservedVehicle& each : step_.observation->vehicles)
+            line(step_.observation->is_report ? 1 : 0, vehicle(each.key), traffic::name(each.vehicle_class),
                  each.freshness == traffic::Freshness::fresh ? "fresh" : "stale", each.age_s,
                  each.position_sigma_m, motion(each.state));
     }
-    void detections(const traffic::Observation& now) {
-        for (const traffic::DetectedLink& link : now.detected_links)
+    void detections() {
+        if (step_.observation == nullptr) return;
+        for (const traffic::DetectedLink& link : step_.observation->detected_links)
             line(vehicle(link.from), vehicle(link.to),
                  link.range_m < 0.0F ? "" : fmt::format("{}", link.range_m), link.range_sigma_m);
     }
-    void belief(const traffic::BelievedGraph& now) {
-        for (const traffic::BelievedVehicle& each : now.vehicles)
+    void belief() {
+        if (step_.belief == nullptr) return;
+        for (const traffic::BelievedVehicle& each : step_.belief->vehicles)
             line(vehicle(each.key), traffic::name(each.vehicle_class), each.age_s, each.sigma_m,
                  motion(each.state));
     }
-    void links(const traffic::BelievedGraph& now) {
+    void links() {
+        if (step_.belief == nullptr) return;
+        const traffic::BelievedGraph& now = *step_.belief;
         for (core::VehicleIndex left = 0; left < now.vehicles.size(); ++left) {
             for (const traffic::BelievedLink& link : now.links_of(left)) {
                 if (link.neighbour > left)
@@ -182,6 +165,10 @@ class StepLines {
     std::string stretch(const traffic::Stretch& place) const {
         return fmt::format("{},{},{},{},{}", lane(place.lane), place.from_m, place.to_m, place.below_mps,
                            place.addressed == traffic::Addressed::automated ? "automated" : "drivers");
+    }
+    void leases() {
+        for (const traffic::Lease& each : step_.leases)
+            lease(each);
     }
     void lease(const traffic::Lease& lease) {
         const auto* const key = std::get_if<core::VehicleKey>(&lease.target);
