@@ -76,9 +76,7 @@ struct ClearLaneConfig : AskSettings {
             Field{"side_room_m", "m", &C::side_room_m, 0.0, 100.0,
                   "Vehicles closer than this along the road cannot move into the same lane side by side",
                   "assumed: two cars"},
-            Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
-                  "Lifetime of a lease that is not renewed; at least two periods",
-                  "assumed: four decisions at the usual period"});
+            detail::lifetime_field<C>());
         AskSettings::fields(table);
     }
 };

@@ -29,9 +29,7 @@ struct DissertationConfig : detail::EdgeRule {
                   "assumed: two car lengths"},
             Field{"ahead_m", "m", &C::ahead_m, 1.0, 1000.0, "A lane is cleared this far ahead",
                   "the link radius"},
-            Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
-                  "Lifetime of a lease that is not renewed; at least two periods",
-                  "assumed: four decisions at the usual period"});
+            detail::lifetime_field<C>());
     }
 };
 

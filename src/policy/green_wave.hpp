@@ -21,9 +21,7 @@ struct GreenWaveConfig {
                     "Green is asked for this long before the planned arrival", "as preempt_signals"},
               Field{"after_s", "s", &C::after_s, 0.0, 300.0, "And for this long after it",
                     "assumed: two stops of a vehicle behind plan"},
-              Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
-                    "Lifetime of a lease that is not renewed; at least two periods",
-                    "assumed: four decisions at the usual period"});
+              detail::lifetime_field<C>());
     }
 };
 

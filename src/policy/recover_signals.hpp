@@ -36,9 +36,7 @@ struct RecoverSignalsConfig {
                   "assumed: as many as pass on a lane during yellow and all-red"},
             Field{"halted_mps", "m/s", &C::halted_mps, 0.0, 5.0, "A slower vehicle counts as standing",
                   "assumed: walking pace is 1.4 m/s"},
-            Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
-                  "Lifetime of a lease that is not renewed; at least two periods",
-                  "assumed: four decisions at the usual period"},
+            detail::lifetime_field<C>(),
             Field{"exit_room_m", "m", &C::exit_room_m, 0.0, 200.0,
                   "A vehicle does not count while standing vehicles leave less than this free on its way "
                   "behind the signal; 0: every vehicle counts",

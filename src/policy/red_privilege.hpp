@@ -21,9 +21,7 @@ struct RedPrivilegeConfig {
         table(Field{"near_m", "m", &C::near_m, 1.0, 1000.0,
                     "The privilege begins at this distance from a signal that is not green",
                     "assumed: before the vehicle would brake"},
-              Field{"lease_s", "s", &C::lease_s, 0.1, 60.0,
-                    "Lifetime of a lease that is not renewed; at least two periods",
-                    "assumed: four decisions at the usual period"});
+              detail::lifetime_field<C>());
     }
 };
 

@@ -4,25 +4,12 @@
 #include <map>
 #include <vector>
 
-#include "core/fields.hpp"
 #include "policy/detail/view.hpp"
 
 namespace clearway::policy::detail {
 
 /// Pulling aside goes before changing lanes: a vehicle that stands in a queue cannot change lanes.
 inline constexpr int aside_priority = 1;
-
-/// A lifetime, the same field in every part that makes room.
-template <class Config>
-constexpr auto lifetime_field() {
-    return core::Field{"lease_s",
-                       "s",
-                       &Config::lease_s,
-                       0.1,
-                       60.0,
-                       "Lifetime of a lease that is not renewed; at least two periods",
-                       "assumed: four decisions at the usual period"};
-}
 
 /// Vehicles that were asked to stop beside the road for an emergency vehicle. There, nobody sees them any
 /// more, so the part remembers where it asked them, and renews the request until the emergency vehicle has
