@@ -1,7 +1,6 @@
 #include "campaign/equip_rounds.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <filesystem>
 #include <limits>

@@ -18,7 +18,6 @@
 #include "campaign/study_run.hpp"
 #include "campaign/worker_jobs.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "core/progress.hpp"
 #include "core/temporary_folder.hpp"
 #include "core/terminal.hpp"

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "core/random.hpp"
 #include "links/link_run.hpp"
 #include "links/link_scores.hpp"
 #include "links/place_errors.hpp"

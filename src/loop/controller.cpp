@@ -1,6 +1,5 @@
 #include "loop/controller.hpp"
 
-#include <algorithm>
 #include <cassert>
 
 #include "experiment/settings.hpp"

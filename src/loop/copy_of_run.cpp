@@ -2,7 +2,6 @@
 
 #include <cassert>
 #include <cerrno>
-#include <climits>
 #include <csignal>
 #include <cstdio>
 #include <cstring>

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "core/files.hpp"
 #include "core/temporary_folder.hpp"
 #include "experiment/link_job.hpp"

@@ -1,7 +1,6 @@
 #include "loop/incidents.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <span>
 #include <utility>

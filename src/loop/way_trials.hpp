@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <functional>
 #include <map>
-#include <vector>
 
 #include "core/ids.hpp"
 #include "core/units.hpp"

@@ -1,6 +1,5 @@
 #include "policy/line_of_sight.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

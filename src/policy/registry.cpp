@@ -1,7 +1,6 @@
 #include <tuple>
 #include <utility>
 
-#include "core/error.hpp"
 #include "policy/check_in_out.hpp"
 #include "policy/clear_lane.hpp"
 #include "policy/corridor.hpp"

@@ -1,7 +1,6 @@
 #include "prediction/boosted_trees.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include <fmt/format.h>

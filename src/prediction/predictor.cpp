@@ -1,6 +1,5 @@
 #include "prediction/predictor.hpp"
 
-#include <algorithm>
 #include <type_traits>
 #include <utility>
 

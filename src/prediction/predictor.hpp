@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -11,7 +10,6 @@
 #include "core/fields.hpp"
 #include "core/random.hpp"
 #include "core/settings.hpp"
-#include "core/spellings.hpp"
 #include "graph/proximity.hpp"
 #include "prediction/candidates.hpp"
 #include "roads/network.hpp"

@@ -1,6 +1,5 @@
 #include "report/read_facts.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>

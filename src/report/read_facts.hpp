@@ -3,11 +3,9 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "analysis/summary.hpp"
 #include "core/settings.hpp"
-#include "experiment/condition.hpp"
 #include "report/comparison.hpp"
 #include "report/facts.hpp"
 #include "results/store.hpp"

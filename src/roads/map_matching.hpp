@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/ids.hpp"
-#include "core/units.hpp"
 #include "roads/lane_grid.hpp"
 #include "roads/network.hpp"
 #include "roads/route.hpp"

@@ -1,7 +1,5 @@
 #include "roads/signal_name.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "core/number.hpp"

@@ -4,8 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/counted.hpp"
 #include "core/match_rows.hpp"
 #include "prediction/comparison/features.hpp"

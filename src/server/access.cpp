@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <climits>
 
 #include <arpa/inet.h>
 #include <boost/asio/io_context.hpp>

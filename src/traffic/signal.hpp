@@ -3,8 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "core/ids.hpp"
-
 namespace clearway::traffic {
 
 /// What every signal shows now, indexed by `core::SignalIndex`. A state holds one of SUMO's letters per link

@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "core/fields.hpp"
 #include "core/spellings.hpp"
 #include "prediction/repair_net.hpp"
 #include "training/repair_batch.hpp"

@@ -1,7 +1,6 @@
 #include "campaign/detail/equip_search.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>

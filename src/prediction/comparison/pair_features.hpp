@@ -1,9 +1,7 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <string_view>
-#include <vector>
 
 #include "prediction/candidates.hpp"
 #include "prediction/weights.hpp"

@@ -1,6 +1,5 @@
 #include "report/detail/map_facts.hpp"
 
-#include <algorithm>
 #include <map>
 #include <numeric>
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "report/facts.hpp"
-#include "report/text.hpp"
 
 namespace clearway::report::detail {
 

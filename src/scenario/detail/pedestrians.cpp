@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "core/units.hpp"
 #include "roads/crossings.hpp"
 #include "scenario/prepare.hpp"
 

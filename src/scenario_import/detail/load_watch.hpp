@@ -4,8 +4,6 @@
 #include <filesystem>
 #include <string>
 
-#include "core/spellings.hpp"
-
 namespace clearway::scenario_import::detail {
 
 /// Departures of a synthetic demand, s.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "roads/network.hpp"
 #include "scenario/config.hpp"
 #include "scenario_import/import.hpp"
