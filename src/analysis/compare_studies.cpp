@@ -22,12 +22,11 @@ using experiment::ConditionSpec;
 }
 
 bool has_scenario(const results::Manifest& manifest, const std::string& name) {
-    return std::ranges::find(manifest.scenarios, name, &results::ScenarioEntry::name) !=
-           manifest.scenarios.end();
+    return core::contains(manifest.scenarios, name, &results::ScenarioEntry::name);
 }
 
 bool has_condition(const results::Manifest& manifest, const std::string& name) {
-    return std::ranges::find(manifest.conditions, name, &ConditionSpec::name) != manifest.conditions.end();
+    return core::contains(manifest.conditions, name, &ConditionSpec::name);
 }
 
 /// Adds what `one` has and `other` does not have.

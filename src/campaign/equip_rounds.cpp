@@ -161,7 +161,7 @@ std::uint64_t EquipRounds::fresh_seed() const {
 analysis::SignalSet EquipRounds::effective(const analysis::SignalSet& set, std::uint32_t replication) const {
     analysis::SignalSet passed;
     for (const std::size_t candidate : question_.passed[replication])
-        if (std::ranges::find(set, candidate) != set.end()) passed.push_back(candidate);
+        if (core::contains(set, candidate)) passed.push_back(candidate);
     return passed;
 }
 
@@ -276,7 +276,7 @@ std::string EquipRounds::same_with_other_seeds() const {
         alike.replications = other.replications;
         alike.conditions = other.conditions;
         return alike == other && other.replications != own.replications &&
-               std::ranges::find(other.conditions, own.conditions.back()) != other.conditions.end();
+               core::contains(other.conditions, own.conditions.back());
     };
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(options_.folder.parent_path() / ".", none)) {

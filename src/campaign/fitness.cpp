@@ -229,14 +229,14 @@ std::string conclusion_of(const std::string& scenario, const std::vector<Finding
         has_trials = has_trials || finding.name == detail::trials_name;
     }
     if (!failed.empty()) return fmt::format("{} cannot be run: {}.", scenario, core::listed(failed));
-    const bool is_of_signals = std::ranges::find(noted, signals_name) == noted.end();
+    const bool is_of_signals = !core::contains(noted, signals_name);
     const std::string fit =
         scenario +
         (is_of_signals ? " is fit for a study" : " is fit for a study, though signals have little to gain");
     if (short_of.empty() && noted.empty()) return fit + ".";
     if (!short_of.empty())
         return fmt::format("{} is not fit for a study as it is: {}.", scenario, core::listed(short_of));
-    if (!has_trials && std::ranges::find(noted, detail::locks_name) != noted.end())
+    if (!has_trials && core::contains(noted, detail::locks_name))
         return fmt::format(
             "{} as far as its one run tells, which locks; others may lock more: --lock-trials 6 tells. "
             "Noted: {}.",

@@ -36,7 +36,7 @@ std::string number_text(const std::string& option, const std::string& text) {
 
 bool is_predictor(const std::string& name) {
     const std::vector<std::string> names = links::judged_predictors();
-    return std::ranges::find(names, name) != names.end();
+    return core::contains(names, name);
 }
 
 links::LinkPredictor& predictor_named(const std::string& option, const std::string& name,
@@ -139,12 +139,11 @@ void keep_scenarios(const std::vector<std::string>& names, links::LinkBenchmark&
     const std::vector<std::string> known =
         core::texts_of(benchmark.scenarios, &links::BenchmarkScenario::label);
     for (const std::string& name : names) {
-        if (std::ranges::find(known, name) == known.end())
+        if (!core::contains(known, name))
             throw core::InputError(unknown_name("scenario of " + benchmark.name, name, known));
     }
-    std::erase_if(benchmark.scenarios, [&](const links::BenchmarkScenario& entry) {
-        return std::ranges::find(names, entry.label) == names.end();
-    });
+    std::erase_if(benchmark.scenarios,
+                  [&](const links::BenchmarkScenario& entry) { return !core::contains(names, entry.label); });
 }
 
 links::LinkBenchmark named_benchmark(const LinkRequest& request) {
@@ -181,7 +180,7 @@ links::LinkBenchmark own_benchmark(const LinkRequest& request) {
     }
     std::vector<std::string> names;
     for (const links::BenchmarkScenario& entry : benchmark.scenarios) {
-        if (std::ranges::find(names, entry.label) != names.end())
+        if (core::contains(names, entry.label))
             problems.push_back(
                 {"SCENARIO", fmt::format("`{}` is given twice", entry.label), "each once", ""});
         names.push_back(entry.label);
@@ -202,8 +201,7 @@ void check(const links::LinkPlan& plan) {
     std::vector<core::Problem> problems;
     const auto check_name = [&](const std::string& where, const std::string& name,
                                 const std::vector<std::string>& known) {
-        if (std::ranges::find(known, name) == known.end())
-            problems.push_back(unknown_name(where, name, known));
+        if (!core::contains(known, name)) problems.push_back(unknown_name(where, name, known));
     };
     for (const std::string& failure : plan.benchmark.failures)
         check_failure("--failure", failure, problems);

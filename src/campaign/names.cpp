@@ -62,7 +62,7 @@ Levels levels_of(const std::vector<experiment::ConditionSpec>& conditions) {
     for (const experiment::ConditionSpec& condition : conditions) {
         for (const auto& [factor, level] : condition.factors) {
             std::vector<std::string>& known = levels[factor];
-            if (std::ranges::find(known, level) == known.end()) known.push_back(level);
+            if (!core::contains(known, level)) known.push_back(level);
         }
     }
     return levels;
@@ -133,7 +133,7 @@ analysis::Reference reference_from(const std::string& against,
     if (against.empty()) return {};
     const char* const option = "--against";
     const std::vector<std::string> names = core::texts_of(conditions, &experiment::ConditionSpec::name);
-    if (std::ranges::find(names, against) != names.end()) return {.name = against};
+    if (core::contains(names, against)) return {.name = against};
     const results::Store store = results::Store::open(folder);
     const core::Settings titles = report::titles_of(store);
     const auto titled = std::ranges::find(titles, against, [](const auto& title) { return title.second; });
@@ -181,8 +181,7 @@ void check_failure(const std::string& where, const std::string& failure,
                    std::vector<core::Problem>& problems) {
     if (failure.find_first_of("=,") == std::string::npos) {
         const std::vector<std::string> known = failure_names();
-        if (std::ranges::find(known, failure) == known.end())
-            problems.push_back(unknown_name(where, failure, known));
+        if (!core::contains(known, failure)) problems.push_back(unknown_name(where, failure, known));
         return;
     }
     try {
@@ -261,7 +260,7 @@ void check_names(const std::vector<experiment::ConditionSpec>& conditions) {
     std::vector<core::Problem> problems;
     const auto check = [&](const std::string& where, const std::string& name,
                            const std::vector<std::string>& known) {
-        if (!python::part_name_from(name) && std::ranges::find(known, name) == known.end()) {
+        if (!python::part_name_from(name) && !core::contains(known, name)) {
             problems.push_back(unknown_part(where, name, known));
         }
     };

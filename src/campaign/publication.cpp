@@ -126,7 +126,7 @@ void check_complete(const std::string& folder, const analysis::Summary& summary)
 std::vector<std::string> each_once(const std::vector<std::string>& metrics) {
     std::vector<std::string> once;
     for (const std::string& metric : metrics) {
-        if (std::ranges::find(once, metric) == once.end()) once.push_back(metric);
+        if (!core::contains(once, metric)) once.push_back(metric);
     }
     return once;
 }

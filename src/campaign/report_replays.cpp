@@ -87,9 +87,7 @@ class MissingRecordings {
   private:
     void need(const experiment::RunKey& key) {
         const std::filesystem::path folder = std::filesystem::absolute(store_.folder());
-        if (std::filesystem::exists(trace::recording_file(folder, key)) ||
-            std::ranges::find(made_, key) != made_.end())
-            return;
+        if (std::filesystem::exists(trace::recording_file(folder, key)) || core::contains(made_, key)) return;
         made_.push_back(key);
         const std::string name =
             fmt::format("replay-{}-{:05}-{}", key.scenario, key.replication, key.condition);

@@ -73,7 +73,7 @@ NamedRun run_named(const std::string& name, const std::string& where) {
     const results::Manifest& manifest = run.store.manifest();
     std::vector<core::Problem> problems;
     const std::vector<std::string> known = core::texts_of(manifest.scenarios, &results::ScenarioEntry::name);
-    if (std::ranges::find(known, parts->scenario) == known.end())
+    if (!core::contains(known, parts->scenario))
         problems.push_back({name + ": scenario", fmt::format("`{}` is not in this study", parts->scenario),
                             core::listed(known), core::did_you_mean(parts->scenario, known)});
     try {

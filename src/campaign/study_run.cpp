@@ -63,7 +63,7 @@ bool is_in_python(const experiment::ConditionSpec& condition) {
 bool learns(const study::Plan& plan) {
     const std::vector<std::string> learned = prediction::predictors().names(traffic::Trait::learned);
     return std::ranges::any_of(plan.manifest.conditions, [&](const experiment::ConditionSpec& condition) {
-        return std::ranges::find(learned, condition.predictor) != learned.end();
+        return core::contains(learned, condition.predictor);
     });
 }
 

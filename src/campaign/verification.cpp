@@ -81,7 +81,7 @@ void require_same_versions(const results::Manifest& manifest) {
 /// study does, for one that was changed: its runs made now would be others.
 void require_unchanged(const results::Store& store, const std::vector<experiment::RunKey>& keys) {
     for (const results::ScenarioEntry& entry : store.manifest().scenarios) {
-        if (std::ranges::find(keys, entry.name, &experiment::RunKey::scenario) == keys.end()) continue;
+        if (!core::contains(keys, entry.name, &experiment::RunKey::scenario)) continue;
         const std::filesystem::path folder = store.scenario_folder(entry.name);
         for (const char* const name : {"scenario.toml", "network/network.net.xml"})
             if (!std::filesystem::exists(folder / name))
@@ -141,10 +141,9 @@ std::string left_out_text(const results::Store& store, const std::vector<experim
     std::set<std::pair<std::string, std::string>> cells;
     for (const experiment::RunKey& key : store.manifest().runs()) {
         cells.emplace(key.scenario, key.condition);
-        const bool is_in =
-            std::ranges::find(keys, key.condition, &experiment::RunKey::condition) != keys.end();
+        const bool is_in = core::contains(keys, key.condition, &experiment::RunKey::condition);
         const std::string& title = titles.at(key.condition);
-        if (!is_in && std::ranges::find(left_out, title) == left_out.end()) left_out.push_back(title);
+        if (!is_in && !core::contains(left_out, title)) left_out.push_back(title);
     }
     if (left_out.empty()) return "";
     return core::wrapped(fmt::format("Not sampled: {}. --sample {} takes a run of each condition.",
@@ -271,7 +270,7 @@ Verification verify(const results::Store& stored, const results::Store& again,
 std::vector<std::string> tables_of(const std::vector<results::CellDifference>& cells) {
     std::vector<std::string> tables;
     for (const results::CellDifference& cell : cells)
-        if (std::ranges::find(tables, cell.table) == tables.end()) tables.push_back(cell.table);
+        if (!core::contains(tables, cell.table)) tables.push_back(cell.table);
     return tables;
 }
 
@@ -314,7 +313,7 @@ core::Json json_of(const std::vector<results::CellDifference>& cells) {
 /// The worst of all verdicts.
 core::ExitCode code_of(const std::vector<Verification>& verifications) {
     const auto any = [&](Verdict verdict) {
-        return std::ranges::find(verifications, verdict, &Verification::verdict) != verifications.end();
+        return core::contains(verifications, verdict, &Verification::verdict);
     };
     if (any(Verdict::different)) return core::ExitCode::conflict;
     if (any(Verdict::damaged)) return core::ExitCode::bad_input;
@@ -375,7 +374,7 @@ std::vector<experiment::ConditionSpec> conditions_of(const results::Store& store
                                                      const std::vector<experiment::RunKey>& keys) {
     std::vector<experiment::ConditionSpec> conditions = store.manifest().conditions;
     std::erase_if(conditions, [&](const experiment::ConditionSpec& condition) {
-        return std::ranges::find(keys, condition.name, &experiment::RunKey::condition) == keys.end();
+        return !core::contains(keys, condition.name, &experiment::RunKey::condition);
     });
     for (experiment::ConditionSpec& condition : conditions)
         condition = with_files_found(condition, store.folder());

@@ -124,7 +124,7 @@ core::ExitCode exit_code_of(const core::Exit& exit) {
                                  core::ExitCode::incomplete, core::ExitCode::conflict};
     if (exit.code == program_not_started) return core::ExitCode::environment;
     const auto code = static_cast<core::ExitCode>(exit.code);
-    if (exit.signal == 0 && std::ranges::find(told, code) != told.end()) return code;
+    if (exit.signal == 0 && core::contains(told, code)) return code;
     return core::ExitCode::runs_failed;
 }
 

@@ -166,8 +166,7 @@ std::string lone_value(const CLI::App& command) {
     for (const std::string& word : command.remaining()) {
         const char* option = nullptr;
         if (prediction::predictors().find(word) != nullptr) option = "predictor";
-        if (std::ranges::find(presets, word, &failures::FailurePreset::name) != presets.end())
-            option = "failure";
+        if (core::contains(presets, word, &failures::FailurePreset::name)) option = "failure";
         if (option == nullptr) continue;
         const CLI::Option* const known = command.get_option_no_throw(fmt::format("--{}", option));
         if (known == nullptr) continue;

@@ -82,13 +82,12 @@ std::vector<report::Tolerance> check(CompareArguments& arguments) {
     for (const std::string& word : arguments.tolerances) {
         tolerances.push_back(tolerance_from(word, chosen));
         const std::string& metric = tolerances.back().metric;
-        if (std::ranges::find(arguments.metrics, metric) == arguments.metrics.end())
-            arguments.metrics.push_back(metric);
+        if (!core::contains(arguments.metrics, metric)) arguments.metrics.push_back(metric);
     }
     const std::vector<std::string> known = metric_names();
     std::vector<core::Problem> problems;
     for (const std::string& metric : arguments.metrics) {
-        if (std::ranges::find(known, metric) == known.end())
+        if (!core::contains(known, metric))
             problems.push_back(campaign::unknown_name("metric", metric, known, "clearway list columns"));
     }
     if (!problems.empty()) throw core::InputError(std::move(problems));
@@ -173,7 +172,7 @@ std::string standing_text(const analysis::MetricSummary& metric, const std::stri
 /// Which conditions were the best, and what choosing them so means.
 std::string best_text(const analysis::Summary& summary, const std::vector<std::string>& metrics,
                       const report::ConditionTitleMap& titles) {
-    const bool has_primary = std::ranges::find(metrics, analysis::primary_metric) != metrics.end();
+    const bool has_primary = core::contains(metrics, analysis::primary_metric);
     const std::string metric = has_primary ? analysis::primary_metric : metrics.front();
     std::string text;
     for (const analysis::ScenarioSummary& scenario : summary.scenarios) {

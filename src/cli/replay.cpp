@@ -89,7 +89,7 @@ void drop_what_is_gone(const experiment::ConditionSpec& recorded, const ReplayAr
     const std::vector<std::string> present = experiment::components_of(condition);
     std::erase_if(condition.settings, [&](const auto& setting) {
         const std::string component = setting.first.substr(0, setting.first.find('.'));
-        return std::ranges::find(present, component) == present.end();
+        return !core::contains(present, component);
     });
 }
 
@@ -107,9 +107,8 @@ void refuse_idle_settings(const ReplayArguments& arguments, const experiment::Co
     for (const std::string& words : arguments.settings) {
         const std::string component = words.substr(0, words.find('.'));
         const bool is_known =
-            std::ranges::find(experiment::components(), component, &experiment::Component::name) !=
-            experiment::components().end();
-        if (!is_known || std::ranges::find(acting, component) != acting.end()) continue;
+            core::contains(experiment::components(), component, &experiment::Component::name);
+        if (!is_known || core::contains(acting, component)) continue;
         problems.push_back(
             {"--set " + words.substr(0, words.find('=')),
              arguments.table.empty() ? "changes nothing in a replay, where nothing is simulated"

@@ -74,9 +74,7 @@ void add_ceiling(study::StudyConfig& study) {
     });
     if (own == study.conditions.end()) return;
     const experiment::ConditionSpec perfect = experiment::without_failure(*own);
-    if (std::ranges::find(study.conditions, perfect.name, &experiment::ConditionSpec::name) !=
-        study.conditions.end())
-        return;
+    if (core::contains(study.conditions, perfect.name, &experiment::ConditionSpec::name)) return;
     study.controls[perfect.name] = own->name;
     study.conditions.insert(own, perfect);
 }

@@ -58,7 +58,7 @@ std::string approach_text(const SignalSheet& sheet, const scenario::SignalPhase&
     std::vector<std::string> names;
     const std::vector<std::string>& edges = phase.edges;
     for (const scenario::SignalApproach& approach : sheet.approaches) {
-        if (std::ranges::find(edges, approach.edge) == edges.end()) continue;
+        if (!core::contains(edges, approach.edge)) continue;
         names.push_back(approach.street.empty() ? approach.edge
                                                 : fmt::format("{} ({})", approach.edge, approach.street));
     }

@@ -102,8 +102,7 @@ campaign::Table table_of(const std::vector<CellStatus>& cells, const core::Setti
 
 std::string text_of(const StudyStatus& status, const std::string& headline) {
     std::string text;
-    if (std::ranges::find(status.cells, traffic::SafetyChecks::off, &CellStatus::safety_checks) !=
-        status.cells.end())
+    if (core::contains(status.cells, traffic::SafetyChecks::off, &CellStatus::safety_checks))
         text = "(!): the simulator's safety checks were off in this condition.\n";
     text += fmt::format("\n{}: {}", status.folder.string(), study::name(status.state));
     if (!status.holder.empty()) text += fmt::format(" ({})", status.holder);

@@ -68,7 +68,7 @@ std::vector<Problem> each_once(const std::vector<Problem>& problems) {
     for (const Problem& one : problems) {
         std::vector<std::string>& known = places[kind_of(one)];
         if (known.empty()) told.push_back(one);
-        if (std::ranges::find(known, one.where) == known.end()) known.push_back(one.where);
+        if (!core::contains(known, one.where)) known.push_back(one.where);
     }
     for (Problem& one : told)
         one.where = some_of(places.at(kind_of(one)));
@@ -87,8 +87,7 @@ std::string lower(std::string text) {
 /// The command line says `--seeds` and study files `replications`; `seed` is neither.
 bool counts_runs(const std::string& word) {
     constexpr std::array words = {"seeds", "replications", "repetitions"};
-    return std::ranges::find(words, word.substr(std::min(word.find_first_not_of('-'), word.size()))) !=
-           words.end();
+    return core::contains(words, word.substr(std::min(word.find_first_not_of('-'), word.size())));
 }
 
 /// The words between underscores; what users call an EV is `emergency` in names.

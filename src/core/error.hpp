@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -76,6 +77,12 @@ class ConflictError : public Error {
 
 /// One line per problem: `where: what (allowed: ...). cure`; control characters are shown as `\x1b`.
 std::string format_problem(const Problem& problem);
+
+/// Whether a range has an element whose `projection` equals a value.
+template <class Range, class Value, class Projection = std::identity>
+constexpr bool contains(const Range& range, const Value& value, const Projection& projection = {}) {
+    return std::ranges::find(range, value, projection) != std::ranges::end(range);
+}
 
 /// The texts that `projection` gives for the elements of a range, in their order.
 template <class Range, class Projection>

@@ -74,7 +74,7 @@ Error error_of(const std::system_error& fault) {
 }
 
 bool is_of_machine(int reason) {
-    return std::ranges::find(reasons_of_machine, reason) != reasons_of_machine.end();
+    return core::contains(reasons_of_machine, reason);
 }
 
 bool tells_of_machine(std::string_view words) {

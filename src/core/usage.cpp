@@ -95,7 +95,7 @@ std::string usage_message(const CLI::App& command, const std::string& name, cons
         const std::string word = unknown.front().substr(0, unknown.front().find('='));
         std::vector<std::string> known = option_names(command);
         known.insert(known.end(), words.begin(), words.end());
-        const bool takes_policy = std::ranges::find(known, "--policy") != known.end();
+        const bool takes_policy = core::contains(known, "--policy");
         const std::string hint =
             did_you_mean(word, known,
                          takes_policy && !word.starts_with('-')

@@ -71,7 +71,7 @@ std::string part_words(const std::string& name, bool on_command_line) {
         return words("predictor",
                      "[[condition]] with predictor = \"{0}\", in Python Condition(NAME, predictor=\"{0}\")");
     const auto presets = failures::failure_presets();
-    if (std::ranges::find(presets, name, &failures::FailurePreset::name) != presets.end())
+    if (core::contains(presets, name, &failures::FailurePreset::name))
         return words("failure",
                      "[[condition]] with failure = \"{0}\", in Python Condition(NAME, failure=\"{0}\")");
     return "";

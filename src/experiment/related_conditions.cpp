@@ -30,9 +30,8 @@ ConditionSpec policies_alone(ConditionSpec condition) {
     condition.model_file.clear();
     condition.model_hash.clear();
     const std::vector<std::string> present = components_of(condition);
-    std::erase_if(condition.settings, [&](const auto& setting) {
-        return std::ranges::find(present, parted(setting.first).first) == present.end();
-    });
+    std::erase_if(condition.settings,
+                  [&](const auto& setting) { return !core::contains(present, parted(setting.first).first); });
     return condition;
 }
 

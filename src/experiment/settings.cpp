@@ -96,7 +96,7 @@ const Component* component_named(const std::string& name) {
 std::vector<std::string> full_names(const std::vector<std::string>& of) {
     std::vector<std::string> names;
     for (const Component& component : components()) {
-        if (std::ranges::find(of, component.name) == of.end()) continue;
+        if (!core::contains(of, component.name)) continue;
         for (const core::SettingInfo& row : component.table.rows)
             names.push_back(component.name + "." + row.name);
     }
@@ -167,8 +167,7 @@ void check_link_radius(const ConditionSpec& condition, const std::string& where,
 /// The penalty is the device's own, and the way of an EV is chosen by one alone.
 void check_rerouting(const ConditionSpec& condition, const std::string& where,
                      std::vector<core::Problem>& problems) {
-    if (condition.rerouting_s > 0.0 &&
-        std::ranges::find(condition.policies, "navigate") != condition.policies.end())
+    if (condition.rerouting_s > 0.0 && core::contains(condition.policies, "navigate"))
         problems.push_back(
             {where + "rerouting_s",
              fmt::format("is {:g}: SUMO's rerouting device and navigate would both choose the way",
@@ -317,7 +316,7 @@ std::vector<std::string> components_of(const ConditionSpec& condition) {
     present.insert(present.end(), parts_present.begin(), parts_present.end());
     std::vector<std::string> ordered;
     for (const Component& component : components()) {
-        if (std::ranges::find(present, component.name) != present.end()) ordered.push_back(component.name);
+        if (core::contains(present, component.name)) ordered.push_back(component.name);
     }
     const std::vector<std::string> parts = part_names(condition);
     ordered.insert(ordered.end(), parts.begin(), parts.end());
@@ -327,7 +326,7 @@ std::vector<std::string> components_of(const ConditionSpec& condition) {
 std::vector<std::string> parts_of(const ConditionSpec& condition) {
     std::vector<std::string> parts;
     const auto add = [&](const std::string& part) {
-        if (std::ranges::find(parts, part) == parts.end()) parts.push_back(part);
+        if (!core::contains(parts, part)) parts.push_back(part);
     };
     for (const std::string& name : condition.policies) {
         if (const policy::PolicyEntry* const known = policy::policies().find(name)) {
@@ -389,7 +388,7 @@ std::vector<core::Problem> check_setting(const std::string& name, const std::str
                                          const std::string& where, const std::vector<std::string>& parts) {
     const auto [component, field] = parted(name);
     const Component* const known = component_named(component);
-    if (std::ranges::find(parts, component) != parts.end()) return {};
+    if (core::contains(parts, component)) return {};
     if (known == nullptr) {
         std::vector<std::string> all = component_names();
         // Of a part in Python any setting may be meant; its own are known where it is loaded.
@@ -401,8 +400,7 @@ std::vector<core::Problem> check_setting(const std::string& name, const std::str
                  "COMPONENT.NAME, the component being one of " + core::listed(all), cure}};
     }
     const std::vector<std::string> names = core::texts_of(known->table.rows, &core::SettingInfo::name);
-    if (std::ranges::find(names, field) == names.end())
-        return {core::unknown_setting(where + name, field, names)};
+    if (!core::contains(names, field)) return {core::unknown_setting(where + name, field, names)};
     return known->table.check({{field, value}}, where + component + ".");
 }
 
@@ -428,7 +426,7 @@ std::vector<core::Problem> check_settings(const ConditionSpec& condition, const 
     for (const auto& [name, value] : condition.settings) {
         const std::string component = parted(name).first;
         const bool is_known = component_named(component) != nullptr;
-        if (is_known && std::ranges::find(present, component) == present.end()) {
+        if (is_known && !core::contains(present, component)) {
             problems.push_back(
                 {where + name,
                  fmt::format("is a setting of {}, which the condition does not have", component),

@@ -73,12 +73,11 @@ std::vector<Component> components_named(const std::string& words) {
     std::vector<std::string> known = names_of(all);
     for (const policy::PolicyEntry& entry : policy::policies()) {
         if (entry.name == name) wanted = entry.components;
-        if (std::ranges::find(known, entry.name) == known.end()) known.push_back(entry.name);
+        if (!core::contains(known, entry.name)) known.push_back(entry.name);
     }
     std::vector<Component> found;
-    std::ranges::copy_if(all, std::back_inserter(found), [&](const Component& component) {
-        return std::ranges::find(wanted, component.name) != wanted.end();
-    });
+    std::ranges::copy_if(all, std::back_inserter(found),
+                         [&](const Component& component) { return core::contains(wanted, component.name); });
     if (found.empty()) {
         throw core::InputError({"list settings", fmt::format("`{}` is unknown", name), core::listed(known),
                                 core::did_you_mean(name, known, check_setting(name, "", "").front().cure)});

@@ -203,7 +203,7 @@ class ItemReader {
             return;
         }
         const bool is_late = !seen_.empty() || (preset->kind == PresetKind::reports && !named_.empty());
-        const bool is_second = std::ranges::find(named_, preset->kind) != named_.end();
+        const bool is_second = core::contains(named_, preset->kind);
         if (is_late || is_second)
             problems.push_back({"failure", fmt::format("the preset '{}' after other items", item),
                                 "one preset of reports, at the front; then one of loss and one of range of "

@@ -31,7 +31,7 @@ SeedRange read_range(core::StrictTable& seeds, const std::string& key) {
 
 void check_name(core::StrictTable& reader, const std::string& key, const std::string& what,
                 const std::string& name, const std::vector<std::string>& known) {
-    if (std::ranges::find(known, name) != known.end()) return;
+    if (core::contains(known, name)) return;
     reader.problem(key, fmt::format("`{}` is not a {}", name, what), core::listed(known),
                    core::did_you_mean(name, known));
 }
@@ -44,7 +44,7 @@ void check_label(core::StrictTable& reader, const std::string& label, const Link
         std::string::npos;
     if (!plain && reader.has("label"))
         reader.problem(key, fmt::format("`{}` cannot name a folder", label), "letters, digits, _ and -", "");
-    if (std::ranges::find(benchmark.scenarios, label, &BenchmarkScenario::label) != benchmark.scenarios.end())
+    if (core::contains(benchmark.scenarios, label, &BenchmarkScenario::label))
         reader.problem(key, fmt::format("`{}` is used twice", label), "each once",
                        "Give the second one a `label` of its own");
 }
@@ -143,7 +143,7 @@ void check_failures(core::StrictTable& root, const LinkBenchmark& benchmark) {
             root.problem("failures", fmt::format("`{}` is listed twice", *failure), "each failure once", "");
     }
     for (const std::string& failure : benchmark.quick.failures) {
-        if (!all.empty() && std::ranges::find(all, failure) == all.end())
+        if (!all.empty() && !core::contains(all, failure))
             root.problem("quick", fmt::format("`{}` is not among the benchmark's failures", failure),
                          core::listed(all), "Name it in `failures`");
     }
@@ -164,8 +164,7 @@ void check_compared(core::StrictTable& root, LinkBenchmark& benchmark) {
         for (std::string* const name : {&pair.predictor, &pair.against}) {
             const bool is_own = python::part_name_from(*name).has_value();
             const std::string said = is_own ? python::short_name(*name) : *name;
-            if ((is_own || !benchmark.predictors.empty()) &&
-                std::ranges::find(benchmark.predictors, *name) == benchmark.predictors.end())
+            if ((is_own || !benchmark.predictors.empty()) && !core::contains(benchmark.predictors, *name))
                 root.problem("comparisons", fmt::format("`{}` is not among the benchmark's predictors", said),
                              core::listed(benchmark.predictors), "Name it in `predictors`");
             *name = said;

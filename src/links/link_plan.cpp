@@ -112,7 +112,7 @@ std::string settings_text(const LinkPredictor& predictor) {
 std::string LinkPlan::opponent() const {
     if (!against.empty()) return against;
     for (const char* const name : opponents) {
-        if (std::ranges::find(predictors, name, &LinkPredictor::name) != predictors.end()) return name;
+        if (core::contains(predictors, name, &LinkPredictor::name)) return name;
     }
     return {};
 }
@@ -120,7 +120,7 @@ std::string LinkPlan::opponent() const {
 std::vector<ComparedPair> LinkPlan::comparisons() const {
     std::vector<ComparedPair> present;
     const auto judged = [&](const std::string& name) {
-        return std::ranges::find(predictors, name, &LinkPredictor::name) != predictors.end();
+        return core::contains(predictors, name, &LinkPredictor::name);
     };
     std::ranges::copy_if(benchmark.comparisons, std::back_inserter(present), [&](const ComparedPair& pair) {
         return judged(pair.predictor) && judged(pair.against);

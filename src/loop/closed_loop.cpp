@@ -86,7 +86,7 @@ CopyEnd ClosedLoop::end_after(const std::function<bool()>& change, core::Vehicle
         if (before.value + core::clock_tolerance_s < watched_until.value)
             end.others_s += (session_.time() - before).value * others_under_way();
         const auto& arrived = session_.events().arrived;
-        if (has_arrived || std::ranges::find(arrived, vehicle) == arrived.end()) continue;
+        if (has_arrived || !core::contains(arrived, vehicle)) continue;
         has_arrived = true;
         end.arrival = session_.time();
     }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "roads/closure.hpp"
 #include "sensing/incident_watch.hpp"
 #include "traffic/obstacle.hpp"
@@ -266,10 +267,7 @@ double Incidents::round_s(std::size_t row, roads::Driver driver, const roads::Tr
 bool Incidents::passes(State& state, core::RouteIndex route, const traffic::Roster& roster) const {
     if (route.value >= state.passes.size()) state.passes.resize(roster.route_count(), 0);
     std::uint8_t& known = state.passes[route.value];
-    if (known == 0)
-        known = std::ranges::find(roster.route(route), state.placed.closed.edge) == roster.route(route).end()
-                    ? 1
-                    : 2;
+    if (known == 0) known = !core::contains(roster.route(route), state.placed.closed.edge) ? 1 : 2;
     return known == 2;
 }
 

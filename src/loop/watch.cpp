@@ -64,7 +64,7 @@ class RunMemory {
         }
         for (std::size_t parent = 0; parent < all_.size(); ++parent) {
             for (auto [child, last] = children.equal_range(all_[parent]); child != last; ++child)
-                if (std::ranges::find(all_, child->second) == all_.end()) all_.push_back(child->second);
+                if (!core::contains(all_, child->second)) all_.push_back(child->second);
         }
     }
 

@@ -109,7 +109,7 @@ Requests::Requests(const experiment::ConditionSpec& condition, const ChainContex
 
 bool Requests::is_request(const traffic::Lease& lease, std::span<const std::string_view> decided_there) {
     if (lease.beneficiary == core::VehicleKey{}) return false;
-    if (std::ranges::find(decided_there, lease.policy) != decided_there.end()) return false;
+    if (core::contains(decided_there, lease.policy)) return false;
     const auto* const vehicle = std::get_if<core::VehicleKey>(&lease.target);
     return vehicle == nullptr || *vehicle != lease.beneficiary;
 }

@@ -63,7 +63,7 @@ void find_served(const roads::Signal& signal, const std::string& state, const De
             const int waiting = demand.by_lane[way.from.value];
             if (waiting == 0 || !demand.may_leave(way)) continue;
             has_demand = true;
-            if (std::ranges::find(served.lanes, way.from) != served.lanes.end()) continue;
+            if (core::contains(served.lanes, way.from)) continue;
             served.vehicles += waiting;
             served.lanes.push_back(way.from);
         }

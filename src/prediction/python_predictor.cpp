@@ -135,7 +135,7 @@ PartedSettings parted_settings(const core::Settings& settings) {
     PartedSettings parted;
     const std::vector<core::SettingInfo> rows = core::field_rows<PredictionConfig>();
     for (const auto& setting : settings) {
-        const bool is_shared = std::ranges::find(rows, setting.first, &core::SettingInfo::name) != rows.end();
+        const bool is_shared = core::contains(rows, setting.first, &core::SettingInfo::name);
         (is_shared ? parted.shared : parted.own).insert(setting);
     }
     return parted;

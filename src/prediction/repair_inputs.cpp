@@ -161,7 +161,7 @@ void RepairInputBuilder::look_around(const traffic::Observation& observation, co
         std::vector<std::uint32_t>& beside = beside_[around_.size() - 1];
         beside.clear();
         const auto add = [&](bool exists, std::uint32_t row) {
-            if (exists && std::ranges::find(beside, row) == beside.end()) beside.push_back(row);
+            if (exists && !core::contains(beside, row)) beside.push_back(row);
         };
         add(ahead.leader.exists, ahead.leader.row);
         add(ahead.follower.exists, ahead.follower.row);
@@ -280,7 +280,7 @@ void RepairInputBuilder::write_edges(const Scene& scene, RepairInputs& inputs) {
 }
 
 bool RepairInputBuilder::detects(std::span<const detail::Detection> detections, std::uint32_t source) {
-    return std::ranges::find(detections, source, &detail::Detection::from) != detections.end();
+    return core::contains(detections, source, &detail::Detection::from);
 }
 
 /// The nearest vehicles but those that get an edge for another reason.
@@ -291,8 +291,7 @@ void RepairInputBuilder::add_nearest(const Scene& scene, std::size_t entry,
     const auto distances = near_.distances_of(ahead_[entry].row);
     for (std::size_t at = 0; at < neighbours.size(); ++at) {
         const std::uint32_t source = neighbours[at];
-        const bool apart =
-            std::ranges::find(beside_[entry], source) != beside_[entry].end() || detects(detections, source);
+        const bool apart = core::contains(beside_[entry], source) || detects(detections, source);
         if (!apart) nearest_.push_back({distances[at], source});
     }
     const std::size_t kept = std::min(most_near_sources, nearest_.size());

@@ -194,7 +194,7 @@ std::vector<Tensor> parse_pth(std::string_view bytes, const std::string& source)
         Tensor tensor{name, {pickled->shape.begin(), pickled->shape.end()}, {}};
         tensor.values = values_of(*pickled, archive, where);
         require_finite(tensor, where);
-        if (std::ranges::find(tensors, name, &Tensor::name) != tensors.end()) refuse(where, "stands twice");
+        if (core::contains(tensors, name, &Tensor::name)) refuse(where, "stands twice");
         values += tensor.values.size();
         if (values > most_values)
             refuse(source, "has too many values", fmt::format("{} at most", most_values));
@@ -229,8 +229,7 @@ std::vector<Tensor> renamed_parameters(std::vector<Tensor> tensors, std::span<co
             const std::string ending = ending_of(name);
             return tensor.name == ending || tensor.name.ends_with("." + ending);
         });
-        const bool is_new =
-            found != names.end() && std::ranges::find(renamed, *found, &Tensor::name) == renamed.end();
+        const bool is_new = found != names.end() && !core::contains(renamed, *found, &Tensor::name);
         if (!is_new) {
             unknown.push_back(tensor.name);
             continue;
@@ -240,8 +239,7 @@ std::vector<Tensor> renamed_parameters(std::vector<Tensor> tensors, std::span<co
     }
     for (const std::string& name : names) {
         allowed.push_back(ending_of(name));
-        if (std::ranges::find(renamed, name, &Tensor::name) == renamed.end())
-            missing.push_back(allowed.back());
+        if (!core::contains(renamed, name, &Tensor::name)) missing.push_back(allowed.back());
     }
     if (missing.empty() && unknown.empty()) return renamed;
     const auto listed = [](const std::vector<std::string>& all) {

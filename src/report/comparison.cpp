@@ -128,7 +128,7 @@ bool more_is_better(const std::string& metric) {
                                    "signal_throughput_per_hour",
                                    "emergency_least_ttc_s",
                                    "signal_calls_granted"};
-    return std::ranges::find(better, metric) != better.end();
+    return core::contains(better, metric);
 }
 
 namespace {

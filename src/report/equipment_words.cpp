@@ -76,7 +76,7 @@ std::vector<std::size_t> first_numbers(const EquipmentFacts& facts, std::size_t 
 /// The pair that a signal was chosen in; nothing for one that was chosen alone.
 const EquipPairFacts* pair_of(const EquipmentFacts& facts, const EquippedSignal& signal) {
     const auto found = std::ranges::find_if(facts.pairs, [&](const EquipPairFacts& pair) {
-        return pair.chosen && std::ranges::find(pair.numbers, signal.number) != pair.numbers.end();
+        return pair.chosen && core::contains(pair.numbers, signal.number);
     });
     return found == facts.pairs.end() ? nullptr : &*found;
 }

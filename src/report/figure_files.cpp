@@ -93,7 +93,7 @@ std::vector<std::string> stems_of(const std::vector<std::string>& names) {
     std::vector<std::string> stems;
     for (const std::string& name : names) {
         const std::string stem = name.substr(0, name.find('-'));
-        if (std::ranges::find(stems, stem) == stems.end()) stems.push_back(stem);
+        if (!core::contains(stems, stem)) stems.push_back(stem);
     }
     return stems;
 }
@@ -153,11 +153,11 @@ class FileWriter : public detail::Writer {
             lines += fmt::format("{}\t{}\n", former.name,
                                  is_written(former.name) ? sample_of(former.name) : former.seeds);
         for (const std::string& name : names_)
-            if (std::ranges::find(former_, name, &Written::name) == former_.end())
+            if (!core::contains(former_, name, &Written::name))
                 lines += fmt::format("{}\t{}\n", name, sample_of(name));
         core::write_output(folder_ / list_name, lines);
     }
-    bool is_written(const std::string& name) const { return std::ranges::find(names_, name) != names_.end(); }
+    bool is_written(const std::string& name) const { return core::contains(names_, name); }
     fs::path write(const std::string& name, const char* ending, const std::string& text) {
         fs::path file = folder_ / (name + ending);
         if (names_.empty() || names_.back() != name) {

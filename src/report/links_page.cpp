@@ -69,7 +69,7 @@ std::map<std::string, std::size_t> series_of(const LinkFacts& facts) {
     if (names.size() > most_drawn) names.resize(most_drawn);
     std::map<std::string, std::size_t> series;
     for (const std::string& name : facts.predictors) {
-        if (std::ranges::find(names, name) != names.end()) series.emplace(name, series.size() + 1);
+        if (core::contains(names, name)) series.emplace(name, series.size() + 1);
     }
     return series;
 }

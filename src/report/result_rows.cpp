@@ -248,7 +248,7 @@ std::string portable_command(const std::string& command, const std::string& root
     std::string text;
     for (std::string word; words >> word;) {
         const std::string name = word.substr(0, word.find('='));
-        if (std::ranges::find(left_out, name) != left_out.end()) {
+        if (core::contains(left_out, name)) {
             if (name == word) words >> word;
             continue;
         }

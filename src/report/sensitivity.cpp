@@ -114,7 +114,7 @@ bool SensitivityRow::shows_nothing() const {
 
 bool Sensitivity::has_level(const std::string& of_scenario, const std::string& named) const {
     return scenario == of_scenario && std::ranges::any_of(rows, [&](const SensitivityRow& row) {
-               return std::ranges::find(row.levels, named, &SensitivityLevel::condition) != row.levels.end();
+               return core::contains(row.levels, named, &SensitivityLevel::condition);
            });
 }
 

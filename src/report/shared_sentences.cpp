@@ -17,8 +17,7 @@ namespace {
 /// Those who are called to an incident stop before it.
 bool blocks_the_way(const RoadMap& roads) {
     return std::ranges::any_of(roads.incidents, [&](const MapIncident& incident) {
-        return incident.is_closed &&
-               std::ranges::find(roads.calls, incident.edge, &MapCall::edge) == roads.calls.end();
+        return incident.is_closed && !core::contains(roads.calls, incident.edge, &MapCall::edge);
     });
 }
 
@@ -27,7 +26,7 @@ bool is_shown_alone(Effect effect, const analysis::Comparison& comparison) {
 }
 
 void add_once(const std::string& word, std::vector<std::string>& words) {
-    if (std::ranges::find(words, word) == words.end()) words.push_back(word);
+    if (!core::contains(words, word)) words.push_back(word);
 }
 
 }  // namespace

@@ -150,8 +150,7 @@ Tile incident_tile(const ScenarioFacts& scenario, const ConditionFacts& conditio
                                 counted(condition.emergency.total(), "EV"),
                                 baseline == nullptr ? condition.baseline : baseline->title);
     tile.meaning += fmt::format("; {} of them meet it with this condition", grouped(met.still));
-    const bool navigates =
-        std::ranges::find(condition.condition.policies, "navigate") != condition.condition.policies.end();
+    const bool navigates = core::contains(condition.condition.policies, "navigate");
     if (navigates && controls_note(scenario, condition, script).empty())
         tile.meaning += "; studies/accident.toml tells what hearing of it is worth to all";
     return tile;

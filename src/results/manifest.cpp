@@ -132,7 +132,7 @@ std::map<std::string, core::Settings> values_of(const std::string& configuration
 /// What the dense variant sets, and so is told with it.
 bool is_of_variant(const std::string& key) {
     constexpr std::array keys = {"demand.density", "demand.emergency", "time.warm_up_s", "time.window_s"};
-    return key.starts_with("dense.") || std::ranges::find(keys, key) != keys.end();
+    return key.starts_with("dense.") || core::contains(keys, key);
 }
 
 /// `friction 0.5, speed_factor 1`.
@@ -189,7 +189,7 @@ std::string differing_scenarios(const Manifest& left, const Manifest& right) {
         }
     }
     for (const ScenarioEntry& one : right.scenarios)
-        if (std::ranges::find(left.scenarios, one.name, &ScenarioEntry::name) == left.scenarios.end())
+        if (!core::contains(left.scenarios, one.name, &ScenarioEntry::name))
             found.push_back(one.name + " is new");
     return found.empty() ? "order of scenarios" : with_some("scenarios", std::move(found));
 }
@@ -204,8 +204,7 @@ std::string differing_conditions(const Manifest& left, const Manifest& right,
     std::vector<std::string> added;
     std::vector<std::string> order;
     for (const experiment::ConditionSpec& one : left.conditions) {
-        if (std::ranges::find(right.conditions, one.name, &experiment::ConditionSpec::name) ==
-            right.conditions.end())
+        if (!core::contains(right.conditions, one.name, &experiment::ConditionSpec::name))
             found.push_back(named.at(one.name) + " is not asked for");
         else
             order.push_back(one.name);

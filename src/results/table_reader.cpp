@@ -181,7 +181,7 @@ void print_table(const Store& store, const std::string& table, TableFormat forma
         if (table == log.name) return print_log_table(store, log, format, out);
     const Database database = open_database(store);
     const std::vector<std::string> known = table_names(store);
-    if (std::ranges::find(known, table) == known.end()) {
+    if (!core::contains(known, table)) {
         throw core::InputError({"table",
                                 fmt::format("there is no `{}` in {}", table, store.folder().string()),
                                 core::listed(known), core::did_you_mean(table, known)});

@@ -29,7 +29,7 @@ const std::vector<std::string>& controllers() {
 
 std::optional<core::Problem> controller_problem(std::string where, std::string_view signal,
                                                 const std::string& type) {
-    if (std::ranges::find(controllers(), type) != controllers().end()) return std::nullopt;
+    if (core::contains(controllers(), type)) return std::nullopt;
     if (is_no_signal(type))
         return core::Problem{
             std::move(where), fmt::format("type=\"{}\" of signal \"{}\" cannot be simulated", type, signal),

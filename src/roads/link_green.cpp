@@ -28,7 +28,7 @@ LinkGreen green_in_rings(const Signal& signal, std::size_t link) {
 }  // namespace
 
 bool gives_green(const Phase& phase, std::size_t link) {
-    return link < phase.state.size() && traffic::is_green(phase.state[link]);
+    return traffic::is_green_for(phase.state, link);
 }
 
 LinkGreen link_green(const Signal& signal, std::size_t link) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -103,6 +104,11 @@ struct Signal {
     /// foes[a][b]: the ways of links a and b cross or merge, by the right-of-way table of their junction.
     /// Symmetric, false on the diagonal and between links of different junctions.
     std::vector<std::vector<bool>> foes;
+
+    double cycle_s() const {
+        return std::accumulate(program.begin(), program.end(), 0.0,
+                               [](double sum_s, const Phase& phase) { return sum_s + phase.duration_s; });
+    }
 };
 
 /// Where a network lies on the globe, for conversion to WGS 84.

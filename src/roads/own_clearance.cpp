@@ -5,14 +5,11 @@
 #include <cstdint>
 #include <utility>
 
+#include "roads/link_green.hpp"
 #include "traffic/signal.hpp"
 
 namespace clearway::roads {
 namespace {
-
-bool is_green_in(const Phase& phase, std::size_t link) {
-    return link < phase.state.size() && traffic::is_green(phase.state[link]);
-}
 
 bool is_yellow_in(const Phase& phase, std::size_t link) {
     return link < phase.state.size() && traffic::is_yellow(phase.state[link]);
@@ -21,9 +18,9 @@ bool is_yellow_in(const Phase& phase, std::size_t link) {
 /// Whether vehicles go in `phase` for whom links must wait that open in `later`.
 bool keeps_waiting(const Signal& signal, const Phase& phase, const Phase& later) {
     for (std::size_t link = 0; link < signal.links.size(); ++link) {
-        if (!is_green_in(phase, link) || signal.crossings[link]) continue;
+        if (!gives_green(phase, link) || signal.crossings[link]) continue;
         for (std::size_t other = 0; other < signal.links.size(); ++other) {
-            const bool opens = is_green_in(later, other) && !is_green_in(phase, other);
+            const bool opens = gives_green(later, other) && !gives_green(phase, other);
             if (opens && signal.foes[link][other]) return true;
         }
     }
@@ -50,7 +47,7 @@ enum class Opening : std::uint8_t { none, others, foe };
 Opening opening(const Signal& signal, std::size_t link, const Phase& before, const Phase& later) {
     Opening found = Opening::none;
     for (std::size_t other = 0; other < signal.links.size(); ++other) {
-        if (!is_green_in(later, other) || is_green_in(before, other)) continue;
+        if (!gives_green(later, other) || gives_green(before, other)) continue;
         if (signal.foes[link][other]) return Opening::foe;
         found = Opening::others;
     }
@@ -75,7 +72,7 @@ AfterGreen after_green(const Signal& signal, std::size_t link, std::size_t row) 
     bool clears = true;
     double cleared_s = green.red_s;
     std::vector<std::pair<const Phase*, double>> since;
-    for (; left > 0 && !is_green_in(cycle.phase(), link); --left) {
+    for (; left > 0 && !gives_green(cycle.phase(), link); --left) {
         const Phase& phase = cycle.phase();
         const Opening now = opening(signal, link, green, phase);
         if (now != Opening::none && clears) {
@@ -100,8 +97,8 @@ std::vector<OwnClearance> own_clearances(const Signal& signal) {
     for (std::size_t link = 0; link < signal.links.size(); ++link) {
         bool has_red = false;
         for (std::size_t row = 0; row < rows; ++row) {
-            const bool ends = is_green_in(signal.program[row], link) &&
-                              !is_green_in(signal.program[(row + 1) % rows], link);
+            const bool ends = gives_green(signal.program[row], link) &&
+                              !gives_green(signal.program[(row + 1) % rows], link);
             if (!ends) continue;
             const AfterGreen after = after_green(signal, link, row);
             all[link].yellow_s = std::max(all[link].yellow_s, after.own.yellow_s);

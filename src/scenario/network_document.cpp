@@ -28,7 +28,7 @@ std::string without(std::string_view classes, std::span<const std::string_view> 
     std::istringstream words{std::string(classes)};
     std::string kept;
     for (std::string word; words >> word;)
-        if (std::ranges::find(left_out, word) == left_out.end()) kept += (kept.empty() ? "" : " ") + word;
+        if (!core::contains(left_out, word)) kept += (kept.empty() ? "" : " ") + word;
     return kept;
 }
 

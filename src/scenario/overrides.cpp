@@ -25,7 +25,7 @@ std::optional<core::Problem> problem_of(const Override& override, const Given& g
     if (override.is_number()) {
         problem = core::set_member(override.value, given.text, given.where, number);
         if (problem) problem->cure.clear();
-    } else if (!words.empty() && std::ranges::find(words, given.text) == words.end()) {
+    } else if (!words.empty() && !core::contains(words, given.text)) {
         problem = core::Problem{given.where, fmt::format("\"{}\" is not known", given.text),
                                 core::listed(words), ""};
     }

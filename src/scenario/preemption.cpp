@@ -56,14 +56,14 @@ class Reading {
         const std::size_t before = problems_.size();
         for (const std::string_view cell : cells) {
             const std::string name(cell);
-            if (std::ranges::find(known, name) == known.end())
+            if (!core::contains(known, name))
                 refuse(1, name, "is no column of this file", column_line(), core::did_you_mean(name, known));
-            else if (std::ranges::find(columns_, name) != columns_.end())
+            else if (core::contains(columns_, name))
                 refuse(1, name, "is there twice", "each column once", "remove one");
             columns_.push_back(name);
         }
         for (const std::string& name : known) {
-            if (std::ranges::find(columns_, name) == columns_.end())
+            if (!core::contains(columns_, name))
                 refuse(1, name, "is missing", column_line(), "add the column; its cells may be empty");
         }
         if (problems_.size() > before) columns_.clear();
@@ -157,13 +157,6 @@ class Reading {
     std::string signal_;  ///< Words about that of the row; empty where it has none.
 };
 
-double cycle_s(const roads::Signal& signal) {
-    double sum_s = 0.0;
-    for (const roads::Phase& phase : signal.program)
-        sum_s += phase.duration_s;
-    return sum_s;
-}
-
 bool is_green_phase(const roads::Phase& phase) {
     return std::ranges::any_of(phase.state, traffic::is_green) &&
            std::ranges::none_of(phase.state, traffic::is_yellow);
@@ -179,14 +172,14 @@ std::optional<double> common_least_green_s(const roads::Signal& signal) {
         common_s = phase.least_s;
     }
     constexpr double longest_s = 255.0;
-    if (common_s) common_s = std::min({*common_s, cycle_s(signal), longest_s});
+    if (common_s) common_s = std::min({*common_s, signal.cycle_s(), longest_s});
     return common_s;
 }
 
 /// Checks one row against its signal.
 void check(const traffic::Preemption& row, const std::string& where, const roads::Signal& signal,
            std::vector<Problem>& problems) {
-    const double longest_s = cycle_s(signal);
+    const double longest_s = signal.cycle_s();
     for (const auto& [name, value] :
          {std::pair{"minimum_green_s", row.minimum_green_s}, std::pair{"walk_s", row.walk_s}}) {
         if (value && *value > longest_s)
@@ -200,7 +193,7 @@ void check(const traffic::Preemption& row, const std::string& where, const roads
     for (std::size_t number = 0; number < signal.program.size(); ++number) {
         if (is_green_phase(signal.program[number])) greens.push_back(std::to_string(number));
     }
-    if (std::ranges::find(greens, std::to_string(phase)) != greens.end()) return;
+    if (core::contains(greens, std::to_string(phase))) return;
     problems.push_back(
         {fmt::format("{}: exit_phase", where),
          fmt::format("{} {} of signal '{}'", phase,

@@ -22,8 +22,7 @@ double changed(const ScenarioConfig& config, const std::string& edge, double lim
     if (config.limits.road_kmh > 0.0)
         limit_mps = std::min(limit_mps, core::from_kmh(config.limits.road_kmh).value);
     for (const Stretch& stretch : config.road.stretches)
-        if (std::ranges::find(stretch.edges, edge) != stretch.edges.end())
-            return limit_mps * stretch.speed_factor;
+        if (core::contains(stretch.edges, edge)) return limit_mps * stretch.speed_factor;
     return limit_mps * config.road.speed_factor;
 }
 

@@ -49,9 +49,8 @@ SignalPhase phase_of(const roads::Signal& signal, std::uint32_t number,
     for (std::size_t link = 0; link < phase.state.size(); ++link)
         sheet.on_foot = sheet.on_foot || (is_crossing(signal, link) && traffic::is_green(phase.state[link]));
     for (const SignalApproach& approach : approaches) {
-        const bool has_green = std::ranges::any_of(approach.links, [&](std::uint16_t link) {
-            return link < phase.state.size() && traffic::is_green(phase.state[link]);
-        });
+        const bool has_green = std::ranges::any_of(
+            approach.links, [&](std::uint16_t link) { return traffic::is_green_for(phase.state, link); });
         if (has_green) sheet.edges.push_back(approach.edge);
     }
     return sheet;

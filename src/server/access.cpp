@@ -156,7 +156,7 @@ std::vector<std::string> own_names() {
     const std::string whole = text.data();
     std::vector<std::string> names;
     for (const std::string& name : {whole, whole.substr(0, whole.find('.'))}) {
-        if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+        if (!name.empty() && !core::contains(names, name)) names.push_back(name);
     }
     return names;
 }

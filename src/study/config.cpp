@@ -38,8 +38,7 @@ constexpr std::int64_t most_seed = std::numeric_limits<std::int64_t>::max();
 /// Every combination of factors loads the same scenarios with the same overrides: a problem is told once.
 void append(Problems& problems, const core::InputError& error) {
     std::ranges::copy_if(error.problems(), std::back_inserter(problems), [&](const core::Problem& problem) {
-        return std::ranges::find(problems, core::format_problem(problem), core::format_problem) ==
-               problems.end();
+        return !core::contains(problems, core::format_problem(problem), core::format_problem);
     });
 }
 
@@ -341,10 +340,6 @@ void resolve_parts(TomlReading& reading, StudyConfig& config) {
     }
 }
 
-bool has(const std::vector<std::string>& names, const std::string& name) {
-    return std::ranges::find(names, name) != names.end();
-}
-
 /// Whether a key is misspelt that makes or names conditions: a title may then name one of those.
 bool misses_conditions(const TomlReading& reading) {
     return std::ranges::any_of(std::array{"factors", "conditions", "condition", "condition.name"},
@@ -368,7 +363,7 @@ void read_precision(StrictTable& root, StudyConfig& config) {
     reader->integer<std::uint32_t>("at_most", least_replications, most_replications, target.at_most);
     reader->finish();
     const std::vector<std::string> names = metric_names();
-    if (!has(names, target.metric)) {
+    if (!core::contains(names, target.metric)) {
         reader->problem("metric", fmt::format("'{}' is not a metric", target.metric), "columns of runs.csv",
                         core::did_you_mean(target.metric, names));
     }
@@ -390,11 +385,11 @@ void keep_named(StrictTable& quick, const char* key, std::vector<Element>& all) 
     if (kept.empty()) return;
     const std::vector<std::string> names = core::texts_of(all, &Element::name);
     for (const std::string& name : kept) {
-        if (has(names, name)) continue;
+        if (core::contains(names, name)) continue;
         quick.problem(key, fmt::format("'{}' is not in the study", name), core::listed(names),
                       core::did_you_mean(name, names));
     }
-    std::erase_if(all, [&](const Element& element) { return !has(kept, element.name); });
+    std::erase_if(all, [&](const Element& element) { return !core::contains(kept, element.name); });
 }
 
 /// Whose scenarios a study has: a command line can replace those of the file.
@@ -460,7 +455,7 @@ void require_study_file(const std::filesystem::path& file) {
     std::error_code unknown;
     if (std::filesystem::status(file, unknown).type() != std::filesystem::file_type::not_found) return;
     const std::vector<std::string> scenarios = scenario::list();
-    if (std::ranges::find(scenarios, file.string()) != scenarios.end()) refuse_scenario(file);
+    if (core::contains(scenarios, file.string())) refuse_scenario(file);
     throw core::InputError(
         {file.string(), "there is no such file", "a study file (.toml)", core::did_you_mean_file(file)});
 }

@@ -196,8 +196,7 @@ std::vector<UnitPlace> units_of(const results::Manifest& manifest) {
          {TrafficModel::standard, TrafficModel::sublane, TrafficModel::free_flow}) {
         for (const experiment::ConditionSpec& condition : manifest.conditions) {
             const experiment::ProcessOptions process = experiment::process_of(condition);
-            if (process.traffic_model == traffic_model &&
-                std::ranges::find(processes, process) == processes.end())
+            if (process.traffic_model == traffic_model && !core::contains(processes, process))
                 processes.push_back(process);
         }
     }

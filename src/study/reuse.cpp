@@ -51,7 +51,7 @@ std::map<experiment::RunKey, std::string> reusable_runs(const results::Manifest&
     require_comparable(study, theirs, from);
     std::vector<results::ScenarioEntry> scenarios = study.scenarios;
     std::erase_if(scenarios, [&](const results::ScenarioEntry& scenario) {
-        return std::ranges::find(theirs.scenarios, scenario) == theirs.scenarios.end();
+        return !core::contains(theirs.scenarios, scenario);
     });
     const core::Settings conditions = shared(study.conditions, theirs.conditions);
     for (const auto& [none, what] :
@@ -80,8 +80,7 @@ Reused reuse(const results::Store& store, const std::filesystem::path& from) {
         if (const auto same = conditions.find(name); same != conditions.end()) {
             if (same->second != name)
                 result.renamed.push_back(fmt::format("{} ({} there)", name, same->second));
-        } else if (std::ranges::find(theirs.conditions, name, &experiment::ConditionSpec::name) !=
-                   theirs.conditions.end()) {
+        } else if (core::contains(theirs.conditions, name, &experiment::ConditionSpec::name)) {
             result.other_conditions.push_back(name);
         }
     }

@@ -165,7 +165,7 @@ void Session::State::begin() {
     assert(is_open && !commander);
     const std::vector<std::string> signals = sumo->signal_ids();
     for (const std::string& signal : names.names().signals) {
-        if (std::ranges::find(signals, signal) == signals.end())
+        if (!core::contains(signals, signal))
             throw std::invalid_argument("SUMO's network has no signal '" + signal + "'");
     }
     const bool has_sublanes = std::stod(sumo->option("lateral-resolution")) > 0.0;
@@ -265,7 +265,7 @@ void Session::add(const traffic::EmergencyDeparture& departure) {
             problems.push_back({where, fmt::format("departs at {} s, in the past", departure.depart.value),
                                 fmt::format("{} s or later", time().value), ""});
         const std::vector<std::string> types = state_->sumo->type_ids();
-        if (std::ranges::find(types, departure.type) == types.end())
+        if (!core::contains(types, departure.type))
             problems.push_back({where, "has the vehicle type '" + departure.type + "', which is not defined",
                                 "", "Define it in an additional file."});
         if (departure.edges.empty()) problems.push_back({where, "has no route", "one edge or more", ""});
@@ -471,7 +471,7 @@ RemoteSumo& RemoteSumo::operator=(RemoteSumo&&) noexcept = default;
 
 void RemoteSumo::declare(const std::string& type, traffic::VehicleClass vehicle_class) {
     const std::vector<std::string> known = sumo_->type_ids();
-    if (std::ranges::find(known, type) == known.end())
+    if (!core::contains(known, type))
         throw core::InputError({fmt::format("vehicle type '{}'", type), "is unknown to that SUMO",
                                 "a type of its simulation", core::did_you_mean(type, known)});
     sumo_->set_type_parameter(type, traffic::class_parameter, std::string(traffic::name(vehicle_class)));

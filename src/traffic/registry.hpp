@@ -51,7 +51,7 @@ struct Registered {
     core::SettingsTable table;  ///< Its own settings.
     std::function<std::unique_ptr<Part>(const Context& context, const core::Settings& settings)> make;
 
-    bool is(Trait trait) const { return std::ranges::find(traits, trait) != traits.end(); }
+    bool is(Trait trait) const { return core::contains(traits, trait); }
 };
 
 /// All registered parts of one kind, in the order of the documentation.

@@ -16,6 +16,11 @@ constexpr bool is_green(char letter) {
     return letter == 'G' || letter == 'g' || letter == 'o' || letter == 'O';
 }
 
+/// Whether a link is green in a state; not if the state has no letter for it.
+inline bool is_green_for(const std::string& state, std::size_t link) {
+    return link < state.size() && is_green(state[link]);
+}
+
 constexpr bool is_yellow(char letter) {
     return letter == 'y' || letter == 'Y';
 }

@@ -86,7 +86,7 @@ bool exists(const Checkpoint& checkpoint, const RepairConfig& config) {
     if (!has_tensors)
         throw core::InputError({file.string(), "is missing beside checkpoint.json", "", cure_anew});
     const std::string found = core::content_hash(core::read_file(file));
-    if (std::ranges::find(allowed, found) != allowed.end()) return true;
+    if (core::contains(allowed, found)) return true;
     throw core::InputError({file.string(), fmt::format("its content hash is {}", found),
                             fmt::format("{}, as checkpoint.json says", fmt::join(allowed, " or ")),
                             "It was changed or damaged. " + std::string(cure_anew)});

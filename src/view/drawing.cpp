@@ -46,7 +46,7 @@ Json stop_lines_of(const roads::Network& network, const roads::Signal& signal, s
         const double degrees =
             network.heading_at(way.from, core::Metres(lane.length_m)) * 180.0 / std::numbers::pi;
         Json line = {origin.x(end.x_m), origin.y(end.y_m), std::lround(degrees), quanta(lane.width_m)};
-        if (std::ranges::find(lines, line) == lines.end()) lines.push_back(std::move(line));
+        if (!core::contains(lines, line)) lines.push_back(std::move(line));
     }
     return lines;
 }

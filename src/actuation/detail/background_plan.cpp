@@ -27,8 +27,8 @@ double green_from_s(const roads::Signal& signal, std::uint16_t link, std::uint32
     assert(phase < signal.program.size());
     double green_s = 0.0;
     const std::size_t rows = signal.program.size();
-    for (std::size_t row = phase; row < phase + rows && is_green_for(signal.program[row % rows].state, link);
-         ++row)
+    for (std::size_t row = phase;
+         row < phase + rows && traffic::is_green_for(signal.program[row % rows].state, link); ++row)
         green_s += signal.program[row % rows].duration_s;
     return green_s;
 }
@@ -39,7 +39,7 @@ double whole_green_s(const roads::Signal& signal, std::uint16_t link, std::uint3
     std::uint32_t first = phase;
     for (std::uint32_t back = 1; back < rows; ++back) {
         const std::uint32_t row = (phase + rows - back) % rows;
-        if (!is_green_for(signal.program[row].state, link)) break;
+        if (!traffic::is_green_for(signal.program[row].state, link)) break;
         first = row;
     }
     return green_from_s(signal, link, first);

@@ -13,7 +13,7 @@ bool is_foe_of_any(const roads::Signal& signal, std::size_t link, const Links& l
 }
 
 bool serves_all(const std::string& state, const Links& links) {
-    return std::ranges::all_of(links, [&](std::uint16_t link) { return is_green_for(state, link); });
+    return std::ranges::all_of(links, [&](std::uint16_t link) { return traffic::is_green_for(state, link); });
 }
 
 }  // namespace
@@ -21,10 +21,6 @@ bool serves_all(const std::string& state, const Links& links) {
 bool are_foes(const roads::Signal& signal, std::size_t left, std::size_t right) {
     assert(left < signal.foes.size() && right < signal.foes.size());
     return signal.foes[left][right] || signal.foes[right][left];
-}
-
-bool is_green_for(const std::string& state, std::size_t link) {
-    return link < state.size() && traffic::is_green(state[link]);
 }
 
 std::string hold_state(const roads::Signal& signal, const std::string& shown, const Links& links) {
@@ -72,13 +68,13 @@ Links green_links(const std::string& state) {
 Links losing_links(const std::string& shown, const std::string& target) {
     Links links;
     for (const std::uint16_t link : green_links(shown)) {
-        if (!is_green_for(target, link)) links.push_back(link);
+        if (!traffic::is_green_for(target, link)) links.push_back(link);
     }
     return links;
 }
 
 bool serves_any(const std::string& state, const Links& links) {
-    return std::ranges::any_of(links, [&](std::uint16_t link) { return is_green_for(state, link); });
+    return std::ranges::any_of(links, [&](std::uint16_t link) { return traffic::is_green_for(state, link); });
 }
 
 std::optional<std::uint32_t> green_phase(const roads::Signal& signal, const std::string& state) {
@@ -95,7 +91,7 @@ double least_green_s(const roads::Signal& signal, std::uint16_t link, std::optio
     if (phase) return signal.program[*phase].least_s;
     std::optional<double> shortest_s;
     for (const roads::Phase& row : signal.program) {
-        if (is_green_for(row.state, link))
+        if (traffic::is_green_for(row.state, link))
             shortest_s = std::min(shortest_s.value_or(row.least_s), row.least_s);
     }
     return shortest_s.value_or(0.0);
@@ -110,8 +106,8 @@ std::optional<std::uint32_t> best_phase(const roads::Signal& signal, const Links
     long most = 0;
     for (std::uint32_t row = 0; row < signal.program.size(); ++row) {
         const std::string& state = signal.program[row].state;
-        const long served =
-            std::ranges::count_if(links, [&](std::uint16_t link) { return is_green_for(state, link); });
+        const long served = std::ranges::count_if(
+            links, [&](std::uint16_t link) { return traffic::is_green_for(state, link); });
         if (served > most) {
             most = served;
             best = row;

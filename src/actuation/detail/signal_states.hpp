@@ -25,8 +25,6 @@ std::string hold_state(const roads::Signal& signal, const std::string& shown, co
 Links green_links(const std::string& state);
 /// Links that are green in `shown` and not in `target`, ascending.
 Links losing_links(const std::string& shown, const std::string& target);
-/// Whether a link is green in a state; not if the state has no letter for it.
-bool is_green_for(const std::string& state, std::size_t link);
 /// Whether any of `links` is green in a state.
 bool serves_any(const std::string& state, const Links& links);
 /// The phase that shows `state`, if exactly one phase does and it has green without yellow.

@@ -99,7 +99,7 @@ Finding incident_finding(roads::RouteSearch& search, const std::vector<Trip>& tr
                 closed.push_back(incident.closed.edge);
         const bool is_called = trip.id.starts_with(scenario::called_prefix);  // it stops before
         const auto open_s = [&](core::EdgeIndex edge, double) {
-            const bool is_closed = std::ranges::find(closed, edge) != closed.end();
+            const bool is_closed = core::contains(closed, edge);
             return is_closed && !(is_called && edge == trip.to) ? roads::no_way_s : search.free_s(edge);
         };
         if (search.search({trip.from, trip.to}, open_s, way) == roads::no_way_s) cut_off.push_back(trip.id);
@@ -145,7 +145,7 @@ std::optional<Finding> together_finding(const std::vector<scenario::PlacedIncide
 /// Of those who are called to an edge, none passes it.
 bool passes(const Trip& trip, const traffic::Incident& incident) {
     const bool is_called = trip.id.starts_with(scenario::called_prefix);
-    return trip.is_on_road(incident) && std::ranges::find(trip.way, incident.edge) != trip.way.end() &&
+    return trip.is_on_road(incident) && core::contains(trip.way, incident.edge) &&
            !(is_called && incident.edge == trip.to);
 }
 

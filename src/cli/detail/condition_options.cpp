@@ -61,8 +61,7 @@ constexpr const char* option = "--model";
 std::vector<std::string> predictors_of(const Conditions& conditions) {
     std::vector<std::string> names;
     for (const experiment::ConditionSpec& condition : conditions) {
-        if (std::ranges::find(names, condition.predictor) == names.end())
-            names.push_back(condition.predictor);
+        if (!core::contains(names, condition.predictor)) names.push_back(condition.predictor);
     }
     return names;
 }
@@ -252,12 +251,12 @@ void apply_models(const std::vector<std::string>& models, Conditions& conditions
         // A file name may contain `=`: only the name of a predictor before it makes an assignment.
         const std::string word = words.substr(0, words.find('='));
         const std::vector<std::string> known = prediction::predictors().names(traffic::Trait::learned);
-        const bool is_named = word.size() < words.size() && std::ranges::find(known, word) != known.end();
+        const bool is_named = word.size() < words.size() && core::contains(known, word);
         const std::string file = is_named ? words.substr(word.size() + 1) : words;
         if (!std::filesystem::is_regular_file(file))
             throw core::InputError({option, fmt::format("{} is not a file", file),
                                     "a file of clearway links train or of torch.save", ""});
-        if (learned.empty() || (is_named && std::ranges::find(learned, word) == learned.end()))
+        if (learned.empty() || (is_named && !core::contains(learned, word)))
             throw core::InputError({option,
                                     is_named
                                         ? fmt::format("no condition has the predictor {}", word)

@@ -10,8 +10,7 @@ namespace clearway::metrics::detail {
 namespace {
 
 bool any_green(const std::string& state, const std::vector<std::uint16_t>& links) {
-    return std::ranges::any_of(
-        links, [&](std::uint16_t link) { return link < state.size() && traffic::is_green(state[link]); });
+    return std::ranges::any_of(links, [&](std::uint16_t link) { return traffic::is_green_for(state, link); });
 }
 
 }  // namespace

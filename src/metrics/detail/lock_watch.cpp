@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/error.hpp"
 #include "core/match_rows.hpp"
 #include "metrics/detail/standing.hpp"
 #include "traffic/signal.hpp"
@@ -126,8 +127,7 @@ const LaneWay* LockWatch::way_of(const Look& look, std::uint32_t row, core::Lane
 bool LockWatch::leads_on(const LaneWay& way, const std::vector<core::EdgeIndex>& route,
                          std::size_t next) const {
     const std::vector<LaneWay>& beyond = layout_.chain.ways[lane_beyond(way).value];
-    return next + 1 >= route.size() ||
-           std::ranges::find(beyond, route[next + 1], &LaneWay::next) != beyond.end();
+    return next + 1 >= route.size() || core::contains(beyond, route[next + 1], &LaneWay::next);
 }
 
 core::LaneIndex LockWatch::lane_beyond(const LaneWay& way) const {
@@ -215,9 +215,8 @@ std::uint32_t LockWatch::beyond(const Look& look, std::uint32_t row, const LaneW
     const auto& edge = layout_.chain.edge;
     for (std::uint32_t lane = 0; lane < edge.size(); ++lane) {
         if (edge[lane] != way.next || last_on_lane_[lane] == nothing) continue;
-        const bool leads = after >= route.size() ||
-                           std::ranges::find(layout_.chain.ways[lane], route[after], &LaneWay::next) !=
-                               layout_.chain.ways[lane].end();
+        const bool leads =
+            after >= route.size() || core::contains(layout_.chain.ways[lane], route[after], &LaneWay::next);
         if (leads && room_on_m(look, core::LaneIndex{lane}) <= length_m(look, row) + queue_gap_m)
             return order_[last_on_lane_[lane]];
     }

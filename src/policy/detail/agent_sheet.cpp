@@ -166,7 +166,7 @@ void write_emergency(const View& view, const AgentScene& scene, Sheet& sheet) {
 float green_share(const std::vector<std::uint16_t>& links, const std::string& letters) {
     if (links.empty()) return 0.0F;
     const auto green = std::ranges::count_if(
-        links, [&](std::uint16_t link) { return link < letters.size() && traffic::is_green(letters[link]); });
+        links, [&](std::uint16_t link) { return traffic::is_green_for(letters, link); });
     return static_cast<float>(green) / static_cast<float>(links.size());
 }
 

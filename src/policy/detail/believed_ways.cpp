@@ -27,7 +27,7 @@ double common_share(const roads::Network& network, roads::Route way, roads::Rout
     for (std::size_t at = 0; at < way.size(); ++at) {
         const double length_m = at == 0 ? first_m : static_cast<double>(network.edge(way[at]).length_m);
         all_m += length_m;
-        if (std::ranges::find(present, way[at]) != present.end()) common_m += length_m;
+        if (core::contains(present, way[at])) common_m += length_m;
     }
     return all_m > 0.0 ? common_m / all_m : 1.0;
 }

@@ -21,7 +21,7 @@ bool is_shut(const traffic::BelievedGraph& belief, const Approach& approach) {
     if (approach.signal.value >= belief.signals.state.size()) return false;
     const std::string& shown = belief.signals.state[approach.signal.value];
     return !shown.empty() && std::ranges::none_of(approach.own_links, [&](std::uint16_t link) {
-        return link < shown.size() && traffic::is_green(shown[link]);
+        return traffic::is_green_for(shown, link);
     });
 }
 

@@ -13,13 +13,6 @@ namespace {
 /// From the end of a green to the one of a link that conflicts, s: the shortest yellow (3 s), and 2 s of red.
 constexpr double transition_s = 5.0;
 
-double cycle_of(const roads::Signal& signal) {
-    double cycle_s = 0.0;
-    for (const roads::Phase& phase : signal.program)
-        cycle_s += phase.duration_s;
-    return cycle_s;
-}
-
 /// The time within a cycle that lasts `cycle_s`, s.
 double within(double time_s, double cycle_s) {
     return std::fmod(std::fmod(time_s, cycle_s) + cycle_s, cycle_s);
@@ -39,7 +32,7 @@ std::string between(const std::string& before, const std::string& after) {
     bool loses = false;
     for (std::size_t link = 0; link < before.size(); ++link) {
         if (traffic::is_red(before[link])) continue;
-        const bool goes_on = is_green_for(after, link);
+        const bool goes_on = traffic::is_green_for(after, link);
         loses = loses || !goes_on;
         if (goes_on && traffic::is_green(before[link])) state[link] = before[link];
     }
@@ -55,7 +48,7 @@ void ProgramClock::watch(const std::string& shown, core::Seconds now) {
 }
 
 double ProgramClock::cycle_time_s(const roads::Signal& signal, core::Seconds now) const {
-    const double cycle_s = cycle_of(signal);
+    const double cycle_s = signal.cycle_s();
     if (cycle_s <= 0.0) return 0.0;
     const double in_step_s = within(now.value - signal.offset_s, cycle_s);
     if (signal.fixed_time && signal.program[phase_at(signal, in_step_s).first].state == shown_)
@@ -83,7 +76,7 @@ SignalForecaster::SignalForecaster(const roads::Signal& signal, std::vector<std:
       held_(std::move(held)),
       shown_(std::move(shown)),
       cycle_time_s_(cycle_time_s),
-      cycle_s_(cycle_of(signal)) {}
+      cycle_s_(signal.cycle_s()) {}
 
 void SignalForecaster::run(double from_s, double to_s, SignalForecast& forecast) const {
     if (cycle_s_ <= 0.0) return;
@@ -106,8 +99,8 @@ std::string SignalForecaster::shown_at(double time_s) const {
 /// Green for the held links, and for those that conflict with none of them in the phase that serves most.
 std::string SignalForecaster::held_state(std::size_t letters) const {
     const auto served = [&](const roads::Phase& phase) {
-        return std::ranges::count_if(held_,
-                                     [&](std::uint16_t link) { return is_green_for(phase.state, link); });
+        return std::ranges::count_if(
+            held_, [&](std::uint16_t link) { return traffic::is_green_for(phase.state, link); });
     };
     std::string state(letters, 'r');
     const auto best = std::ranges::max_element(signal_.program, {}, served);
@@ -115,7 +108,7 @@ std::string SignalForecaster::held_state(std::size_t letters) const {
         for (std::size_t link = 0; link < std::min(letters, signal_.links.size()); ++link) {
             const bool conflicts =
                 std::ranges::any_of(held_, [&](std::uint16_t held) { return signal_.foes[link][held]; });
-            if (!conflicts && is_green_for(best->state, link)) state[link] = best->state[link];
+            if (!conflicts && traffic::is_green_for(best->state, link)) state[link] = best->state[link];
         }
     for (const std::uint16_t link : held_)
         if (link < letters) state[link] = 'G';

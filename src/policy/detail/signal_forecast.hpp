@@ -11,11 +11,6 @@
 
 namespace clearway::policy::detail {
 
-/// Whether a link is green in a state; not if the state has no letter for it.
-inline bool is_green_for(const std::string& state, std::size_t link) {
-    return link < state.size() && traffic::is_green(state[link]);
-}
-
 /// Where the program of a signal stands, from what it shows.
 class ProgramClock {
   public:

@@ -63,7 +63,7 @@ std::vector<Factor> varied(const std::vector<Made>& made) {
     for (const Made& one : made) {
         for (const auto& [name, value] : one.condition->factors) {
             std::vector<std::string>& known = levels[name];
-            if (std::ranges::find(known, value) == known.end()) known.push_back(value);
+            if (!core::contains(known, value)) known.push_back(value);
         }
     }
     std::vector<Factor> factors;

@@ -41,7 +41,7 @@ Figure journey_figure(const ScenarioFacts& scenario, const JourneyFacts& journey
         journey.replication, journey.vehicle, places.note());
     std::vector<LegendEntry> entries = {line_entry(series, "emergency vehicle")};
     for (const char* const state : signal_states)
-        if (std::ranges::find(journey.signals, state, &SignalSpan::state) != journey.signals.end())
+        if (core::contains(journey.signals, state, &SignalSpan::state))
             entries.push_back(
                 stripe_entry(fmt::format("signal-{}", state).c_str(), fmt::format("signal {}", state)));
     plot.legend(entries);

@@ -53,7 +53,7 @@ core::Json json_of(const std::string& cell) {
 bool is_text(std::string_view column) {
     constexpr std::array<std::string_view, 6> texts = {"scenario", "condition", "signal",
                                                        "links",    "vehicle",   "name"};
-    return std::ranges::find(texts, column) != texts.end();
+    return core::contains(texts, column);
 }
 
 }  // namespace

@@ -173,7 +173,7 @@ void check_option(const ScenarioConfig& config, const std::string& option, Probl
     char* end = nullptr;
     const char* const value = option.c_str() + std::min(equals + 1, option.size());
     const bool is_number = std::isfinite(std::strtod(value, &end)) && end != value && *end == '\0';
-    if (std::ranges::find(known, name) == known.end())
+    if (!core::contains(known, name))
         problems.push_back({config.where("measured.options"), fmt::format("\"{}\" is not known", name),
                             core::listed(known), core::did_you_mean(name, known)});
     else if (!is_number)

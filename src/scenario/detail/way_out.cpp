@@ -51,8 +51,8 @@ void check_way_out(const ScenarioConfig& config, const roads::Network& network,
     std::vector<core::EdgeIndex> edges{leaving.edge};
     double elapsed_s = 0.0;
     while (!edges.empty()) {
-        if (leaving.end && std::ranges::find(edges, *leaving.end) != edges.end()) return;
-        if (std::ranges::find(passed, edges.front()) != passed.end()) return;
+        if (leaving.end && core::contains(edges, *leaving.end)) return;
+        if (core::contains(passed, edges.front())) return;
         const std::set<std::size_t> rows =
             closing(network, incidents, edges, leaving.first_s + elapsed_s, leaving.last_s + elapsed_s);
         if (!rows.empty()) {

@@ -53,7 +53,7 @@ class TreeHandler : public core::XmlHandler {
 };
 
 bool is_one_of(std::string_view text, std::initializer_list<std::string_view> words) {
-    return std::ranges::find(words, lower(text)) != words.end();
+    return core::contains(words, lower(text));
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ std::string end_of(const std::filesystem::path& file) {
 }
 
 bool is_one_of(const std::string& element, std::initializer_list<std::string_view> names) {
-    return std::ranges::find(names, element) != names.end();
+    return core::contains(names, element);
 }
 
 /// `give one of its files: hello.sumocfg, ...`: what looks like the start of an import.

@@ -40,17 +40,17 @@ bool is_for_cars(std::string_view highway) {
     if (highway.ends_with(link)) highway.remove_suffix(link.size());
     constexpr std::array classes = {"motorway", "trunk",        "primary",     "secondary",
                                     "tertiary", "unclassified", "residential", "living_street"};
-    return std::ranges::find(classes, highway) != classes.end();
+    return core::contains(classes, highway);
 }
 
 /// Whether netconvert 1.15 understands a limit: a number, also with mph or km/h; a few words; the rule of a
 /// country that it lists.
 bool is_limit(const std::string& text) {
     constexpr std::array words = {"none", "no", "walk"};
-    if (std::ranges::find(words, text) != words.end()) return true;
+    if (core::contains(words, text)) return true;
     constexpr std::array lands = {"AT", "AU", "BE", "CZ", "DE", "DK", "EE", "ES", "FR", "GB", "HU",
                                   "IT", "JP", "LT", "NO", "ON", "PT", "RO", "RS", "RU", "UK", "UZ"};
-    if (text.size() > 3 && text[2] == ':') return std::ranges::find(lands, text.substr(0, 2)) != lands.end();
+    if (text.size() > 3 && text[2] == ':') return core::contains(lands, text.substr(0, 2));
     return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) != 0 &&
            text.find(';') == std::string::npos;
 }

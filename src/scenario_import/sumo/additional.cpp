@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "scenario_import/sumo/vehicle_type.hpp"
 
 namespace clearway::scenario_import::detail {
@@ -21,11 +22,6 @@ constexpr std::array<std::string_view, 13> kept_elements = {
 
 constexpr std::array<std::string_view, 4> detectors = {"inductionLoop", "e1Detector", "laneAreaDetector",
                                                        "e2Detector"};
-
-template <class Names>
-bool is_one_of(const std::string& name, const Names& names) {
-    return std::ranges::find(names, name) != names.end();
-}
 
 void shift(Element& element, const char* attribute, double begin_s) {
     const auto at_s = time_s(element.text(attribute));
@@ -119,7 +115,7 @@ std::string reason_to_leave_out(const Element& element) {
 }  // namespace
 
 bool shapes_traffic(const Element& element) {
-    return is_one_of(element.name, kept_elements);
+    return core::contains(kept_elements, element.name);
 }
 
 Additional keep_additional(const std::vector<Element>& elements, const std::map<std::string, Element>& types,
@@ -128,7 +124,7 @@ Additional keep_additional(const std::vector<Element>& elements, const std::map<
     Additional additional;
     unsigned long line = 3;
     for (const Element& element : elements) {
-        const bool is_needed = is_one_of(element.name, detectors) && needed.contains(element.text("id"));
+        const bool is_needed = core::contains(detectors, element.name) && needed.contains(element.text("id"));
         if (!is_needed && !shapes_traffic(element)) {
             left_out.add(reason_to_leave_out(element), element.text("id"));
             continue;

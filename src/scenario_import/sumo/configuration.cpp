@@ -61,9 +61,9 @@ bool is_harmless(const std::string& option) {
                                                         "language"};
     constexpr std::array<std::string_view, 9> parts = {
         "output", "gui", "xml-validation", "game", "osg", "view", "save-state", "device.ssm", "device.fcd"};
-    return std::ranges::find(names, option) != names.end() ||
-           std::ranges::any_of(parts,
-                               [&](std::string_view part) { return option.find(part) != std::string::npos; });
+    return core::contains(names, option) || std::ranges::any_of(parts, [&](std::string_view part) {
+               return option.find(part) != std::string::npos;
+           });
 }
 
 /// Replaces `${NAME}` from the environment, as SUMO does.
@@ -177,8 +177,7 @@ class ConfigurationReader {
             configuration_.sublane_width_m = *number(value);
         else if (name == "ignore-route-errors")
             configuration_.ignores_route_errors = is_true(value);
-        else if (std::ranges::find(scenario::kept_options, name) != scenario::kept_options.end() &&
-                 time_s(value))
+        else if (core::contains(scenario::kept_options, name) && time_s(value))
             configuration_.kept_options.push_back(fmt::format("{}={:g}", name, *time_s(value)));
         else if (!is_harmless(name) && (number(value) || !is_false(value)))
             configuration_.other_options.push_back(fmt::format("{} = {}", name, value));

@@ -38,7 +38,7 @@ class InputReader {
         if (!std::filesystem::is_regular_file(included))
             throw core::InputError(core::Problem{place, fmt::format("no file {}", included.string()),
                                                  "an existing file", "correct the path"});
-        if (std::ranges::find(open_, included) != open_.end())
+        if (core::contains(open_, included))
             throw core::InputError(
                 core::Problem{place, fmt::format("{} includes itself", included.filename().string()),
                               "files that do not include each other in a circle", "remove the include"});
@@ -57,7 +57,7 @@ class InputReader {
 
     static bool is_demand(const Element& element) {
         constexpr std::array names = {"flow", "vehicle", "trip", "person", "personFlow"};
-        return std::ranges::find(names, element.name) != names.end();
+        return core::contains(names, element.name);
     }
 
     const TakeInput& take_;

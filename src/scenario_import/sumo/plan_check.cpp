@@ -23,7 +23,7 @@ template <std::size_t count>
 Fault fault_of_position(const Element& element, const char* name,
                         const std::array<const char*, count>& words) {
     const std::string& text = element.text(name);
-    if (text.empty() || number(text) || std::ranges::find(words, text) != words.end()) return std::nullopt;
+    if (text.empty() || number(text) || core::contains(words, text)) return std::nullopt;
     return fmt::format("{} is \"{}\"", name, text);
 }
 
@@ -61,7 +61,7 @@ class StopPlaces {
 
     StopPlaces(const roads::Network& network, const std::vector<Element>& additional) {
         for (const Element& element : additional) {
-            if (std::ranges::find(stop_kinds, element.name) == stop_kinds.end()) continue;
+            if (!core::contains(stop_kinds, element.name)) continue;
             Edges edges;
             add_edge(network, element.text("lane"), edges);
             for (const Element& child : element.children)

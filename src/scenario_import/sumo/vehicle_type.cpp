@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
+
 namespace clearway::scenario_import::detail {
 
 namespace {
@@ -32,8 +34,7 @@ std::string_view device_of(std::string_view key) {
 
 /// The reason, as words in the plural; empty for devices that stay.
 std::string reason_to_take_out(std::string_view device) {
-    if (std::ranges::find(watching_devices, device) != watching_devices.end())
-        return "output devices of types and vehicles";
+    if (core::contains(watching_devices, device)) return "output devices of types and vehicles";
     if (device == "toc") return "ToC devices of types and vehicles, which affect the traffic";
     if (device == "bluelight") return "blue-light devices of types and vehicles, which affect the traffic";
     return {};
@@ -79,8 +80,7 @@ std::string_view older_class(std::string_view vehicle_class) {
 
 bool has_blue_lights(const Element& element) {
     constexpr std::array<std::string_view, 3> shapes = {"emergency", "firebrigade", "police"};
-    if (element.text("vClass") == "emergency" ||
-        std::ranges::find(shapes, element.text("guiShape")) != shapes.end())
+    if (element.text("vClass") == "emergency" || core::contains(shapes, element.text("guiShape")))
         return true;
     return std::ranges::any_of(element.children, [](const Element& child) {
         return child.name == "param" && child.text("key") == "has.bluelight.device" &&

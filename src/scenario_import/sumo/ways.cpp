@@ -32,8 +32,7 @@ class WayCheck {
             if (const auto place = stops_.unknown_place(stop))
                 return fmt::format("stops at {}, which is not defined", *place);
             const std::string edge = stops_.edge_of(stop);
-            if (!vehicle.is_trip && !edge.empty() &&
-                std::ranges::find(vehicle.edges, edge) == vehicle.edges.end())
+            if (!vehicle.is_trip && !edge.empty() && !core::contains(vehicle.edges, edge))
                 return fmt::format("stops on edge \"{}\", which its route does not pass", edge);
         }
         return std::nullopt;
@@ -82,8 +81,7 @@ void pass_stops(RoadUser& vehicle, const StopEdges& stops) {
     for (const Element& stop : vehicle.element.children) {
         if (stop.name != "stop") continue;
         const std::string edge = stops.edge_of(stop);
-        if (!edge.empty() && edge != last && std::ranges::find(vias, edge) == vias.end())
-            passed.push_back(edge);
+        if (!edge.empty() && edge != last && !core::contains(vias, edge)) passed.push_back(edge);
         if (!edge.empty()) last = edge;
     }
     if (last == vehicle.trip.text("to") && !passed.empty() && passed.back() == last) passed.pop_back();

@@ -227,8 +227,7 @@ void drop_unknown_keys(std::vector<Factor>& factors, Problems& problems) {
     const std::vector<std::string> known = scenario_names();
     std::erase_if(factors, [&](const Factor& factor) {
         const bool is_stretch = factor.key.starts_with("road.stretch.");  // its name is the scenario's own
-        if (factor.group != "scenario" || is_stretch || std::ranges::find(known, factor.key) != known.end())
-            return false;
+        if (factor.group != "scenario" || is_stretch || core::contains(known, factor.key)) return false;
         // `drivers.speed_factor_mean` for `speed_factor_mean`
         const auto same_end = std::ranges::find_if(
             known, [&](const std::string& name) { return last_part(name) == last_part(factor.key); });
@@ -242,8 +241,7 @@ void drop_unknown_keys(std::vector<Factor>& factors, Problems& problems) {
 
 void check_names(const std::vector<Factor>& factors, const SettingsPlace& settings, Problems& problems) {
     for (const Factor& factor : factors) {
-        if (factor.group == "condition" &&
-            std::ranges::find(condition_keys(), factor.key) == condition_keys().end())
+        if (factor.group == "condition" && !core::contains(condition_keys(), factor.key))
             add_unknown(factor.where, factor.key, condition_keys(), problems);
         if (!is_component(factor.group)) continue;
         const std::string name = factor.group + "." + factor.key;
@@ -274,7 +272,7 @@ bool read_quoted(const std::string& name, const toml::node& node, const Settings
     if (dot == std::string::npos) return false;
     const std::string group = name.substr(0, dot);
     const std::vector<std::string> known = groups(settings);
-    if (std::ranges::find(known, group) == known.end()) return false;
+    if (!core::contains(known, group)) return false;
     const std::string where = place(node, settings.file, name);
     if (const toml::array* const list = node.as_array()) {
         read_list(*list, {group, name.substr(dot + 1), where, {}}, factors, problems);
@@ -299,8 +297,8 @@ Factors read_factors(const toml::table& table, const SettingsPlace& settings, Pr
             read_several(node, settings, factors.list, problems);
         } else if (read_quoted(group, node, settings, factors.list, problems)) {
             continue;
-        } else if (std::ranges::find(known, group) == known.end()) {
-            const bool bare = std::ranges::find(condition_keys(), group) != condition_keys().end();
+        } else if (!core::contains(known, group)) {
+            const bool bare = core::contains(condition_keys(), group);
             if (bare)
                 problems.push_back(
                     {where, "is unknown", core::listed(known), "Did you mean 'condition." + group + "'?"});
@@ -375,9 +373,7 @@ Assignment concerning(const experiment::ConditionSpec& condition, const Assignme
         if (factor->group == "condition") set_condition_key(*factor, *value, changed, ignored);
     }
     const std::vector<std::string> present = experiment::components_of(changed);
-    const auto has = [&](const std::string& component) {
-        return std::ranges::find(present, component) != present.end();
-    };
+    const auto has = [&](const std::string& component) { return core::contains(present, component); };
     Assignment concerned;
     for (const auto& [factor, value] : assignment) {
         const bool has_all = std::ranges::all_of(value->settings, [&](const auto& setting) {

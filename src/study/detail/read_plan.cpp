@@ -71,7 +71,7 @@ class Names {
     /// have any order, and values as they stand in the file or their titles; the same text where there is
     /// none.
     std::string full(const std::string& text) const {
-        if (std::ranges::find(known_, text) != known_.end()) return text;
+        if (core::contains(known_, text)) return text;
         const std::string made = untitled(text, made_);
         if (made != text) return made;
         const std::vector<std::string> parts = parts_of(text, titles_);
@@ -81,7 +81,7 @@ class Names {
     }
 
     void check(StrictTable& row, const char* key, const std::string& name) {
-        if (std::ranges::find(known_, name) != known_.end()) return;
+        if (core::contains(known_, name)) return;
         row.problem(key, name.empty() ? "is missing" : fmt::format("'{}' is not in the study", name),
                     is_listed_ ? "as above" : core::listed(known_), meant(name, known_, titles_));
         is_listed_ = true;
@@ -187,7 +187,7 @@ void read_plan(StrictTable& root, Extent extent, StudyConfig& config) {
         plan.comparisons.push_back(read_comparison(row));
     reader->finish();
     const std::vector<std::string> metrics = metrics_in_seconds();
-    if (std::ranges::find(metrics, plan.metric) == metrics.end())
+    if (!core::contains(metrics, plan.metric))
         reader->problem("metric", fmt::format("'{}' is not a metric in seconds", plan.metric),
                         "columns of runs.csv in seconds", core::did_you_mean(plan.metric, metrics));
     if (rows.empty())

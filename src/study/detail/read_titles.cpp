@@ -8,13 +8,6 @@
 #include "core/error.hpp"
 
 namespace clearway::study::detail {
-namespace {
-
-bool has(const std::vector<std::string>& names, const std::string& name) {
-    return std::ranges::find(names, name) != names.end();
-}
-
-}  // namespace
 
 // NOLINTNEXTLINE(readability-function-size): a table, what its keys may name, and what it fills
 std::vector<core::Problem> read_titles(core::StrictTable& root,
@@ -39,9 +32,9 @@ std::vector<core::Problem> read_titles(core::StrictTable& root,
         const std::string name(key.str());
         reader->text(name, config.titles[name]);
         const bool left_out = extent == Extent::quick && name.find('+') != std::string::npos;
-        if (left_out || has(known, name)) continue;
+        if (left_out || core::contains(known, name)) continue;
         std::vector<core::Problem>& problems =
-            has(given, core::nearest(name, known)) ? config.doubtful_titles : unnamed;
+            core::contains(given, core::nearest(name, known)) ? config.doubtful_titles : unnamed;
         problems.push_back({reader->where(name), "is no condition, and no text that a factor gives one",
                             core::listed(known), core::did_you_mean(name, known)});
     }
@@ -60,7 +53,7 @@ void read_controls(core::StrictTable& root, const std::vector<experiment::Condit
         std::string of;
         reader->text(control, of);
         for (const std::string& name : {control, of}) {
-            if (!name.empty() && !has(known, name))
+            if (!name.empty() && !core::contains(known, name))
                 reader->problem(control, fmt::format("'{}' is not in the study", name), core::listed(known),
                                 core::did_you_mean(name, known));
         }
@@ -70,9 +63,9 @@ void read_controls(core::StrictTable& root, const std::vector<experiment::Condit
         for (const std::string& name : made) {
             if (name != control && !name.starts_with(control + "+")) continue;
             const std::string same = of + name.substr(control.size());
-            if (has(made, same))
+            if (core::contains(made, same))
                 config.controls[name] = same;
-            else if (has(made, of))
+            else if (core::contains(made, of))
                 config.controls[name] = of;
         }
     }

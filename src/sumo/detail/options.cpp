@@ -114,8 +114,7 @@ void check(const SessionConfig& config) {
     if (!std::isfinite(config.ignore_junction_blocker.value))
         problems.push_back({"ignore junction blocker", "is not a number", "seconds, negative for never", ""});
     for (const std::string& argument : config.extra_arguments) {
-        if (std::ranges::find(reserved, option_name(argument)) != reserved.end() ||
-            (argument.size() == 2 && argument[0] == '-'))
+        if (core::contains(reserved, option_name(argument)) || (argument.size() == 2 && argument[0] == '-'))
             problems.push_back({"extra SUMO arguments", argument + " is set by the session itself",
                                 "long options that the session does not set",
                                 "Use the scenario's own setting."});

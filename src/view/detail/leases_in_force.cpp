@@ -11,7 +11,7 @@ namespace {
 bool is_granted(const traffic::HoldGreen& hold, const std::string& state) {
     const std::vector<std::uint16_t>& wanted = hold.own_links.empty() ? hold.links : hold.own_links;
     return !wanted.empty() && std::ranges::all_of(wanted, [&](std::uint16_t link) {
-        return link < state.size() && traffic::is_green(state[link]);
+        return traffic::is_green_for(state, link);
     });
 }
 
