@@ -256,6 +256,16 @@ bool is_equip_folder(const std::filesystem::path& folder) {
            std::filesystem::exists(folder / EquipRounds::first_round / "manifest.json");
 }
 
+void refuse_round(const std::filesystem::path& folder) {
+    const auto whole = std::filesystem::absolute(folder / "").lexically_normal().parent_path();
+    const std::filesystem::path search = whole.parent_path();
+    if (!whole.filename().string().starts_with("round-") || !is_equip_folder(search)) return;
+    const std::string answer = search.lexically_proximate(std::filesystem::current_path()).string();
+    throw core::InputError({folder.string(),
+                            "is a round of a search, which drops candidates early: its runs are no study", "",
+                            "The answer: clearway report " + core::shell_text({answer})});
+}
+
 void require_equip_file(const std::filesystem::path& folder, const char* name) {
     if (!std::filesystem::exists(folder / name))
         throw core::InputError({folder.string(), "is of a search by clearway equip that has no answer yet",

@@ -44,6 +44,9 @@ core::ExitCode equip(EquipRequest request);
 /// Whether a folder is one of `equip`, which is no run folder.
 bool is_equip_folder(const std::filesystem::path& folder);
 
+/// Throws core::InputError for a folder of a round of `equip`, whose runs are unequally many by design.
+void refuse_round(const std::filesystem::path& folder);
+
 /// Throws core::InputError where the answer of a search, and so this file of it, is not there yet.
 void require_equip_file(const std::filesystem::path& folder, const char* name);
 

@@ -40,6 +40,7 @@ Action configure_report(App& app) {
             campaign::print_equip_folder(arguments->folder, arguments->how.printing);
             return core::ExitCode::ok;
         }
+        campaign::refuse_round(arguments->folder);
         const results::Store store = results::Store::open(arguments->folder);
         return campaign::publish(store, arguments->how);
     };

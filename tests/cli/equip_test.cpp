@@ -119,6 +119,9 @@ TEST_F(EquipTest, ranks_signals_and_continues_in_its_folder_without_new_runs) {
     const Ended study = clearway(words_of_last_line(again.out));
     EXPECT_EQ(study.code, 0) << study.err;
     EXPECT_THAT(study.out, HasSubstr("chosen"));
+    const Ended round = clearway({"report", "out/round-01"});
+    EXPECT_EQ(round.code, 3);
+    EXPECT_THAT(round.err, HasSubstr("its runs are no study. The answer: clearway report out\n"));
     const std::string fresh = *folders(folder() / "out", "fresh-").begin();
     EXPECT_THAT(
         clearway({"report", "out/" + fresh}).out,
