@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/terminal.hpp"
+#include "report/detail/equipment_order.hpp"
 #include "report/detail/equipment_sheets.hpp"
 #include "report/detail/json.hpp"
 #include "report/detail/side_files.hpp"
@@ -286,6 +287,7 @@ std::string equipment_json(const EquipmentFacts& facts) {
                        {"candidates", detail::json_of(detail::candidate_sheet(facts))},
                        {"pairs", detail::json_of(detail::pair_sheet(facts))},
                        {"headline", detail::findings_of(facts).front()},
+                       {"council", detail::council_lines(facts)},
                        {"order_shown", detail::has_order(facts)},
                        {"ranked", detail::json_of(ranked_sheet(facts))},
                        {"all", detail::json_of(all).front()},

@@ -8,6 +8,7 @@
 
 #include "core/labels.hpp"
 #include "report/detail/axes.hpp"
+#include "report/detail/equipment_order.hpp"
 #include "report/detail/equipment_sheets.hpp"
 #include "report/detail/figures.hpp"
 #include "report/detail/map_canvas.hpp"
@@ -316,7 +317,10 @@ void write_equipment_page(const EquipmentFacts& facts, std::ostream& page) {
         (facts.events.empty() ? ""
                               : to_html(detail::data_table_of(detail::event_sheet(facts))) +
                                     note(detail::event_legend(facts)));
-    std::vector<detail::PageSection> sections = {{"equipment", "Which first", answer}};
+    std::vector<detail::PageSection> sections;
+    if (!facts.ranked.empty())
+        sections.push_back({"council", "For the council", list_of(detail::council_lines(facts))});
+    sections.push_back({"equipment", "Which first", answer});
     const std::string pairs =
         facts.pairs.empty()
             ? ""

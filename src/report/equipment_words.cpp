@@ -12,6 +12,7 @@
 
 #include "core/process.hpp"
 #include "core/terminal.hpp"
+#include "report/detail/equipment_order.hpp"
 #include "report/detail/equipment_sheets.hpp"
 #include "report/equipment.hpp"
 #include "report/locks.hpp"
@@ -23,14 +24,20 @@ namespace {
 
 using analysis::EquipEnd;
 using detail::great_share;
-
-bool is_exactly_none(const analysis::MaybeEstimate& gain) {
-    return gain && gain->mean == 0.0 && gain->deviation == 0.0;
-}
-
-bool most_are_held_up(const UnsoundRuns& unsound) {
-    return 2 * unsound.held_up > unsound.runs;
-}
+using detail::has_order;
+using detail::is_chance;
+using detail::is_exactly_none;
+using detail::is_shown_of;
+using detail::most_are_held_up;
+using detail::numbered_name;
+using detail::others_cell;
+using detail::others_save;
+using detail::pair_of;
+using detail::pairs_to_tell;
+using detail::seeds_to_show;
+using detail::small_map_of;
+using detail::tells_passing;
+using detail::tells_sum;
 
 const char* shown_word(const analysis::MaybeEstimate& value) {
     return is_shown(value) ? "shown" : "not shown";
@@ -40,17 +47,10 @@ std::string estimate_or_dash(const analysis::MaybeEstimate& value) {
     return estimate(value, {});
 }
 
-analysis::MaybeEstimate negated(analysis::MaybeEstimate value) {
-    if (!value) return value;
-    value->mean = -value->mean;
-    if (value->interval) value->interval = analysis::Interval{-value->interval->high, -value->interval->low};
-    return value;
-}
-
 /// `the others lose 1.0 [0.6, 1.4] s each (shown)`
 std::string others_words(const EquipmentFacts& facts) {
-    const analysis::MaybeEstimate others = detail::others_cell(facts, facts.ranked.back().others);
-    return fmt::format("the others {} {} s each ({})", detail::others_save(facts) ? "save" : "lose",
+    const analysis::MaybeEstimate others = others_cell(facts, facts.ranked.back().others);
+    return fmt::format("the others {} {} s each ({})", others_save(facts) ? "save" : "lose",
                        estimate_or_dash(others), shown_word(others));
 }
 
@@ -60,31 +60,12 @@ std::string hashed(const Numbers& numbers, const char* between = ", ") {
     return fmt::format("#{}", fmt::join(numbers, fmt::format("{}#", between)));
 }
 
-/// `#4 Via Po / Via Roma`
-std::string numbered_name(const EquippedSignal& signal) {
-    return fmt::format("#{} {}", signal.number, signal_words(signal.signal, signal.streets));
-}
-
 /// Numbers of the signals of the first ranks.
 std::vector<std::size_t> first_numbers(const EquipmentFacts& facts, std::size_t ranks) {
     std::vector<std::size_t> numbers;
     for (const EquippedSignal& signal : std::span(facts.ranked).first(std::min(ranks, facts.ranked.size())))
         numbers.push_back(signal.number);
     return numbers;
-}
-
-/// The pair that a signal was chosen in; nothing for one that was chosen alone.
-const EquipPairFacts* pair_of(const EquipmentFacts& facts, const EquippedSignal& signal) {
-    const auto found = std::ranges::find_if(facts.pairs, [&](const EquipPairFacts& pair) {
-        return pair.chosen && core::contains(pair.numbers, signal.number);
-    });
-    return found == facts.pairs.end() ? nullptr : &*found;
-}
-
-/// Its gain, or that of the pair that it was chosen in.
-bool is_shown_of(const EquipmentFacts& facts, const EquippedSignal& signal) {
-    const EquipPairFacts* const pair = pair_of(facts, signal);
-    return is_shown(signal.gain) || (pair != nullptr && is_shown(pair->both_gain));
 }
 
 std::string together_sentence(const EquipmentFacts& facts) {
@@ -104,28 +85,11 @@ std::string together_sentence(const EquipmentFacts& facts) {
     return words.empty() ? "" : fmt::format("Chosen as a pair: {}.", fmt::join(words, "; "));
 }
 
-/// Whether it changed no trip of the fresh seeds, so that its rank is chance.
-bool is_chance(const EquipmentFacts& facts, const EquippedSignal& signal) {
-    return is_exactly_none(signal.gain) && pair_of(facts, signal) == nullptr;
-}
-
-/// How many seeds would likely show the gain of all ranks, if it and its spread are what they look like; 0
-/// where it is shown, or none.
-std::size_t seeds_to_show(const EquipmentFacts& facts) {
-    const analysis::MaybeEstimate& gain = facts.ranked.back().so_far;
-    if (analysis::shown_interval(gain) == nullptr || is_shown(gain) || gain->mean <= 0.0) return 0;
-    return analysis::replications_to_show(gain->deviation, gain->mean);
-}
-
-std::string small_map_of(const EquipmentFacts& facts) {
-    return small_map_words(facts.ranked.size(), facts.candidates.size() + facts.less_red, facts.met);
-}
-
 std::string seeds_sentence(const EquipmentFacts& facts) {
     const analysis::MaybeEstimate& gain = facts.ranked.back().so_far;
     if (analysis::shown_interval(gain) == nullptr || is_shown(gain)) return "";
     if (gain->mean <= 0.0) return "Their mean is no gain.";
-    if (!detail::has_order(facts) && !small_map_of(facts).empty()) return "";
+    if (!has_order(facts) && !small_map_of(facts).empty()) return "";
     const std::size_t seeds = seeds_to_show(facts);
     if (seeds > analysis::most_equip_replications)
         return fmt::format("It would take more than {} seeds to show so small a gain of all.",
@@ -144,7 +108,6 @@ std::string unsound_sentence(const EquipmentFacts& facts) {
 }
 
 /// `Of 60 fresh trips 45 (75 %) pass a chosen signal and gain 12.3 [8.1, 16.5] s each (shown); the others
-/// gain
 /// ...`
 std::string split_sentence(const EquipmentFacts& facts) {
     const analysis::GainSplit& split = facts.split;
@@ -153,6 +116,7 @@ std::string split_sentence(const EquipmentFacts& facts) {
     const auto gain = [](const analysis::MaybeEstimate& value) {
         return fmt::format("gain {} s each ({})", estimate_or_dash(value), shown_word(value));
     };
+    if (tells_passing(facts)) return fmt::format("The other trips {}.", gain(split.other_gain));
     const std::string others =
         split.passing == split.trips ? "" : fmt::format("; the other trips {}", gain(split.other_gain));
     return fmt::format(
@@ -252,7 +216,7 @@ std::string end_sentence(const EquipmentFacts& facts) {
 
 std::string share_sentence(const EquipmentFacts& facts) {
     if (!is_shown(facts.all_gain)) return "The gain of all signals is not shown to be above 0.";
-    if (facts.ranked.empty() || !detail::has_order(facts)) return "";
+    if (facts.ranked.empty() || !has_order(facts)) return "";
     if (const auto rank = rank_with_share(facts, great_share))
         return fmt::format("{} of {} bring {:.0f} % of the gain of all.", *rank,
                            counted(facts.signals, "signal"), great_share * 100.0);
@@ -262,17 +226,6 @@ std::string share_sentence(const EquipmentFacts& facts) {
 /// What gains count from.
 const char* start_of(const EquipmentFacts& facts) {
     return facts.equipped_today.empty() ? "no signal equipped" : "those equipped today";
-}
-
-/// Pairs that would likely show the gain of the first place, if it and its spread are what they look like; 0
-/// where no number would.
-std::size_t pairs_to_tell(const EquipmentFacts& facts) {
-    const EquipPairFacts* const pair = pair_of(facts, facts.ranked.front());
-    const analysis::MaybeEstimate& gain = pair != nullptr ? pair->both_gain : facts.ranked.front().gain;
-    if (analysis::shown_interval(gain) == nullptr || gain->mean <= 0.0 || gain->deviation <= 0.0) return 0;
-    const double ranks = pair != nullptr ? 1.0 : static_cast<double>(facts.ranked.size());
-    return analysis::replications_to_show(gain->deviation, gain->mean,
-                                          1.0 - (1.0 - analysis::usual_level) / ranks);
 }
 
 /// ` (about 24 would likely)`; empty where so many are not worth it.
@@ -298,7 +251,7 @@ std::string not_shown_sentence(const EquipmentFacts& facts) {
                            analysis::fewest_for_interval);
     return fmt::format("Not shown: what {} adds to those before{}.{}", which,
                        is_shown(facts.ranked.back().so_far) ? ", though their sum is" : "",
-                       detail::has_order(facts) ? " More --seeds tell." : "");
+                       has_order(facts) ? " More --seeds tell." : "");
 }
 
 /// `Equip first: 1) #4 Via Po / Via Roma, 2) #9 S5 (not shown).`, numbered as the map and the table of
@@ -316,15 +269,9 @@ std::string order_headline(const EquipmentFacts& facts) {
     return text + ".";
 }
 
-/// Whether the headline tells what the chosen bring together.
-bool tells_sum(const EquipmentFacts& facts) {
-    return !detail::has_order(facts) && !most_are_held_up(facts.unsound) &&
-           is_shown(facts.ranked.back().so_far);
-}
-
 /// The answer in a sentence.
 std::string headline(const EquipmentFacts& facts) {
-    if (detail::has_order(facts)) return order_headline(facts);
+    if (has_order(facts)) return order_headline(facts);
     if (most_are_held_up(facts.unsound)) return "No order is shown: locks hold up most fresh runs.";
     const EquippedSignal& last = facts.ranked.back();
     const std::size_t pairs = last.so_far ? last.so_far->n : 0;
@@ -333,6 +280,12 @@ std::string headline(const EquipmentFacts& facts) {
             "No order is shown: together the {} chosen bring {} s a trip; which of them first, "
             "{} cannot tell{}.",
             facts.ranked.size(), estimate_or_dash(last.so_far), counted(pairs, "pair"), pairs_words(facts));
+    if (tells_passing(facts))
+        return fmt::format(
+            "EVs that pass a chosen signal gain {} s each, {} of {}; over all trips no gain is shown, and {} "
+            "cannot tell which to equip first.",
+            estimate_or_dash(facts.split.passing_gain), facts.split.passing,
+            counted(facts.split.trips, "trip"), counted(pairs, "pair"));
     return fmt::format(
         "No gain is shown: {} cannot tell which to equip first{}.", counted(pairs, "pair"),
         is_chance(facts, facts.ranked.front()) ? ", and the first choice changed no trip" : "");
@@ -340,7 +293,7 @@ std::string headline(const EquipmentFacts& facts) {
 
 /// Those that were chosen, by number, where the headline does not name them.
 std::string chosen_sentence(const EquipmentFacts& facts) {
-    if (detail::has_order(facts)) return "";
+    if (has_order(facts)) return "";
     std::vector<EquippedSignal> chosen = facts.ranked;
     std::ranges::sort(chosen, {}, &EquippedSignal::number);
     return fmt::format("Chosen{}: {}.", chosen.size() > 1 ? ", in no order" : "",
@@ -373,19 +326,6 @@ std::string left_out_sentence(std::size_t count, const char* why) {
 }  // namespace
 
 namespace detail {
-
-bool has_order(const EquipmentFacts& facts) {
-    return !most_are_held_up(facts.unsound) && !facts.ranked.empty() &&
-           is_shown_of(facts, facts.ranked.front());
-}
-
-bool others_save(const EquipmentFacts& facts) {
-    return !facts.ranked.empty() && analysis::mean_of(facts.ranked.back().others).value_or(0.0) < 0.0;
-}
-
-analysis::MaybeEstimate others_cell(const EquipmentFacts& facts, const analysis::MaybeEstimate& loss) {
-    return others_save(facts) ? negated(loss) : loss;
-}
 
 analysis::MaybeEstimate without_interval(analysis::MaybeEstimate value) {
     if (value) value->interval.reset();

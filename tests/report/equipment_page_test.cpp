@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "report/detail/equipment_order.hpp"
+#include "report/detail/equipment_sheets.hpp"
 #include "report/equipment.hpp"
 #include "report/equipment_samples.hpp"
 #include "report/text.hpp"
@@ -154,6 +156,68 @@ TEST(EquipmentPage, HasAPageWithAnswerMapTablesAndCommand) {
     write_equipment_page(joined, cut);
     EXPECT_THAT(cut.str(),
                 AllOf(HasSubstr("cluster_" + std::string(13, '1') + "..."), HasSubstr(std::string(66, 'a'))));
+}
+
+TEST(EquipmentPage, BeginsWithAnAnswerForThoseWhoDecide) {
+    EquipmentFacts facts = two_of_twelve();
+    facts.split = {60, 45, about(56.0, 4.0), about(0.4, 2.0)};
+    facts.ranked.back().signal = "S";
+    EXPECT_THAT(
+        detail::council_lines(facts),
+        testing::ElementsAre(
+            "Equip first #4 Gate <Road> / High Street, then #9 S (its own gain is not shown).",
+            "An ambulance that passes one of them (45 of 60 trips) arrives 56 s sooner (52 s to 60 s). In "
+            "the "
+            "mean of all trips, which take 150 s: 42 s sooner (38 s to 46 s).",
+            "Everybody else, a trip: 1.0 s more delay (0.6 s to 1.4 s).",
+            "10 simulations with them and 10 without, of the same traffic. The ranges cover chance "
+            "among such "
+            "simulations (95 %), not whether your traffic is like what is simulated, which stands below.",
+            "To know more: your signals' programs, your stations and your counts of traffic."));
+    std::ostringstream page;
+    write_equipment_page(facts, page);
+    const std::string html = page.str();
+    EXPECT_LT(html.find("<section id=\"council\">"), html.find("<section id=\"equipment\">"));
+    EXPECT_THAT(html, HasSubstr("<li>Equip first #4 Gate &lt;Road&gt; / High Street, then #9"));
+    EXPECT_EQ(nlohmann::json::parse(equipment_json(facts)).at("council").size(), 5U);
+    facts.ranked.clear();
+    std::ostringstream without;
+    write_equipment_page(facts, without);
+    EXPECT_THAT(without.str(), Not(HasSubstr("For the council")));
+}
+
+TEST(EquipmentPage, TellsACouncilNoMoreThanTheRunsShow) {
+    EquipmentFacts facts = two_of_twelve();
+    for (EquippedSignal& signal : facts.ranked)
+        signal.gain = signal.so_far = about(3.0, 6.0);
+    facts.ranked.back().others = about(-0.2, 0.5);
+    facts.ranked.back().signal = "S";
+    facts.split = {60, 8, about(109.0, 35.0), about(0.4, 2.0)};
+    EXPECT_THAT(
+        detail::findings_of(facts).front(),
+        HasSubstr("EVs that pass a chosen signal gain 109.0 [74.0, 144.0] s each, 8 of 60 trips; over "
+                  "all trips no gain is shown"));
+    EXPECT_THAT(detail::findings_of(facts), testing::Contains(HasSubstr("The other trips gain 0.4 ")));
+    std::vector<std::string> lines = detail::council_lines(facts);
+    EXPECT_THAT(
+        lines[0],
+        HasSubstr(
+            "The best guess: #4 Gate <Road> / High Street; #9 S. They help those who pass them; few do."));
+    EXPECT_THAT(lines[1], HasSubstr("3.0 s sooner (from 3.0 s later to 9.0 s sooner: it may be chance)"));
+    EXPECT_THAT(lines[2],
+                HasSubstr("0.2 s less delay (from 0.7 s less delay to 0.3 s more delay: it may be"));
+    facts.split.passing_gain = about(9.0, 35.0);
+    EXPECT_THAT(detail::council_lines(facts)[0], HasSubstr("No recommendation: that ambulances gain is not"));
+    facts.ranked.back().so_far = about(9.0, 6.0);
+    EXPECT_THAT(detail::council_lines(facts)[0],
+                HasSubstr("Which of them first, the simulations do not tell"));
+    facts.unsound = {10, 8, 6, 0, 0, 0};
+    lines = detail::council_lines(facts);
+    EXPECT_THAT(lines[0], HasSubstr("No recommendation: traffic blocked itself in most simulations."));
+    EXPECT_THAT(lines[3], HasSubstr("A doubt: vehicles locked each other in 8 of 10 runs"));
+    for (analysis::MaybeEstimate* const gain : {&facts.split.passing_gain, &facts.ranked.back().so_far})
+        (*gain)->n = 3;
+    EXPECT_THAT(detail::council_lines(facts)[1], HasSubstr("sooner, from too few simulations for a range"));
 }
 
 TEST(EquipmentPage, ExplainsTheWordsOfItsPageOnce) {

@@ -20,13 +20,6 @@ Sheet event_sheet(const EquipmentFacts& facts);
 Sheet candidate_sheet(const EquipmentFacts& facts);
 Sheet pair_sheet(const EquipmentFacts& facts);
 
-/// Whether the runs tell which signals come first: the gain of the first, or of the pair that it was chosen
-/// in, is shown. Else those that were chosen stand in no order.
-bool has_order(const EquipmentFacts& facts);
-/// Whether the others gain by the chosen signals in the mean: their times are then told as savings.
-bool others_save(const EquipmentFacts& facts);
-/// A loss of the others as others_save has it told.
-analysis::MaybeEstimate others_cell(const EquipmentFacts& facts, const analysis::MaybeEstimate& loss);
 analysis::MaybeEstimate without_interval(analysis::MaybeEstimate value);
 /// What was found, a sentence each, the answer first.
 std::vector<std::string> findings_of(const EquipmentFacts& facts);
