@@ -29,7 +29,7 @@ std::string told(const MaybeEstimate& value, const char* more, const char* less)
     const analysis::Interval* const range = analysis::shown_interval(value);
     if (range == nullptr) return fmt::format("{}, from too few simulations for a range", mean);
     if (range->low * range->high > 0.0) {
-        const auto [least, most] = std::minmax(std::abs(range->low), std::abs(range->high));
+        const auto [least, most] = std::minmax({std::abs(range->low), std::abs(range->high)});
         return fmt::format("{} ({} to {})", mean, seconds(least), seconds(most));
     }
     return fmt::format("{} (from {} {} to {} {}: it may be chance)", mean, seconds(range->low), less,
@@ -46,11 +46,7 @@ std::string what_to_equip(const EquipmentFacts& facts) {
         names.push_back(numbered_name(signal) + (is_doubtful ? " (its own gain is not shown)" : ""));
     }
     if (names.empty()) return "No recommendation: no simulated ambulance was faster by any of them.";
-    if (has_order(facts))
-        return fmt::format("Equip first {}{}.", names.front(),
-                           names.size() == 1 ? ""
-                                             : fmt::format(", then {}", fmt::join(names.begin() + 1,
-                                                                                  names.end(), ", then ")));
+    if (has_order(facts)) return fmt::format("Equip first {}.", fmt::join(names, ", then "));
     const std::string all = fmt::format("{}", fmt::join(names, "; "));
     if (most_are_held_up(facts.unsound))
         return fmt::format(
