@@ -1,10 +1,13 @@
-"""benchmarks/loop_time.py on a short scenario: what it measures fits together. Times themselves are not judged."""
+"""benchmarks/loop_time.py on a short scenario, and loop_growth.py on a small grid: what they measure fits together. Times themselves are
+not judged."""
 import os
 import pathlib
 import sys
+import tempfile
 import unittest
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "benchmarks"))
+import loop_growth  # noqa: E402
 import loop_time  # noqa: E402
 
 CONDITIONS = ["baseline", "corridor", "corridor_B10_graphsage"]
@@ -46,6 +49,21 @@ class LoopTime(unittest.TestCase):
             self.assertEqual(len(numbers), len(CONDITIONS), name)
         self.assertEqual(rows["pairs for +-1 s"][0], None, "the baseline is not compared")
         self.assertGreater(rows["processor time for them, s"][1], 0.0)
+
+
+class LoopGrowth(unittest.TestCase):
+    def test_a_grid_has_its_vehicles_and_the_phases_add_up(self):
+        with tempfile.TemporaryDirectory() as place:
+            rows = dict(loop_growth.costs(os.environ["CLEARWAY"], 200, pathlib.Path(place)))
+        whole = rows.pop("all beside SUMO's step, us")
+        for at, condition in enumerate(loop_growth.CONDITIONS):
+            self.assertGreater(rows["vehicles on the road"][at], 100.0, condition)
+            self.assertLess(rows["vehicles on the road"][at], 200.0, condition)
+            self.assertAlmostEqual(sum(rows[f"{phase}, us"][at] for phase in loop_time.PHASES), whole[at])
+        self.assertEqual(rows["prediction, us"][0], 0.0, "the baseline predicts nothing")
+        self.assertGreater(rows["prediction, us"][1], 0.0)
+        self.assertGreater(rows["loading, routes and demand, ms a vehicle"][0], 0.0)
+        self.assertLessEqual(set(loop_growth.PUBLISHED), set(rows) | {"all beside SUMO's step, us"})
 
 
 if __name__ == "__main__":
