@@ -128,7 +128,7 @@ char state_of(pid_t pid) {
 TEST_F(ProcessTest, AStartedChildHoldsNoMemoryOfItsParent) {
     const std::vector<char> held(std::size_t{256} << 20, 'x');
     for (int attempt = 0; attempt < 20; ++attempt) {
-        const Child child = start(shell("sleep 60"));
+        const Child child = start(shell("exec sleep 60"));
         const auto resident = resident_kib(child.pid);
         ::kill(child.pid, SIGKILL);
         wait(child);

@@ -91,7 +91,8 @@ TEST(Supervisor, KillsAChildThatIgnoresSigtermAfterTheGrace) {
 TEST(Supervisor, EndsAChildThatHoldsTooMuchMemory) {
     const InterruptionWatch interruption;
     // A shell's variable of 100 MB.
-    Scripts scripts({"x=$(head -c 100000000 /dev/zero | tr '\\0' x); sleep 60", "sleep 0.2"});
+    Scripts scripts(
+        {"x=$(head -c 100000000 /dev/zero | tr '\\0' x); sleep 60 > /dev/null 2>&1", "sleep 0.2"});
     scripts.limits.memory_mib = 50;
     Supervisor({.processes = 2, .grace_s = 0.2}).run(scripts, interruption);
     EXPECT_EQ(scripts.ends.at(0).ended_by, EndedBy::memory_limit);
@@ -100,7 +101,7 @@ TEST(Supervisor, EndsAChildThatHoldsTooMuchMemory) {
 
 TEST(Supervisor, AnInterruptionEndsAllChildrenAlsoStubbornOnes) {
     const InterruptionWatch interruption;
-    Scripts scripts({stubborn, "echo $$; sleep 60", "exit 0"});
+    Scripts scripts({stubborn, "echo $$; exec sleep 60", "exit 0"});
     scripts.on_tick = [&] {
         if (!scripts.line_of(0).empty() && !scripts.line_of(1).empty()) ::kill(::getpid(), SIGINT);
     };
