@@ -43,7 +43,8 @@ std::string sites_text(const Findings& findings) {
         std::ranges::replace(kind, '_', ' ');
         words.push_back(core::counted(static_cast<std::uint64_t>(count), kind));
     }
-    return core::listed(words) + names_text(findings);
+    return core::listed(words) + names_text(findings) +
+           "; take a wrong one out of scenario.toml ([[emergency_site]])";
 }
 
 /// `of 2012-05-03 (newest object): ...`.

@@ -52,6 +52,7 @@ TEST_F(MapImport, makes_a_scenario_that_loads_with_sites_signals_and_a_level) {
     EXPECT_THAT(findings.demand, AllOf(HasSubstr("synthetic"), HasSubstr("on the road")));
     EXPECT_GT(findings.vehicles_per_hour, 0.0);
     EXPECT_THAT(to_text(findings), HasSubstr("1 fire station, 1 hospital (St. \"Anna\" <Klinik>; unnamed,"));
+    EXPECT_THAT(to_text(findings), HasSubstr("([[emergency_site]])"));
     EXPECT_THAT(to_text(findings),
                 HasSubstr("  map data         of unknown age: its objects have no timestamps\n"));
     EXPECT_THAT(to_text(findings),
