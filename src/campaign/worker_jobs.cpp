@@ -9,6 +9,7 @@
 
 #include "campaign/programs.hpp"
 #include "core/files.hpp"
+#include "core/fork_server.hpp"
 #include "core/progress.hpp"
 #include "core/supervisor.hpp"
 #include "samples/dataset_plan.hpp"
@@ -131,7 +132,9 @@ core::ExitCode exit_code_of(const core::Exit& exit) {
 WorkerResult work_on(const std::vector<WorkerJob>& jobs, unsigned processes, const std::string& title) {
     const core::InterruptionWatch interruption;
     JobList list(jobs, title);
-    core::Supervisor({.processes = processes}).run(list, interruption);
+    core::ForkServer server(worker_program());
+    core::Machine& machine = jobs.size() > 1 ? server : core::this_machine();
+    core::Supervisor({.processes = processes}, machine).run(list, interruption);
     return list.result(interruption);
 }
 

@@ -4,12 +4,14 @@
 #include <chrono>
 #include <deque>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "campaign/detail/run_cost.hpp"
 #include "campaign/programs.hpp"
 #include "core/files.hpp"
+#include "core/fork_server.hpp"
 #include "core/supervisor.hpp"
 #include "experiment/job.hpp"
 #include "study/folder_lock.hpp"
@@ -84,8 +86,11 @@ class Workers : private core::TaskList {
           on_progress_(on_progress),
           lock_(store.folder()),
           work_(expected_costs(plan, CostBook(store.folder()))) {
-        if (options_.worker_program.empty())
+        if (options_.worker_program.empty()) {
             options_.worker_program = core::program_folder() / "clearway-run";
+            server_.emplace(options_.worker_program, *options_.machine);
+            if (plan.units.size() > 1) options_.machine = &*server_;
+        }
         core::make_folder(store.unit_file("").parent_path());
         core::make_folder(store.log_file("").parent_path());
         attempts_.resize(plan.units.size(), 0);
@@ -358,6 +363,7 @@ class Workers : private core::TaskList {
     const study::Plan& plan_;
     const results::Store& store_;
     WorkersOptions options_;
+    std::optional<core::ForkServer> server_;  ///< Of our own worker.
     const std::function<void(const StudyProgress&)>& on_progress_;
     study::FolderLock lock_;
     core::InterruptionWatch interruption_;

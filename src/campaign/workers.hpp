@@ -48,7 +48,8 @@ struct StudyResult {
     StudyProgress progress;
 };
 
-/// Makes the runs missing in `store` with worker processes, `clearway-run FILE`. The contract with a worker:
+/// Makes the runs missing in `store` with worker processes, `clearway-run FILE`, or children of one that
+/// serves (core::ForkServer). The contract with a worker:
 ///
 /// - FILE is an experiment::RunJob as JSON; its conditions are those without a record.
 /// - The worker holds each run to the unit's limits. It stores a finished run with results::Store::write, and

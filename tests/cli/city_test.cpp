@@ -276,14 +276,13 @@ TEST_F(CityTest, check_does_not_blame_density_where_evs_are_called_to_a_closed_r
 }
 
 TEST_F(CityTest, check_of_a_run_that_fails_exits_with_1_and_keeps_the_inputs) {
-    write_line_scenario();
-    const Ended failed = clearway({"scenario", "check", "line", "--run-time-limit", "0.001"});
+    const Ended failed = clearway({"scenario", "check", "city", "--run-time-limit", "0.001"});
     EXPECT_EQ(failed.code, 1) << failed.out << failed.err;
     EXPECT_THAT(failed.out,
-                AllOf(HasSubstr("FAILED"), HasSubstr("runs/check-line"), HasSubstr("clearway-run")));
-    EXPECT_TRUE(std::filesystem::exists(folder() / "runs/check-line/manifest.json"));
-    EXPECT_EQ(clearway({"scenario", "check", "line"}).code, 0);
-    EXPECT_FALSE(std::filesystem::exists(folder() / "runs/check-line"));
+                AllOf(HasSubstr("FAILED"), HasSubstr("runs/check-city"), HasSubstr("clearway-run")));
+    EXPECT_TRUE(std::filesystem::exists(folder() / "runs/check-city/manifest.json"));
+    EXPECT_EQ(clearway({"scenario", "check", "city"}).code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder() / "runs/check-city"));
 }
 
 TEST_F(CityTest, an_import_that_leaves_out_many_vehicles_falls_short) {

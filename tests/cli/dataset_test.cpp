@@ -56,9 +56,10 @@ TEST_F(DatasetTest, records_samples_of_each_failure_and_replication) {
 TEST_F(DatasetTest, takes_nothing_else_that_a_worker_says_for_a_file) {
     const std::filesystem::path programs = std::filesystem::path(CLEARWAY_BINARY_DIR) / "bin";
     std::filesystem::copy(programs / "clearway", folder());
-    const std::filesystem::path worker =
-        write("clearway-run", "#!/bin/sh\n[ \"$1\" = --version ] || echo 'Warning: beside'\nexec " +
-                                  (programs / "clearway-run").string() + " \"$@\"\n");
+    const std::filesystem::path worker = write(
+        "clearway-run",
+        "#!/bin/sh\n[ \"$1\" = --serve ] && exit\n[ \"$1\" = --version ] || echo 'Warning: beside'\nexec " +
+            (programs / "clearway-run").string() + " \"$@\"\n");
     std::filesystem::permissions(worker, std::filesystem::perms::owner_all);
     const core::Exit exit =
         core::run({folder() / "clearway",

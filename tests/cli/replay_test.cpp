@@ -140,11 +140,11 @@ TEST_F(ReplayTest, bad_input_of_a_page_is_told) {
     other.replace(format, 1, "9");
     core::write_atomically(folder() / recording, other);
     refused(run_of_mine, "format 9");
-    ASSERT_EQ(clearway({"run", "line", "--seeds", "1", "--no-solo", "--record", "--run-time-limit", "0.001",
+    ASSERT_EQ(clearway({"run", "city", "--seeds", "1", "--no-solo", "--record", "--run-time-limit", "0.001",
                         "--out", "failed"})
                   .code,
               1);
-    refused("failed/line/corridor/0", "has no recording failed/recordings/line/corridor/00000.h5");
+    refused("failed/city/corridor/0", "has no recording failed/recordings/city/corridor/00000.h5");
 }
 
 TEST_F(ReplayTest, a_report_shows_the_median_best_and_worst_trip_when_asked) {

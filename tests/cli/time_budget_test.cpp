@@ -44,7 +44,7 @@ TEST_F(TimeBudgetTest, a_time_that_is_too_short_gives_the_fewest_seeds_with_an_i
 
 TEST_F(TimeBudgetTest, runs_that_fail_do_not_count_as_a_pace) {
     const Ended ended = clearway(
-        {"run", "line", "--no-solo", "--within", "30s", "--run-time-limit", "0.001", "--out", "out"});
+        {"run", "city", "--no-solo", "--within", "30s", "--run-time-limit", "0.001", "--out", "out"});
     EXPECT_EQ(ended.code, 1) << ended.err;
     EXPECT_EQ(replications(), 5U) << "no round follows one in which nothing was made";
 }

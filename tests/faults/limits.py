@@ -16,8 +16,8 @@ TABLES = ("runs.csv", "vehicles.csv")
 
 
 class Study:
-    def __init__(self, clearway, folder):
-        self.words = [clearway, "run", "merge", "--policy", "none", "--no-solo", "--seeds", "1", "--jobs", "1"]
+    def __init__(self, clearway, folder, scenario="merge"):
+        self.words = [clearway, "run", scenario, "--policy", "none", "--no-solo", "--seeds", "1", "--jobs", "1"]
         self.folder = folder
         self.faults = []
         self.run("clean")
@@ -90,7 +90,11 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         study = Study(pathlib.Path(sys.argv[1]).resolve() / "clearway", pathlib.Path(name))
         ends = [study.check(f"{count} descriptors", "", limit=(resource.RLIMIT_NOFILE, count)) for count in range(4, 24, 2)]
-        ends.append(study.check("little memory", "The command of the study tries again those that a signal, a limit or the machine ended (1)", options=["--memory-limit", "40"]))
+        (study.folder / "longer").mkdir()  # than between two looks at its memory
+        longer = Study(study.words[0], study.folder / "longer", "city")
+        ends.append(longer.check("little memory", "The command of the study tries again those that a signal, a limit or the machine ended (1)",
+                                 options=["--memory-limit", "20"]))
+        study.faults += longer.faults
         ends.append(study.check("small files", "ulimit -f", limit=(resource.RLIMIT_FSIZE, 20000)))
         hide = ["unshare", "-rm", "sh", "-c", 'mount -t tmpfs none /proc && exec "$@"', "sh"]
         if subprocess.run([*hide, "true"], check=False, capture_output=True).returncode == 0:
