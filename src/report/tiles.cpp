@@ -86,7 +86,7 @@ std::string what_shows_the_seen(const analysis::Estimate& difference, double cou
         number(seen_s, {1, script}), asked_words(pairs));
 }
 
-/// `. If the difference is really as seen, about 24 do in four studies of five`: so many show the effect that
+/// `; if the difference is really as seen, about 24 do in four studies of five`: so many show the effect that
 /// is seen among all comparisons of the scenario, each at its share of the level (Bonferroni, which is no
 /// less strict than Holm).
 std::string what_shows_it_among_all(const ScenarioFacts& scenario, const analysis::Estimate& difference) {
@@ -98,7 +98,7 @@ std::string what_shows_it_among_all(const ScenarioFacts& scenario, const analysi
     if (tests == 0.0 || difference.mean == 0.0) return "";
     const double level = 1.0 - (1.0 - analysis::usual_level) / tests;
     return fmt::format(
-        ". If the difference is really as seen, {} pairs do in four studies of five",
+        "; if the difference is really as seen, {} pairs do in four studies of five",
         asked_words(analysis::replications_to_show(difference.deviation, std::abs(difference.mean), level)));
 }
 

@@ -481,11 +481,10 @@ TEST_F(Overview, SaysThatRunsAreTooFewForManyComparisons) {
     tests::comparison(corridor(), primary).holm_p = 0.2;
     const Badge badge = badge_of(scenario_, corridor(), Script::plain);
     EXPECT_EQ(badge.runs, Badge::Runs::too_few);
-    EXPECT_THAT(
-        badge.words,
-        ContainsRegex("show the direction of one comparison alone, not among so many \\(Holm\\)\\. If "
-                      "the difference is really as seen, (about|more than) [0-9]+ pairs do in four "
-                      "studies of five"));
+    EXPECT_THAT(badge.words,
+                ContainsRegex("show the direction of one comparison alone, not among so many \\(Holm\\); if "
+                              "the difference is really as seen, (about|more than) [0-9]+ pairs do in four "
+                              "studies of five"));
     study_.scenarios = {scenario_};
     EXPECT_THAT(report::headline(study_),
                 HasSubstr("emergency vehicles faster under 1 of 1 condition (none with "
