@@ -34,14 +34,27 @@ Only numpy is imported here. pandas, h5py, torch and gymnasium are imported wher
 from __future__ import annotations
 
 import importlib
+import os
 import sys
-from typing import TYPE_CHECKING, Any
 
 if sys.version_info < (3, 11):
     raise ImportError(f"clearway needs Python 3.11 or newer; {sys.executable} is {sys.version.split()[0]} (Debian 12: /usr/bin/python3)")
+
+
+def _hiding() -> str:
+    """The file in the folder that Python searches first that hides a module which numpy needs; or nothing."""
+    names = ("numpy", *sorted(sys.stdlib_module_names))
+    return next(filter(os.path.isfile, (os.path.join(sys.path[0] or ".", f"{name}.py") for name in names)), "")
+
+
 try:
+    from typing import TYPE_CHECKING, Any
     import numpy as _numpy  # noqa: F401
-except ImportError as error:
+except Exception as error:
+    if file := _hiding():
+        raise ImportError(f"{file} hides the module of Python's of that name. Rename it") from error
+    if not isinstance(error, ImportError):
+        raise
     raise ImportError(f"clearway needs numpy, which {sys.executable} does not have. Install it there (Debian: apt-get install "
                       "python3-numpy), or use /usr/bin/python3") from error
 

@@ -365,4 +365,5 @@ def be_part(memory: int, read: int, write: int, owner: int) -> None:
 
 
 if __name__ == "__main__":
+    sys.path.append(os.getcwd())
     be_part(*map(int, sys.argv[1:4]), os.getppid())

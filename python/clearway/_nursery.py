@@ -101,7 +101,7 @@ class Nursery:
                     with contextlib.suppress(OSError):
                         os.close(int(name))
             os.chdir(folder)
-            sys.path[0] = folder  # as -m makes it
+            sys.path.append(folder)
             _host.be_part(memory, read, write, owner)
         except OSError as error:
             if _files.is_of_machine(error):

@@ -80,7 +80,7 @@ class Nursery:
         self._address = listener.getsockname()
         path = os.pathsep.join(filter(None, [str(Path(__file__).resolve().parents[1]), os.environ.get("PYTHONPATH")]))
         with listener:
-            self._process = subprocess.Popen([sys.executable, "-m", "clearway._nursery", str(listener.fileno())],
+            self._process = subprocess.Popen([sys.executable, "-P", "-m", "clearway._nursery", str(listener.fileno())],
                                              pass_fds=(listener.fileno(),), stdin=subprocess.DEVNULL,
                                              env={**os.environ, "PYTHONPATH": path, "PYTHONHASHSEED": "0"})
         return self

@@ -36,7 +36,7 @@ core::Command run_module(const std::string& module, const std::vector<std::strin
     if (!before.empty()) path += ":" + before;
     core::Command command{
         .program = interpreter(),
-        .arguments = {"-m", module},
+        .arguments = {"-P", "-m", module},  // no file of the user's folder hides a module of Python's
         .environment = {{"PYTHONPATH", path},
                         {"PYTHONHASHSEED", "0"}}};  // sets of words in one order in every run
     command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());

@@ -8,7 +8,7 @@ import time
 import unittest
 
 from clearway.conformance import RULES
-from support import FolderCase, SOURCE
+from support import FolderCase, SOURCE, program
 
 GALLERY = SOURCE / "examples" / "python"
 
@@ -126,6 +126,17 @@ class ConformanceTest(FolderCase):
         self.assertEqual(ended.returncode, 1 if rules else 0, ended.stdout)
         self.assertRegex(ended.stdout.splitlines()[-1], rf"^{len(rules)} of \d+ rules broken$" if rules else "^all rules kept$")
         return rules
+
+    def test_files_with_names_of_pythons_modules_hide_nothing_from_parts_and_are_named_where_they_hide_from_a_script(self) -> None:
+        parts = self.write("mine.py", "import clearway\nclass Mine(clearway.Policy):\n    def act(self, belief):\n        return []\n")
+        for module in ("numpy", "random", "signal", "struct", "typing"):
+            self.write(f"{module}.py", "raise RuntimeError('not the one')\n")
+            program("run", "intersection", "--policy", f"{parts.name}:Mine", "--no-solo", "--seeds", "1", "--out", module)
+            if module != "signal":
+                done = self.judged(f"{parts.name}:Mine")
+                self.assertEqual(done.returncode, 1)
+                self.assertIn(f"{module}.py hides the module of Python's of that name. Rename it", done.stderr)
+            (self.folder / f"{module}.py").unlink()
 
     def test_examples_keep_all_rules(self) -> None:
         self.assertEqual(self.broken(GALLERY / "yield_policy.py:Yield"), set())
