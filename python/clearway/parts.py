@@ -440,7 +440,8 @@ class Lease(Told, metaclass=_Actions):
     @_action
     def hold_green(signal: int, links: Sequence[int], own_links: Sequence[int] = (), *, serves: Any = None, lasting_s: float = 2.0,
                    priority: int = 0, reason: str = "") -> "Lease":
-        """Show green for these links and red for those that conflict; ``own_links`` are those of the one it serves."""
+        """Show green for these links and red for those that conflict with them; of two of these that conflict, the later one yields.
+        ``own_links`` are those of the one it serves."""
         return Lease._make("hold_green", {"signal": _row("signal", signal, "signal_ids")}, serves, lasting_s, priority, reason,
                            links=_links("links", links), own_links=_links("own_links", own_links))
 
