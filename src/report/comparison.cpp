@@ -324,7 +324,7 @@ std::string comparison_text(const analysis::Summary& summary, const std::vector<
             if (name == analysis::primary_metric) primary_rows = rows;
             text += core::wrapped(title, 4) + "\n" +
                     row_of("Condition", fmt::format(fmt::runtime(numbers_format), "pairs", "diff.",
-                                                    "95 % interval", "%", "d", "p Holm", "Wilcoxon"));
+                                                    "95 % interval", "%", "d_z", "p Holm", "Wilcoxon"));
             fmt::format_to(out, "{:-<{}}\n{}\n", "", comparison_width, rows);
         }
         const auto is_travel_time = [](const std::string& name) { return name.ends_with("travel_time_s"); };

@@ -97,7 +97,7 @@ std::string failing_words(const ScenarioFacts& scenario, const ConditionFacts& c
     const auto p = is_clear(cost) ? holm_p_of_failing(scenario, condition) : std::nullopt;
     const std::string doubt =
         p && *p > 1.0 - analysis::usual_level
-            ? doubt_clause(fmt::format("p {} among so many comparisons", p_words(*p, script)))
+            ? doubt_clause(fmt::format("p {} after Holm's correction", p_words(*p, script)))
             : "";
     return estimate(longer, {1, script, Sign::always}) +
            (can_tell ? words_of(cost) + doubt : ", but no gain is shown that could be lost") +

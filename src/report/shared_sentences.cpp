@@ -70,7 +70,7 @@ std::string doubts_of(Effect effect, const analysis::Comparison& comparison, Scr
     if (const std::uint64_t pairs = comparison.difference->n; pairs < fewest_to_trust)
         words.push_back(fmt::format("{} pairs are few", pairs));
     if (is_shown_alone(effect, comparison))
-        words.push_back(fmt::format("p {} among so many comparisons", p_words(comparison.holm_p, script)));
+        words.push_back(fmt::format("p {} after Holm's correction", p_words(comparison.holm_p, script)));
     return fmt::format("{}", fmt::join(words, "; "));
 }
 

@@ -23,7 +23,7 @@ MaybeEstimate paired_difference(const ConditionFacts& first, const ConditionFact
 /// Whether the interval ends so near 0 that the first digits of its ends would not tell them apart.
 bool is_barely_shown(const MaybeEstimate& difference);
 
-/// `5 pairs are few; p 0.072 among so many comparisons`: why chance or locks could be all of an effect that
+/// `5 pairs are few; p 0.072 after Holm's correction`: why chance or locks could be all of an effect that
 /// its interval shows. Empty where nothing speaks for that.
 std::string doubts_of(const ConditionFacts& condition, Measure measure, Script script);
 /// Whether locks hold up a run in most pairs, so that these say little about a policy.

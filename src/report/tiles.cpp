@@ -86,7 +86,7 @@ std::string what_shows_the_seen(const analysis::Estimate& difference, double cou
         number(seen_s, {1, script}), asked_words(pairs));
 }
 
-/// `; if the difference is really as seen, about 24 do in four studies of five`: so many show the effect that
+/// `; about 24 pairs would (80 % power) if the difference is as seen`: so many show the effect that
 /// is seen among all comparisons of the scenario, each at its share of the level (Bonferroni, which is no
 /// less strict than Holm).
 std::string what_shows_it_among_all(const ScenarioFacts& scenario, const analysis::Estimate& difference) {
@@ -98,7 +98,7 @@ std::string what_shows_it_among_all(const ScenarioFacts& scenario, const analysi
     if (tests == 0.0 || difference.mean == 0.0) return "";
     const double level = 1.0 - (1.0 - analysis::usual_level) / tests;
     return fmt::format(
-        "; if the difference is really as seen, {} pairs do in four studies of five",
+        "; {} pairs would (80 % power) if the difference is as seen",
         asked_words(analysis::replications_to_show(difference.deviation, std::abs(difference.mean), level)));
 }
 
@@ -206,7 +206,7 @@ Badge badge_of(const ScenarioFacts& scenario, const ConditionFacts& condition, S
             if (is_shown_alone(condition, primary))
                 return {Badge::Runs::too_few,
                         fmt::format("Not enough runs: {} show the direction of one comparison alone, not "
-                                    "among so many (Holm){}",
+                                    "after Holm's correction{}",
                                     pairs, what_shows_it_among_all(scenario, *difference))};
             if (is_held_up(*condition.outcome(primary).comparison))
                 return {

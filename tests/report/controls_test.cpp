@@ -107,8 +107,8 @@ TEST_F(Controls, doubt_a_cost_of_failing_that_is_one_of_many) {
         set(other, {66.0, 70.0, 75.0, 69.0, 74.0});
         scenario_.conditions.push_back(other);
     }
-    EXPECT_THAT(failing(), ContainsRegex("s: \\+3.6 \\[[^]]*\\] \\(doubtful: p 0\\.[0-9]+ among so many "
-                                         "comparisons\\)"));
+    EXPECT_THAT(failing(), ContainsRegex("s: \\+3.6 \\[[^]]*\\] \\(doubtful: p 0\\.[0-9]+ after Holm's "
+                                         "correction\\)"));
 }
 
 TEST_F(Controls, are_neither_featured_nor_counted) {

@@ -162,7 +162,7 @@ TEST_F(Overview, doubts_effects_of_locked_pairs_few_pairs_and_many_comparisons) 
     analysis::Comparison& others = tests::comparison(corridor(), Measure::other_time_loss);
     others.holm_p = 0.072;
     EXPECT_THAT(headline(),
-                HasSubstr("other drivers lose 4.6 s each (doubtful: p 0.072 among so many comparisons)"));
+                HasSubstr("other drivers lose 4.6 s each (doubtful: p 0.072 after Holm's correction)"));
     others.locked_pairs = others.complete_pairs = 20;
     EXPECT_THAT(headline(), HasSubstr("(doubtful: p 0.072"))
         << "locks of a few vehicles, as the check tolerates";
@@ -471,7 +471,7 @@ TEST_F(Overview, DoubtsAClaimThatHoldsAlone) {
     analysis::Comparison comparison = tests::comparison(corridor(), primary);
     comparison.holm_p = 0.2;
     EXPECT_THAT(doubts_of(Effect::worse, comparison, Script::plain),
-                HasSubstr("p 0.200 among so many comparisons"));
+                HasSubstr("p 0.200 after Holm's correction"));
     EXPECT_EQ(doubts_of(Effect::none_shown, comparison, Script::plain), "") << "claims nothing";
     comparison.holm_p = 0.01;
     EXPECT_EQ(doubts_of(Effect::worse, comparison, Script::plain), "");
@@ -481,10 +481,10 @@ TEST_F(Overview, SaysThatRunsAreTooFewForManyComparisons) {
     tests::comparison(corridor(), primary).holm_p = 0.2;
     const Badge badge = badge_of(scenario_, corridor(), Script::plain);
     EXPECT_EQ(badge.runs, Badge::Runs::too_few);
-    EXPECT_THAT(badge.words,
-                ContainsRegex("show the direction of one comparison alone, not among so many \\(Holm\\); if "
-                              "the difference is really as seen, (about|more than) [0-9]+ pairs do in four "
-                              "studies of five"));
+    EXPECT_THAT(
+        badge.words,
+        ContainsRegex("show the direction of one comparison alone, not after Holm's correction; "
+                      "(about|more than) [0-9]+ pairs would \\(80 % power\\) if the difference is as seen"));
     study_.scenarios = {scenario_};
     EXPECT_THAT(report::headline(study_),
                 HasSubstr("emergency vehicles faster under 1 of 1 condition (none with "

@@ -49,11 +49,12 @@ TEST(TableFiles, SplitIntervalsIntoColumnsOfTheirOwn) {
 
 TEST(TableFiles, KeepWhatStandsBehindAnInterval) {
     const DataTable table{{"Condition", "difference, s"},
-                          {{"one", "2.5 [0.6, 4.4] ?"}, {"two", "0.4 [0.1, 0.7]"}}};
-    EXPECT_EQ(to_csv(table),
-              "Condition,\"difference, s\",low 95 %,high 95 %,note\none,2.5,0.6,4.4,?\ntwo,0.4,0.1,0.7,\n");
+                          {{"one", "2.5 [0.6, 4.4] \u2020"}, {"two", "0.4 [0.1, 0.7]"}}};
+    EXPECT_EQ(
+        to_csv(table),
+        "Condition,\"difference, s\",low 95 %,high 95 %,note\none,2.5,0.6,4.4,\u2020\ntwo,0.4,0.1,0.7,\n");
     EXPECT_THAT(to_latex({"t", "c", table}),
-                AllOf(HasSubstr("one & 2.5 & [\\num{0.6}, \\num{4.4}]\\,? \\\\\n"),
+                AllOf(HasSubstr("one & 2.5 & [\\num{0.6}, \\num{4.4}]\\,\\dag{} \\\\\n"),
                       HasSubstr("two & 0.4 & [\\num{0.1}, \\num{0.7}] \\\\\n")));
 }
 
@@ -400,23 +401,24 @@ TEST(FigureFiles, HaveTheGridOfFactorsWithItsIntervals) {
     write_figures(study, folder.path());
     EXPECT_THAT(text_of(folder.path() / "factors-emergency-grid.tex"), HasSubstr("; n = 12 to 20 pairs,"));
     const auto grid = [&] { return text_of(folder.path() / "factors-emergency.svg"); };
-    EXPECT_THAT(grid(), AllOf(Not(HasSubstr("(Holm)")), Not(HasSubstr("\"heading\""))))
+    EXPECT_THAT(grid(), AllOf(Not(HasSubstr("after Holm")), Not(HasSubstr("\"heading\""))))
         << "the caption names it";
     tests::comparison(study.scenarios[0].conditions.back(), primary).holm_p = 0.2;
     write_figures(study, folder.path());
-    EXPECT_THAT(grid(), AllOf(HasSubstr("6.0 ?</text>"), HasSubstr("shown alone, not among so many"),
-                              Not(HasSubstr("4.0 ?</text>"))));
+    EXPECT_THAT(grid(), AllOf(HasSubstr("6.0 \u2020</text>"), HasSubstr("significant alone, not after Holm"),
+                              Not(HasSubstr("4.0 \u2020</text>"))));
     const auto typeset = [&] { return text_of(folder.path() / "factors-emergency-grid.tex"); };
-    EXPECT_THAT(typeset(),
-                AllOf(HasSubstr("\\num{-4.5}]\\,? "), HasSubstr("; ? shown alone, not among so many")));
+    EXPECT_THAT(typeset(), AllOf(HasSubstr("\\num{-4.5}]\\,\\dag{} "),
+                                 HasSubstr("; \\dag{} significant alone, not after Holm")));
     study.scenarios[0].conditions.back().least_relevant_s = 10.0;
     write_figures(study, folder.path());
-    EXPECT_THAT(typeset(), HasSubstr("\\num{-4.5}]\\,? ")) << "also where it is below what counts";
+    EXPECT_THAT(typeset(), HasSubstr("\\num{-4.5}]\\,\\dag{} ")) << "also where it is below what counts";
     study.scenarios[0].conditions.back().condition.policies = {"check_in_out"};
     study.scenarios[0].conditions.back().condition.failure = "Q50";
     write_figures(study, folder.path());
-    EXPECT_THAT(grid(), AllOf(HasSubstr("6.0 (n/a)</text>"),
-                              HasSubstr("it sends no message that could be lost"), Not(HasSubstr("(Holm)"))));
+    EXPECT_THAT(grid(),
+                AllOf(HasSubstr("6.0 (n/a)</text>"), HasSubstr("it sends no message that could be lost"),
+                      Not(HasSubstr("after Holm"))));
     EXPECT_THAT(typeset(), AllOf(HasSubstr("\\,(n/a) "), HasSubstr("; (n/a) it sends no message")));
 }
 

@@ -20,8 +20,8 @@ struct GridCell {
 /// CSS classes of a cell.
 std::string style_of(GridCell::Tone tone);
 /// Behind a difference whose interval excludes 0, but not with Holm's correction, and what legends say of it.
-inline constexpr const char* shown_alone = " ?";
-inline constexpr const char* shown_alone_words = "? shown alone, not among so many comparisons (Holm)";
+inline constexpr const char* shown_alone = " \u2020";
+inline constexpr const char* shown_alone_words = "\u2020 significant alone, not after Holm's correction";
 /// That mark where it belongs, however small the difference; else empty.
 const char* alone_mark(const MaybeEstimate& difference, const std::optional<double>& holm_p);
 const char* alone_mark(const ConditionFacts& condition, Measure measure);

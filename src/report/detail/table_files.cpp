@@ -311,6 +311,7 @@ std::string latex_escaped(const std::string& text) {
         {">", "$>$"},
         {minus, "$-$"},
         {dash, "--"},
+        {"\u2020", "\\dag{}"},
         {"\u00b1", "$\\pm$"}};
     std::string result;
     for (std::size_t at = 0; at < text.size();) {

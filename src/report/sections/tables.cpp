@@ -71,9 +71,10 @@ std::string measure_table(const ScenarioFacts& scenario, std::span<const Measure
 
 /// All statistics of the paired differences of a measure.
 DataTable statistics_table(const ScenarioFacts& scenario, Measure measure) {
-    DataTable table{{info(measure).title, "difference [95 %]", "BCa [95 %]", "median [95 %]", "effect size d",
-                     "p (t)", "p (Holm)", "p (Wilcoxon)", "pairs", "incomplete", "EVs left out"},
-                    {}};
+    DataTable table{
+        {info(measure).title, "difference [95 %]", "BCa [95 %]", "median [95 %]", "effect size d_z", "p (t)",
+         "p (Holm)", "p (Wilcoxon)", "pairs", "incomplete", "EVs left out"},
+        {}};
     const NumberStyle style = typeset(decimals_of(scenario, measure), Sign::always);
     for (const ConditionFacts& condition : scenario.conditions) {
         const std::optional<analysis::Comparison>& paired = condition.outcome(measure).comparison;
