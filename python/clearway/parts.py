@@ -531,6 +531,8 @@ def checked_leases(answer: Any) -> list[dict[str, Any]]:
     """The fields of leases that ``act`` returned."""
     if answer is None:
         raise TypeError("act returned None: return a list of leases, empty if there is nothing to ask for")
+    if isinstance(answer, Lease):
+        raise TypeError("act returned one lease: return a list, [lease]")
     if isinstance(answer, (str, bytes, Mapping)):
         raise TypeError(f"act returned a {type(answer).__name__}, not a list of clearway.Lease: {reprlib.repr(answer)}")
     try:

@@ -82,6 +82,9 @@ class NotANumber(Policy):
 class NotALease(Policy):
     def act(self, belief):
         return ["hold_green"]
+class OneLease(Policy):
+    def act(self, belief):
+        return Lease.hold_lane(belief.emergency_vehicles[0]) if belief.emergency_vehicles else []
 class Nothing(Policy):
     def act(self, belief):
         pass
@@ -341,7 +344,8 @@ class FaultTest(FolderCase):
                 "Interrupts": "KeyboardInterrupt", "Text": "act returned a str, not a list of clearway.Lease: 'green please'",
                 "Stops": "BdbQuit: a part runs in a process of its own, without a terminal",
                 "NotANumber": "speed_mps is nan (allowed: 0 to 200)", "NotALease": "'hold_green' in its list, which is not a",
-                "Nothing": "act returned None", "Writes": "read-only", "OwnFields": "made by its class methods", "Important": "priority is 1000",
+                "OneLease": "act returned one lease: return a list, [lease]", "Nothing": "act returned None", "Writes": "read-only",
+                "OwnFields": "made by its class methods", "Important": "priority is 1000",
                 "TooMuch": "bytes (allowed", "Number": "act returned 3, which is not a list", "Slowly": "speed_mps is -5",
                 "Misspelt": "EmergencyVehicle has no 'approach'. Did you mean 'approaches'? It has ahead, ", "Caught": "ValueError: first (bad.py",
                 "Keeps": "y_m of an earlier decision was asked for", "Endless": "TimeoutError: no answer after 2 s"}
@@ -357,7 +361,7 @@ class FaultTest(FolderCase):
                 class_line = next(number for number, text in enumerate(FAULTS.splitlines(), 1) if text.startswith(f"class {name}("))
                 self.assertTrue(class_line < line < class_line + 25, first)
                 self.assertNotIn(str(Path(clearway.__file__).parent), found)
-                answered = ("NotALease", "Nothing", "TooMuch", "Number", "Text")  # `act` has returned, so that no line of it is running
+                answered = ("NotALease", "Nothing", "Number", "OneLease", "Text", "TooMuch")  # `act` has returned: no line of it runs
                 self.assertEqual("Traceback" in found, name not in answered, found)
                 self.assertEqual((name in answered, f"{name}.act" in first), (not others,) * 2, found)
                 if others and name != "Caught":
