@@ -20,12 +20,6 @@ namespace clearway::roads {
 /// Edges in driving order, internal edges left out: what a navigation system knows.
 using Route = std::span<const core::EdgeIndex>;
 
-/// The cheapest route for cars by free-flow travel time, `from` and `to` included; nothing when `to` cannot
-/// be reached or one of the two is closed to cars. Time across junctions counts. Dijkstra (1959) on edges;
-/// ties are broken by edge index, so the answer is deterministic. Allocates.
-std::optional<std::vector<core::EdgeIndex>> fastest_route(const Network& network, core::EdgeIndex from,
-                                                          core::EdgeIndex to);
-
 /// Length of a route from the start of its first edge to the end of its last one, ways across junctions
 /// included, 0 for the empty route.
 core::Metres route_length(const Network& network, Route route);

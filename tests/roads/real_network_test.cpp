@@ -1,6 +1,5 @@
 // Networks that package sumo-tools installs, and SUMO's own router as an oracle.
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <numbers>
@@ -9,9 +8,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "berlin_network.hpp"
 #include "core/files.hpp"
 #include "core/process.hpp"
 #include "core/random.hpp"
+#include "roads/fastest_routes.hpp"
 #include "roads/map_matching.hpp"
 #include "roads/network.hpp"
 #include "roads/route.hpp"
@@ -20,15 +21,6 @@
 
 namespace clearway::roads {
 namespace {
-
-std::filesystem::path sumo_folder() {
-    const char* home = std::getenv("SUMO_HOME");
-    return home == nullptr ? "/usr/share/sumo" : home;
-}
-
-Network berlin() {
-    return Network::read(sumo_folder() / "tools/game/DRT/osm.net.xml");
-}
 
 bool open_to_cars(const Network& network, const Edge& edge) {
     const auto lanes = network.lanes().subspan(edge.first_lane, edge.lane_count);

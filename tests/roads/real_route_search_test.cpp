@@ -1,25 +1,19 @@
 // A network that package sumo-tools installs; plain Dijkstra is the oracle.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <queue>
 
 #include <gtest/gtest.h>
 
+#include "berlin_network.hpp"
 #include "core/random.hpp"
-#include "roads/route.hpp"
+#include "roads/fastest_routes.hpp"
 #include "roads/route_search.hpp"
 #include "support/allocation_count.hpp"
 
 namespace clearway::roads {
 namespace {
-
-Network berlin() {
-    const char* home = std::getenv("SUMO_HOME");
-    return Network::read(std::filesystem::path(home == nullptr ? "/usr/share/sumo" : home) /
-                         "tools/game/DRT/osm.net.xml");
-}
 
 /// Delay of an edge that fades after its entry, as that of an edge on which traffic was seen.
 struct Fading {

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "crossing_network.hpp"
+#include "roads/fastest_routes.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace clearway::roads {

@@ -12,7 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/xml_stream.hpp"
-#include "roads/route.hpp"
+#include "roads/fastest_routes.hpp"
 #include "roads/route_search.hpp"
 #include "scenario/detail/driver_types.hpp"
 #include "scenario/detail/trip_routes.hpp"
@@ -133,10 +133,10 @@ class Routes {
             trips_.emplace(context);
         }
     }
-    RouteEdges traffic(const std::string& id) const {
+    RouteEdges traffic(const std::string& id) {
         return flows_ ? (*flows_)(Purpose::demand, id) : trips_->traffic(id);
     }
-    RouteEdges emergency(const std::string& id, VehicleKind kind) const {
+    RouteEdges emergency(const std::string& id, VehicleKind kind) {
         if (flows_) return (*flows_)(Purpose::emergency, id);
         return trips_->emergency(
             id, kind, {"trips.emergency_minimum_length_m", context_.config.trips.emergency_minimum_length_m});
@@ -167,7 +167,7 @@ const char* routing_mark(const ScenarioConfig& config) {
     return finder.found ? " reroute=\"true\"" : "";
 }
 
-PlannedVehicle plan_vehicle(const DemandContext& context, const Routes& routes, VehicleClass vehicle_class,
+PlannedVehicle plan_vehicle(const DemandContext& context, Routes& routes, VehicleClass vehicle_class,
                             int number, const char* mark) {
     PlannedVehicle vehicle;
     vehicle.id = fmt::format("{}.{}", traffic::name(vehicle_class), number);
@@ -254,7 +254,7 @@ void sort_by_departure(PlannedDemand& demand) {
 PlannedDemand generate(const DemandContext& context) {
     const Demand& counts = context.config.demand;
     const auto scaled = [&](int count) { return static_cast<int>(std::lround(count * counts.density)); };
-    const Routes routes(context);
+    Routes routes(context);
     const char* const mark = routing_mark(context.config);
     PlannedDemand demand;
     for (int number = 0; number < scaled(counts.human); ++number)

@@ -108,7 +108,7 @@ bool open_to_emergency(const roads::Network& network, const RouteEdges& route) {
     return true;
 }
 
-TripRoutes::TripRoutes(const DemandContext& context) : context_(context) {
+TripRoutes::TripRoutes(const DemandContext& context) : context_(context), fastest_(context.network) {
     edges_ = trip_edges(context.network, context.config.trips);
     for (const core::EdgeIndex edge : edges_)
         reached_m_.push_back((reached_m_.empty() ? 0.0 : reached_m_.back()) +
@@ -136,12 +136,12 @@ void TripRoutes::read_sites() {
 }
 
 template <class DrawEnds>
-RouteEdges TripRoutes::search(const LeastLength& least, bool for_emergency, const DrawEnds& draw) const {
+RouteEdges TripRoutes::search(const LeastLength& least, bool for_emergency, const DrawEnds& draw) {
     const roads::Network& network = context_.network;
     for (std::uint64_t attempt = 0; attempt < most_draws; ++attempt) {
         const Ends ends = draw(TripDraw::first_trip + 2 * attempt);
         if (!ends.from.exists() || !ends.to.exists() || too_far(ends)) continue;
-        auto route = roads::fastest_route(network, ends.from, ends.to);
+        auto route = fastest_.between(ends.from, ends.to);
         if (route && roads::route_length(network, *route).value >= least.metres &&
             !turns_round(network, *route) && (!for_emergency || open_to_emergency(network, *route)))
             return *std::move(route);
@@ -152,13 +152,12 @@ RouteEdges TripRoutes::search(const LeastLength& least, bool for_emergency, cons
                       "shorter trips", "lower it"});
 }
 
-RouteEdges TripRoutes::traffic(const std::string& id) const {
+RouteEdges TripRoutes::traffic(const std::string& id) {
     return search({"trips.minimum_length_m", context_.config.trips.minimum_length_m}, false,
                   [&](std::uint64_t counter) { return two_places(Purpose::demand, id, counter); });
 }
 
-RouteEdges TripRoutes::emergency(const std::string& id, traffic::VehicleKind kind,
-                                 const LeastLength& least) const {
+RouteEdges TripRoutes::emergency(const std::string& id, traffic::VehicleKind kind, const LeastLength& least) {
     if (stations_.empty())
         return search(least, true,
                       [&](std::uint64_t counter) { return two_places(Purpose::emergency, id, counter); });

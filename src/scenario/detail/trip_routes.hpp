@@ -6,6 +6,7 @@
 
 #include "core/ids.hpp"
 #include "core/random.hpp"
+#include "roads/fastest_routes.hpp"
 #include "roads/reach.hpp"
 #include "scenario/detail/demand.hpp"
 
@@ -53,10 +54,10 @@ class TripRoutes {
     explicit TripRoutes(const DemandContext& context);
 
     /// Route of a human or automated vehicle. Throws core::InputError when the draws find none.
-    RouteEdges traffic(const std::string& id) const;
+    RouteEdges traffic(const std::string& id);
     /// Route of an emergency vehicle. If the scenario has sites, it goes from a station to a place or from a
     /// place to a hospital (fire engines always start at a station); otherwise it is drawn like traffic.
-    RouteEdges emergency(const std::string& id, traffic::VehicleKind kind, const LeastLength& least) const;
+    RouteEdges emergency(const std::string& id, traffic::VehicleKind kind, const LeastLength& least);
 
   private:
     struct Ends {
@@ -64,7 +65,7 @@ class TripRoutes {
         core::EdgeIndex to;
     };
     template <class DrawEnds>
-    RouteEdges search(const LeastLength& least, bool for_emergency, const DrawEnds& draw) const;
+    RouteEdges search(const LeastLength& least, bool for_emergency, const DrawEnds& draw);
     struct Draw {
         core::Purpose purpose;
         const std::string& id;  ///< Of the vehicle.
@@ -81,6 +82,7 @@ class TripRoutes {
     void read_sites();
 
     const DemandContext& context_;
+    roads::FastestRoutes fastest_;
     std::vector<core::EdgeIndex> edges_;
     std::vector<double> reached_m_;
     std::optional<ReachableEnds> reachable_;
