@@ -63,6 +63,28 @@ TEST(AdjustGreen, ends_a_green_that_serves_nobody_it_names_after_its_least_time)
     EXPECT_EQ(sent[0].second.phase, 1U) << "the yellow of the program itself";
 }
 
+TEST(AdjustGreen, goes_on_where_greens_of_the_program_overlap) {
+    const support::TemporaryFolder folder;
+    const auto overlapping = folder.write("tls.add.xml", R"(<additional>
+    <tlLogic id="A" type="static" programID="own">
+        <phase duration="30" state="GGGgrrrrGGGgrrrr"/><phase duration="4" state="yyyyrrrryyyyGGGg"/>
+        <phase duration="30" state="rrrrGGGgrrrrGGGg"/><phase duration="4" state="rrrryyyyrrrryyyy"/>
+    </tlLogic></additional>)");
+    const roads::Network network =
+        roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml", {overlapping});
+    ActuationBench bench(0.25, fixed_clearance(), network);
+    bench.self.program = "own";
+    std::vector<traffic::RestoreProgram> restored;
+    while (bench.now.value < 40.0) {
+        if (bench.now.value < 8.0) bench.offer(signal_a, traffic::HoldGreen{north}, 2.0);
+        if (bench.now.value < 12.0) bench.offer(signal_a, traffic::AdjustGreen{{12, 13}}, 2.0);
+        for (const auto& restore : bench.only<traffic::RestoreProgram>(bench.step()))
+            restored.push_back(restore);
+    }
+    ASSERT_EQ(restored.size(), 1U) << "a signal that shows yellow for ever goes back to no program";
+    EXPECT_EQ(restored[0].phase, 2U);
+}
+
 TEST(AdjustGreen, leaves_a_green_alone_that_serves_it) {
     ActuationBench bench;
     bench.offer(signal_a, traffic::AdjustGreen{north}, 60.0);

@@ -66,6 +66,14 @@ TEST(HoldState, takes_letters_of_conflicting_requests_from_the_phase_that_serves
     EXPECT_EQ(hold_state(signal, "GrrG", {1, 2}), "rGgr");
 }
 
+TEST(BestPhase, is_none_in_which_others_end) {
+    roads::Signal signal = small_signal();
+    signal.program = {{30.0, "Grrr"}, {3.0, "yGGr"}, {30.0, "rGGr"}, {3.0, "ryyr"}};
+    EXPECT_EQ(best_phase(signal, {1, 2}), 2U);
+    signal.program = {{30.0, "Grrr"}, {3.0, "yGGr"}};
+    EXPECT_FALSE(best_phase(signal, {1, 2}).has_value());
+}
+
 TEST(BestPhase, serves_most_of_the_links) {
     EXPECT_EQ(best_phase(small_signal(), {1, 2}), 2U);
     EXPECT_EQ(best_phase(small_signal(), {0}), 0U);

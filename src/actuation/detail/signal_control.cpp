@@ -311,6 +311,7 @@ SignalControl::Way SignalControl::plan_return(const SignalContext& around, Ledge
 
 void SignalControl::begin(Way way, const SignalContext& around) {
     assert(way.target.size() == shown_.size());
+    assert(std::ranges::none_of(way.target, traffic::is_yellow) && "a transition ends in green and red");
     way_ = std::move(way);
     if (!way_.links.empty()) last_held_ = way_.links;
     transition_.begin(shown_, way_.target, way_.gaining, around.now);

@@ -106,6 +106,7 @@ std::optional<std::uint32_t> best_phase(const roads::Signal& signal, const Links
     long most = 0;
     for (std::uint32_t row = 0; row < signal.program.size(); ++row) {
         const std::string& state = signal.program[row].state;
+        if (std::ranges::any_of(state, traffic::is_yellow)) continue;
         const long served = std::ranges::count_if(
             links, [&](std::uint16_t link) { return traffic::is_green_for(state, link); });
         if (served > most) {

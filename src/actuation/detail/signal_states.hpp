@@ -39,8 +39,9 @@ bool are_foes(const roads::Signal& signal, std::size_t left, std::size_t right);
 /// Whether a link of `left` conflicts with one of `right`.
 bool conflict(const roads::Signal& signal, const Links& left, const Links& right);
 
-/// The phase of the program with green for most of `links`, the earliest of equals; nothing when no phase
-/// serves any.
+/// The phase of the program with green for most of `links`, the earliest of equals, among those in which no
+/// link ends: a signal that goes to such a phase would show yellow for ever. Nothing when no phase serves
+/// any.
 std::optional<std::uint32_t> best_phase(const roads::Signal& signal, const Links& links);
 /// Whether one phase of the program shows green for all of `links`, and those in `own` yield to none of them.
 bool a_phase_serves(const roads::Signal& signal, const Links& links, const Links& own);
