@@ -4,6 +4,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -184,7 +185,8 @@ std::vector<SettingInfo> field_rows(const std::string& prefix = "") {
     return rows;
 }
 
-/// The table of one or more structs. The defaults are the initialisers of their members.
+/// The table of one or more structs. The defaults are the initialisers of their members. Throws
+/// std::logic_error for a default that its own row refuses.
 template <class... Structs>
 SettingsTable settings_table() {
     SettingsTable table;
@@ -192,6 +194,13 @@ SettingsTable settings_table() {
         std::ranges::move(rows, std::back_inserter(table.rows));
     };
     (add(field_rows<Structs>()), ...);
+    for (const SettingInfo& row : table.rows) {
+        const auto preset = number_from(row.preset);
+        const bool is_number = row.minimum < row.maximum;
+        if (preset && is_number && (*preset < row.minimum || *preset > row.maximum))
+            throw std::logic_error(fmt::format("the default of {} is out of its range: {} (allowed: {})",
+                                               row.name, row.preset, range_text(row)));
+    }
     table.check = [](const Settings& settings, const std::string& where) {
         std::tuple<Structs...> targets;
         return std::apply([&](auto&... target) { return apply_settings(settings, where, target...); },

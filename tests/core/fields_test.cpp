@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/number_range.hpp"
+#include "core/settings.hpp"
 #include "core/units.hpp"
 
 namespace clearway::core {
@@ -21,6 +22,13 @@ struct Config {
         table(Field{"radius_m", "m", &Config::radius_m, 1.0, 1000.0, "Link radius.", "assumed"},
               Field{"lanes", "1", &Config::lanes, 1.0, 9.0, "Lanes.", "TABLE I"},
               Field{"name", "", &Config::name, 0.0, 0.0, "Name.", ""});
+    }
+};
+
+struct Share {
+    double share = 0.9;
+    static constexpr void fields(const auto& table) {
+        table(Field{"share", "1", &Share::share, 0.95, 1.0, "A share.", "assumed"});
     }
 };
 
@@ -55,6 +63,15 @@ TEST(NumberRange, holds_its_ends_and_nothing_that_is_not_finite) {
         EXPECT_EQ(range(outside), std::string(outside) + " is out of range (allowed: 0.5 to 2)");
     for (const char* const word : {"", "one", "1 ", "1e999", "1,5"})
         EXPECT_EQ(range(word), "\"" + std::string(word) + "\" is not a number (allowed: 0.5 to 2)");
+}
+
+TEST(SettingsTable, RefusesADefaultOutOfItsRange) {
+    try {
+        settings_table<Config, Share>();
+        FAIL() << "0.9 is below 0.95";
+    } catch (const std::logic_error& error) {
+        EXPECT_STREQ(error.what(), "the default of share is out of its range: 0.9 (allowed: 0.95 to 1)");
+    }
 }
 
 TEST(Units, ConvertAndCompare) {
