@@ -39,7 +39,7 @@ struct PreemptSignalsConfig {
     double exit_room_m = 0.0;
     int signals_ahead = 3;
     double lease_s = 0.0;
-    HoldTiming timing = HoldTiming::lead;
+    HoldTiming timing = HoldTiming::queues;
     double emergency_worth = 50.0;
     double least_gain_s = 2.0;
     double longest_early_s = 20.0;
@@ -80,9 +80,9 @@ struct PreemptSignalsConfig {
                   "short, because the next emergency vehicle waits for its end; `memory` says how long a "
                   "request lasts"},
             Field{"timing", "", &C::timing, 0, 0,
-                  "`queues` asks earlier where a model of the queues finds it worth while; `no_queue` is its "
-                  "control: the same with a model that sees no vehicles",
-                  "docs/findings/cities.md; older figures were made with `lead`"},
+                  "`queues` asks earlier than the lead where a model of the queues finds it worth while; "
+                  "`no_queue` is its control: the same with a model that sees no vehicles",
+                  "faster than `lead` in some networks, slower in none: docs/findings/cities.md"},
             Field{"emergency_worth", "1", &C::emergency_worth, 0.0, 10000.0,
                   "With `queues`: a second of an emergency vehicle is worth so many of other vehicles",
                   "trials on twelve sets of streets: 30 to 100 are level, 300 costs others more"},

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/json.hpp"
+#include "experiment/settings.hpp"
 #include "loop/study_folder.hpp"
 
 namespace clearway {
@@ -104,10 +105,13 @@ class Golden : public testing::Test {
 };
 
 TEST_F(Golden, CorridorWithPerfectSensorsAndOnARepairedGraph) {
-    experiment::ConditionSpec repaired = condition("repaired_corridor", "corridor");
+    experiment::ConditionSpec repaired = condition("repaired_by_lead", "corridor");
     repaired.failure = "B10";
     repaired.predictor = "graphsage";
-    expect("city", {condition("corridor", "corridor"), repaired});
+    experiment::set(repaired, "preempt_signals.timing", "lead");
+    experiment::ConditionSpec by_lead = condition("corridor_by_lead", "corridor");
+    experiment::set(by_lead, "preempt_signals.timing", "lead");
+    expect("city", {condition("corridor", "corridor"), by_lead, repaired});
 }
 
 TEST_F(Golden, VacateLane) {
