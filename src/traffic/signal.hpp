@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace clearway::traffic {
@@ -17,7 +18,7 @@ constexpr bool is_green(char letter) {
 }
 
 /// Whether a link is green in a state; not if the state has no letter for it.
-inline bool is_green_for(const std::string& state, std::size_t link) {
+constexpr bool is_green_for(std::string_view state, std::size_t link) {
     return link < state.size() && is_green(state[link]);
 }
 

@@ -1,5 +1,7 @@
 #include "policy/detail/queue_model.hpp"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "core/files.hpp"
@@ -52,6 +54,11 @@ Arrival first_arrival(const View& view) {
             std::nullopt};
 }
 
+QueueModel::Workspace& workspace() {
+    static QueueModel::Workspace of_all;
+    return of_all;
+}
+
 /// Of crossing A, when its program has run `cycle_time_s`.
 QueueModel model_of(const View& view, const Arrival& arrival, double cycle_time_s,
                     double emergency_worth = 1.0, ModelSight sight = ModelSight::all,
@@ -59,7 +66,8 @@ QueueModel model_of(const View& view, const Arrival& arrival, double cycle_time_
     return {view,
             arrival,
             {crossing_a(), arrival.approach.links, shown, cycle_time_s},
-            {policy::detail::edge_before(view, arrival).value(), 0.0, emergency_worth, sight}};
+            {policy::detail::edge_before(view, arrival).value(), 0.0, emergency_worth, sight},
+            workspace()};
 }
 
 QueueModel::Outcome outcome(CrossingScene& scene, double cycle_time_s, std::optional<double> start_s,
@@ -69,7 +77,7 @@ QueueModel::Outcome outcome(CrossingScene& scene, double cycle_time_s, std::opti
 }
 
 char shown_at(const SignalForecast& forecast, double time_s, std::size_t link) {
-    for (const auto& piece : forecast)
+    for (const auto& piece : forecast.pieces)
         if (piece.from_s <= time_s && time_s < piece.to_s) return piece.state[link];
     return '?';
 }
@@ -89,18 +97,23 @@ TEST(ProgramClock, follows_a_program_that_is_out_of_step) {
     EXPECT_DOUBLE_EQ(clock.cycle_time_s(crossing_a(), core::Seconds(180.0)), 85.0) << "longer than it lasts";
 }
 
+constexpr std::array<std::uint16_t, 2> straight_on{12, 13};
+constexpr std::array<std::uint16_t, 4> from_the_west{12, 13, 14, 15};
+
 TEST(SignalForecaster, goes_on_with_the_program) {
-    const SignalForecast forecast = SignalForecaster(crossing_a(), {12, 13}, "", 10.0).program(180.0);
+    SignalForecast forecast;
+    SignalForecaster(crossing_a(), straight_on, "", 10.0).program(180.0, forecast);
     EXPECT_EQ(shown_at(forecast, 30.0, 0), 'G');
     EXPECT_EQ(shown_at(forecast, 32.0, 0), 'y');
     EXPECT_EQ(shown_at(forecast, 36.0, 13), 'G');
     EXPECT_EQ(shown_at(forecast, 36.0 + 90.0, 13), 'G');
-    EXPECT_DOUBLE_EQ(forecast.back().to_s, 180.0);
+    EXPECT_DOUBLE_EQ(forecast.pieces.back().to_s, 180.0);
 }
 
 TEST(SignalForecaster, holds_after_a_transition_and_then_is_in_step_again) {
-    const SignalForecaster forecaster(crossing_a(), {12, 13, 14, 15}, "", 10.0);
-    SignalForecast forecast = forecaster.hold(8.0, 180.0);
+    const SignalForecaster forecaster(crossing_a(), from_the_west, "", 10.0);
+    SignalForecast forecast;
+    forecaster.hold(8.0, 180.0, forecast);
     EXPECT_EQ(shown_at(forecast, 7.9, 0), 'G');
     EXPECT_EQ(shown_at(forecast, 9.0, 0), 'r');
     EXPECT_EQ(shown_at(forecast, 12.9, 13), 'r');
@@ -113,8 +126,8 @@ TEST(SignalForecaster, holds_after_a_transition_and_then_is_in_step_again) {
 }
 
 TEST(SignalForecaster, needs_no_transition_where_nobody_loses_green) {
-    const SignalForecast forecast =
-        SignalForecaster(crossing_a(), {12, 13, 14, 15}, "", 50.0).hold(0.0, 180.0);
+    SignalForecast forecast;
+    SignalForecaster(crossing_a(), from_the_west, "", 50.0).hold(0.0, 180.0, forecast);
     EXPECT_EQ(shown_at(forecast, 0.1, 13), 'G');
     EXPECT_EQ(shown_at(forecast, 100.0, 13), 'G') << "beyond the program's own green";
 }
@@ -180,7 +193,7 @@ TEST(QueueModel, knows_who_comes_to_a_second_signal_from_the_first) {
         const Arrival arrival{emergency, ahead.at(1), 2, 0.0, std::nullopt};
         const roads::Signal& b = two_crossings().signal(arrival.approach.signal);
         return QueueModel(view, arrival, {b, arrival.approach.links, "", 10.0},
-                          {policy::detail::edge_before(view, arrival).value(), 40.0})
+                          {policy::detail::edge_before(view, arrival).value(), 40.0}, workspace())
             .outcome(0.0)
             .passing_s;
     };
@@ -207,7 +220,8 @@ TEST(QueueModel, weighs_an_emergency_vehicle_on_an_earlier_edge) {
     const roads::Signal& b = two_crossings().signal(arrival.approach.signal);
     const auto waited_s = [&](double emergency_worth) {
         return QueueModel(view, arrival, {b, arrival.approach.links, "", 89.0},
-                          {policy::detail::edge_before(view, arrival).value(), 0.0, emergency_worth})
+                          {policy::detail::edge_before(view, arrival).value(), 0.0, emergency_worth},
+                          workspace())
             .outcome(std::nullopt)
             .waited_s;
     };
@@ -251,7 +265,7 @@ TEST(HoldPlanner, asks_early_for_a_queue_that_moves) {
     CrossingScene scene = coming_from_the_west(250.0);
     add_queue(scene, "q", eastbound, 12, 2.0);
     add_queue(scene, "right", eastbound, 12, 2.0, 0);
-    policy::PreemptSignals lead({two_crossings()});
+    policy::PreemptSignals lead({two_crossings()}, {.timing = policy::HoldTiming::lead});
     policy::PreemptSignals queues({two_crossings()}, {.timing = policy::HoldTiming::queues});
     policy::PreemptSignals blind({two_crossings()}, {.timing = policy::HoldTiming::no_queue});
     const auto asks = [&](policy::Policy& policy) {
@@ -337,7 +351,8 @@ TEST(QueueModel, lets_emergency_vehicles_come_at_the_pace_of_others_before_them)
     const auto passing_s = [&](double pace) {
         const core::SignalIndex signal = arrival.approach.signal;
         return QueueModel(view, arrival, {two_crossings().signal(signal), arrival.approach.links, "", 0.0},
-                          {.edge = policy::detail::edge_before(view, arrival).value(), .pace = pace})
+                          {.edge = policy::detail::edge_before(view, arrival).value(), .pace = pace},
+                          workspace())
             .outcome(0.0)
             .passing_s;
     };

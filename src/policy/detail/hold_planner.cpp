@@ -59,7 +59,8 @@ bool HoldPlanner::is_due(const View& view, const Arrival& arrival, double rule_s
     const QueueModel model(view, arrival,
                            SignalForecaster(here, arrival.approach.links,
                                             view.belief().signals.state[signal.value], cycle_time_s),
-                           {*edge, not_before_s, settings_.emergency_worth, settings_.sight, pace_.share()});
+                           {*edge, not_before_s, settings_.emergency_worth, settings_.sight, pace_.share()},
+                           workspace_);
     const auto cost = [&](const QueueModel::Outcome& outcome) {
         return settings_.emergency_worth * outcome.passing_s + outcome.waited_s;
     };
@@ -69,9 +70,14 @@ bool HoldPlanner::is_due(const View& view, const Arrival& arrival, double rule_s
     bool is_due = rule_s <= settings_.longest_early_s;
     if (!is_held) {
         const auto consider = [&](std::optional<double> start_s) {
-            const QueueModel::Outcome other = model.outcome(start_s);
-            if (cost(other) > cost(best)) return;
-            best = other;
+            // Whoever passes later costs more, whatever the others wait.
+            constexpr double rounding = 1.0 + 1e-9;
+            const double latest_s = settings_.emergency_worth > 0.0
+                                        ? cost(best) / settings_.emergency_worth * rounding
+                                        : 2.0 * QueueModel::horizon_s;
+            const std::optional<QueueModel::Outcome> other = model.outcome(start_s, latest_s);
+            if (!other || cost(*other) > cost(best)) return;
+            best = *other;
             is_due = false;
         };
         std::ranges::for_each(later_s, consider);

@@ -64,6 +64,7 @@ class HoldPlanner {
     std::vector<ProgramClock> clocks_;  ///< By signal.
     Pace pace_;
     std::map<core::VehicleKey, Reached> reached_;  ///< The last one of each, in this decision.
+    QueueModel::Workspace workspace_;
 };
 
 }  // namespace clearway::policy::detail

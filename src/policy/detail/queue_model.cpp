@@ -34,34 +34,6 @@ double travel_s(const View& view, const traffic::BelievedVehicle& vehicle, doubl
     return free_travel_time_s(view, vehicle, distance_m) + lost_m / allowed_mps;
 }
 
-/// When a vehicle may pass that could from `ready_s` on, and by which letter.
-struct Passing {
-    double time_s = 0.0;
-    char letter = 'r';
-    double green_since_s = 0.0;
-};
-
-/// `piece`: where to begin to look; moved on to where it passes. Nothing if it has no green.
-std::optional<Passing> next_green(const SignalForecast& forecast, std::size_t& piece, std::uint16_t link,
-                                  double ready_s) {
-    const auto letter_in = [&](std::size_t row) {
-        const std::string& state = forecast[row].state;
-        return link < state.size() ? state[link] : 'r';
-    };
-    for (std::size_t row = piece; row < forecast.size(); ++row) {
-        if (forecast[row].to_s <= ready_s) continue;
-        piece = row;
-        if (!traffic::is_green(letter_in(row))) continue;
-        std::size_t first = row;
-        while (first > 0 && traffic::is_green(letter_in(first - 1)))
-            --first;
-        const double since_s = first == 0 ? -free_before_s : forecast[first].from_s;
-        return Passing{std::max(ready_s, since_s > ready_s ? since_s + start_up_s : ready_s), letter_in(row),
-                       since_s};
-    }
-    return std::nullopt;
-}
-
 }  // namespace
 
 std::optional<core::EdgeIndex> edge_before(const View& view, const Arrival& arrival) {
@@ -85,19 +57,24 @@ double free_s_to(const View& view, const Arrival& arrival) {
     return std::max(0.0, whole_s - travel_s(view, arrival.emergency, arrival.moved_m));
 }
 
-QueueModel::QueueModel(const View& view, const Arrival& arrival, SignalForecaster forecaster,
-                       const Premises& premises)
+QueueModel::QueueModel(const View& view, const Arrival& arrival, const SignalForecaster& forecaster,
+                       const Premises& premises, Workspace& workspace)
     : network_(view.network()),
       signal_(view.network().signal(arrival.approach.signal)),
-      forecaster_(std::move(forecaster)),
+      forecaster_(forecaster),
       emergency_worth_(premises.emergency_worth),
       pace_(premises.pace),
-      own_edge_(premises.edge) {
+      own_edge_(premises.edge),
+      workspace_(workspace) {
     assert(!arrival.approach.own_links.empty());
+    workspace_.greens_.resize(std::max(workspace_.greens_.size(), signal_.links.size()));
+    workspace_.forecast_.held.clear();
+    workspace_.edges_.clear();
+    workspace_.green_share_.clear();
     for (std::size_t link = 0; link < signal_.links.size(); ++link) {
-        green_share_.push_back(roads::link_green(signal_, link).share);
+        workspace_.green_share_.push_back(roads::link_green(signal_, link).share);
         for (const roads::SignalLink& way : signal_.links[link])
-            if (queue_of(way.from) == nullptr) queues_.push_back({way.from, {}});
+            if (queue_of(way.from) == nullptr) add_queue(way.from);
     }
     const double free_s = free_s_to(view, arrival) / pace_;
     arrival_s_ = std::max(premises.not_before_s, std::min(free_s, arrival.announced_s.value_or(free_s)));
@@ -113,10 +90,19 @@ QueueModel::QueueModel(const View& view, const Arrival& arrival, SignalForecaste
     if (sees) std::ranges::for_each(queues_, [&](Queue& queue) { add_expected(queue); });
 }
 
+void QueueModel::add_queue(core::LaneIndex lane) {
+    const std::size_t row = queues_.size();
+    if (row == workspace_.queues_.size()) workspace_.queues_.emplace_back();
+    queues_ = std::span(workspace_.queues_).first(row + 1);
+    queues_[row].lane = lane;
+    queues_[row].vehicles.clear();
+    const core::EdgeIndex edge = network_.lane(lane).edge;
+    if (!is_near(edge)) workspace_.edges_.push_back(edge);
+}
+
 /// Whether an edge ends at the signal.
 bool QueueModel::is_near(core::EdgeIndex edge) const {
-    return std::ranges::any_of(queues_,
-                               [&](const Queue& queue) { return network_.lane(queue.lane).edge == edge; });
+    return core::contains(workspace_.edges_, edge);
 }
 
 QueueModel::Queue* QueueModel::queue_of(core::LaneIndex lane) {
@@ -140,7 +126,7 @@ void QueueModel::place(const traffic::BelievedVehicle& vehicle, double earliest_
     Queue* chosen = nullptr;
     const auto link_count = static_cast<std::uint16_t>(signal_.links.size());
     for (std::uint16_t link = 0; link < link_count; ++link) {
-        if (green_share_[link] <= 0.0) continue;
+        if (workspace_.green_share_[link] <= 0.0) continue;
         for (const roads::SignalLink& way : signal_.links[link]) {
             const roads::Lane& from = network_.lane(way.from);
             if (from.edge != here.edge) continue;
@@ -235,7 +221,7 @@ void QueueModel::add_expected(Queue& queue) const {
     const auto here = static_cast<double>(std::count_if(
         queue.vehicles.begin(), near_end, [](const Vehicle& vehicle) { return !vehicle.is_own; }));
     const std::uint16_t link = std::prev(near_end)->link;
-    const double green_s = green_share_[link] * cycle_s;
+    const double green_s = workspace_.green_share_[link] * cycle_s;
     const double through_s = lane.length_m / std::max<double>(lane.speed_limit_mps, crawling_mps);
     const double stay_s = through_s + (cycle_s - green_s) / 2.0;
     const double flow_per_s = std::min(here / stay_s, green_s / cycle_s / headway_s);
@@ -245,38 +231,77 @@ void QueueModel::add_expected(Queue& queue) const {
         queue.vehicles.push_back({at_s, lane.length_m + at_s * lane.speed_limit_mps, link, 1.0});
 }
 
-double QueueModel::drain(const Queue& queue, const SignalForecast& forecast, double& waited_s) const {
+/// Of the present forecast.
+const std::vector<QueueModel::Green>& QueueModel::greens_of(std::uint16_t link) const {
+    Greens& greens = workspace_.greens_[link];
+    if (greens.forecast == workspace_.forecasts_) return greens.pieces;
+    greens.forecast = workspace_.forecasts_;
+    greens.pieces.clear();
+    std::optional<double> since_s;
+    for (const ShownPiece& piece : workspace_.forecast_.pieces) {
+        const char letter = link < piece.state.size() ? piece.state[link] : 'r';
+        if (!traffic::is_green(letter)) {
+            since_s.reset();
+            continue;
+        }
+        if (!since_s)
+            since_s = &piece == &workspace_.forecast_.pieces.front() ? -free_before_s : piece.from_s;
+        greens.pieces.push_back({piece.to_s, *since_s, letter});
+    }
+    return greens.pieces;
+}
+
+double QueueModel::drain(const Queue& queue, double& waited_s) const {
     double own_s = horizon_s;
     double free_s = -free_before_s;  // since when the stop line is free
-    std::size_t piece = 0;
+    const std::vector<Green>* greens = nullptr;
+    std::uint16_t link = 0;
+    std::size_t next = 0;
     for (const Vehicle& vehicle : queue.vehicles) {
-        const auto passing =
-            next_green(forecast, piece, vehicle.link, std::max({0.0, vehicle.earliest_s, free_s}));
-        double passes_s = passing ? std::min(passing->time_s, horizon_s) : horizon_s;
+        if (greens == nullptr || link != vehicle.link) {
+            link = vehicle.link;
+            greens = &greens_of(link);
+            next = 0;
+        }
+        const double ready_s = std::max({0.0, vehicle.earliest_s, free_s});
+        while (next < greens->size() && (*greens)[next].to_s <= ready_s)
+            ++next;
+        const Green* const green = next < greens->size() ? &(*greens)[next] : nullptr;
+        double passes_s = horizon_s;
+        if (green != nullptr)
+            passes_s = std::min(horizon_s, green->since_s > ready_s ? green->since_s + start_up_s : ready_s);
         if (vehicle.is_own) {
             const double free_for_s =
-                vehicle.earliest_s - std::max(free_s, passing ? passing->green_since_s : horizon_s);
+                vehicle.earliest_s - std::max(free_s, green != nullptr ? green->since_s : horizon_s);
             if (free_for_s >= 0.0) passes_s += std::max(0.0, free_before_s - free_for_s) / 2.0;
             own_s = passes_s;
         } else {
             waited_s += vehicle.weight * std::max(0.0, passes_s - vehicle.earliest_s);
         }
-        free_s = passes_s + (passing && passing->letter == 'g' ? yielding_headway_s : headway_s);
+        free_s = passes_s + (green != nullptr && green->letter == 'g' ? yielding_headway_s : headway_s);
     }
     return own_s;
 }
 
-QueueModel::Outcome QueueModel::outcome(std::optional<double> start_s) const {
-    SignalForecast forecast =
-        start_s ? forecaster_.hold(*start_s, horizon_s) : forecaster_.program(horizon_s);
+std::optional<QueueModel::Outcome> QueueModel::outcome(std::optional<double> start_s, double latest_s) const {
+    SignalForecast& forecast = workspace_.forecast_;
+    ++workspace_.forecasts_;
+    double ignored_s = 0.0;
     if (start_s) {
-        double ignored_s = 0.0;
-        const double passes_s = drain(queues_[own_queue_], forecast, ignored_s);
+        forecaster_.hold(*start_s, horizon_s, forecast);
+    } else {
+        forecaster_.program(horizon_s, forecast);
+    }
+    // The end of the hold makes it no faster.
+    const double passes_s = drain(queues_[own_queue_], ignored_s);
+    if (passes_s > latest_s) return std::nullopt;
+    if (start_s) {
         forecaster_.release(forecast, std::min(passes_s + after_s, *start_s + cap_s), horizon_s);
+        ++workspace_.forecasts_;
     }
     Outcome outcome;
     for (const Queue& queue : queues_) {
-        const double own_s = drain(queue, forecast, outcome.waited_s);
+        const double own_s = drain(queue, outcome.waited_s);
         if (&queue == &queues_[own_queue_]) outcome.passing_s = own_s;
     }
     return outcome;

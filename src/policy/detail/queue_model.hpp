@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/ids.hpp"
@@ -30,6 +31,7 @@ double free_s_to(const View& view, const Arrival& arrival);
 /// ahead of the emergency vehicle, and expects as many more behind them.
 class QueueModel {
   public:
+    class Workspace;
     struct Premises {
         core::EdgeIndex edge;          ///< See `edge_before`.
         double not_before_s = 0.0;     ///< Earliest arrival, by what holds the vehicle up earlier on its way.
@@ -37,22 +39,38 @@ class QueueModel {
         ModelSight sight = ModelSight::all;
         double pace = 1.0;  ///< Of those on the way, as a share of the speed on a free road.
     };
-    /// Refers to the view's network; the arrival's links must not be empty.
-    QueueModel(const View& view, const Arrival& arrival, SignalForecaster forecaster,
-               const Premises& premises);
+    /// Refers to the view's network and fills the workspace, which serves one model at a time; the arrival's
+    /// links must not be empty.
+    QueueModel(const View& view, const Arrival& arrival, const SignalForecaster& forecaster,
+               const Premises& premises, Workspace& workspace);
 
     /// From now on, s, and vehicle-seconds.
     struct Outcome {
         double passing_s = 0.0;  ///< Until the emergency vehicle is over the stop line, at most `horizon_s`.
         double waited_s = 0.0;   ///< Of the others, until they are or the horizon ends.
     };
-    /// If a hold begins after so long; nothing: if none does.
-    Outcome outcome(std::optional<double> start_s) const;
+    /// If a hold begins after so long; nothing: if none does. No outcome where the emergency vehicle passes
+    /// later than `latest_s`.
+    std::optional<Outcome> outcome(std::optional<double> start_s, double latest_s) const;
+    /// Whenever it passes.
+    Outcome outcome(std::optional<double> start_s) const { return *outcome(start_s, never_s); }
 
     /// How far it looks ahead, s: the longest hold and a cycle or two.
     static constexpr double horizon_s = 180.0;
 
   private:
+    static constexpr double never_s = 2.0 * horizon_s;  ///< A slow start after the horizon is included.
+
+    /// A piece of the forecast in which a link is green, and since when it is.
+    struct Green {
+        double to_s = 0.0;
+        double since_s = 0.0;
+        char letter = 'g';
+    };
+    struct Greens {
+        std::vector<Green> pieces;
+        std::uint64_t forecast = 0;  ///< That it belongs to.
+    };
     struct Vehicle {
         double earliest_s = 0.0;  ///< At the stop line.
         double distance_m = 0.0;
@@ -66,6 +84,7 @@ class QueueModel {
     };
 
     bool is_near(core::EdgeIndex edge) const;
+    void add_queue(core::LaneIndex lane);
     Queue* queue_of(core::LaneIndex lane);
     void add_near(const View& view, const Arrival& arrival);
     void add_ahead(const View& view, const Arrival& arrival);
@@ -74,8 +93,10 @@ class QueueModel {
     double weight_of(const traffic::BelievedVehicle& vehicle) const;
     void place(const traffic::BelievedVehicle& vehicle, double earliest_s,
                std::optional<core::EdgeIndex> next);
-    /// When the own vehicle of a queue passes, if it has it; adds what the others wait.
-    double drain(const Queue& queue, const SignalForecast& forecast, double& waited_s) const;
+    const std::vector<Green>& greens_of(std::uint16_t link) const;
+    /// When the own vehicle of a queue passes by the present forecast, if it has it; adds what the others
+    /// wait.
+    double drain(const Queue& queue, double& waited_s) const;
 
     const roads::Network& network_;
     const roads::Signal& signal_;
@@ -83,11 +104,22 @@ class QueueModel {
     double emergency_worth_ = 0.0;
     double pace_ = 1.0;
     double arrival_s_ = 0.0;
-    double delay_s_ = 0.0;             ///< Of the emergency vehicle on its way to here.
-    std::vector<double> green_share_;  ///< By link.
-    std::vector<Queue> queues_;
+    double delay_s_ = 0.0;      ///< Of the emergency vehicle on its way to here.
     core::EdgeIndex own_edge_;  ///< On which the emergency vehicle comes.
+    Workspace& workspace_;
+    std::span<Queue> queues_;
     std::size_t own_queue_ = 0;
+};
+
+/// What models allocate, kept from one to the next.
+class QueueModel::Workspace {
+    friend class QueueModel;
+    std::vector<double> green_share_;  ///< By link.
+    std::vector<Queue> queues_;        ///< The first ones are the model's.
+    std::vector<core::EdgeIndex> edges_;
+    SignalForecast forecast_;
+    std::uint64_t forecasts_ = 0;
+    std::vector<Greens> greens_;  ///< By link.
 };
 
 }  // namespace clearway::policy::detail

@@ -26,9 +26,10 @@ std::pair<std::size_t, double> phase_at(const roads::Signal& signal, double cycl
     return {row, signal.program[row].duration_s - cycle_time_s};
 }
 
-/// What is shown between two states: links that are green in both stay so. Empty when none loses green.
-std::string between(const std::string& before, const std::string& after) {
-    std::string state(before.size(), 'r');
+/// Sets what is shown between two states: links that are green in both stay so. Returns whether one loses
+/// green.
+bool set_between(std::string_view before, std::string_view after, std::string& state) {
+    state.assign(before.size(), 'r');
     bool loses = false;
     for (std::size_t link = 0; link < before.size(); ++link) {
         if (traffic::is_red(before[link])) continue;
@@ -36,7 +37,7 @@ std::string between(const std::string& before, const std::string& after) {
         loses = loses || !goes_on;
         if (goes_on && traffic::is_green(before[link])) state[link] = before[link];
     }
-    return loses ? state : std::string();
+    return loses;
 }
 
 }  // namespace
@@ -70,13 +71,9 @@ double ProgramClock::cycle_time_s(const roads::Signal& signal, core::Seconds now
     return found_s;
 }
 
-SignalForecaster::SignalForecaster(const roads::Signal& signal, std::vector<std::uint16_t> held,
-                                   std::string shown, double cycle_time_s)
-    : signal_(signal),
-      held_(std::move(held)),
-      shown_(std::move(shown)),
-      cycle_time_s_(cycle_time_s),
-      cycle_s_(signal.cycle_s()) {}
+SignalForecaster::SignalForecaster(const roads::Signal& signal, std::span<const std::uint16_t> held,
+                                   std::string_view shown, double cycle_time_s)
+    : signal_(signal), held_(held), shown_(shown), cycle_time_s_(cycle_time_s), cycle_s_(signal.cycle_s()) {}
 
 void SignalForecaster::run(double from_s, double to_s, SignalForecast& forecast) const {
     if (cycle_s_ <= 0.0) return;
@@ -84,25 +81,25 @@ void SignalForecaster::run(double from_s, double to_s, SignalForecast& forecast)
     auto [row, left_s] = phase_at(signal_, within(cycle_time_s_ + from_s, cycle_s_));
     while (from_s < to_s) {
         const double ends_s = std::min(to_s, from_s + std::max(left_s, shortest_s));
-        forecast.push_back({from_s, ends_s, signal_.program[row].state});
+        forecast.pieces.push_back({from_s, ends_s, signal_.program[row].state});
         row = (row + 1) % signal_.program.size();
         left_s = signal_.program[row].duration_s;
         from_s = ends_s;
     }
 }
 
-std::string SignalForecaster::shown_at(double time_s) const {
-    if (cycle_s_ <= 0.0) return std::string(signal_.links.size(), 'r');
+std::string_view SignalForecaster::shown_at(double time_s) const {
+    if (cycle_s_ <= 0.0) return {};
     return signal_.program[phase_at(signal_, within(cycle_time_s_ + time_s, cycle_s_)).first].state;
 }
 
 /// Green for the held links, and for those that conflict with none of them in the phase that serves most.
-std::string SignalForecaster::held_state(std::size_t letters) const {
+void SignalForecaster::set_held(std::size_t letters, std::string& state) const {
     const auto served = [&](const roads::Phase& phase) {
         return std::ranges::count_if(
             held_, [&](std::uint16_t link) { return traffic::is_green_for(phase.state, link); });
     };
-    std::string state(letters, 'r');
+    state.assign(letters, 'r');
     const auto best = std::ranges::max_element(signal_.program, {}, served);
     if (best != signal_.program.end() && served(*best) > 0)
         for (std::size_t link = 0; link < std::min(letters, signal_.links.size()); ++link) {
@@ -112,40 +109,37 @@ std::string SignalForecaster::held_state(std::size_t letters) const {
         }
     for (const std::uint16_t link : held_)
         if (link < letters) state[link] = 'G';
-    return state;
 }
 
-SignalForecast SignalForecaster::program(double until_s) const {
-    SignalForecast forecast;
+void SignalForecaster::program(double until_s, SignalForecast& forecast) const {
+    forecast.pieces.clear();
     run(0.0, until_s, forecast);
-    return forecast;
 }
 
-SignalForecast SignalForecaster::hold(double start_s, double until_s) const {
+void SignalForecaster::hold(double start_s, double until_s, SignalForecast& forecast) const {
     assert(start_s >= 0.0 && start_s + transition_s < until_s);
-    SignalForecast forecast;
+    forecast.pieces.clear();
     run(0.0, start_s, forecast);
-    const std::string before = start_s > 0.0 || shown_.empty() ? shown_at(start_s) : shown_;
-    std::string target = held_state(before.size());
+    const std::string_view before = start_s > 0.0 || shown_.empty() ? shown_at(start_s) : shown_;
+    const std::size_t letters = before.empty() ? signal_.links.size() : before.size();
+    if (forecast.held.size() != letters) set_held(letters, forecast.held);
     double opens_s = start_s;
-    if (std::string change = between(before, target); !change.empty()) {
+    if (set_between(before, forecast.held, forecast.before)) {
         opens_s = start_s + transition_s;
-        forecast.push_back({start_s, opens_s, std::move(change)});
+        forecast.pieces.push_back({start_s, opens_s, forecast.before});
     }
-    forecast.push_back({opens_s, until_s, std::move(target)});
-    return forecast;
+    forecast.pieces.push_back({opens_s, until_s, forecast.held});
 }
 
 void SignalForecaster::release(SignalForecast& forecast, double at_s, double until_s) const {
-    ShownPiece& held = forecast.back();
+    ShownPiece& held = forecast.pieces.back();
     const double ends_s = std::clamp(at_s, held.from_s, until_s);
     held.to_s = ends_s;
-    std::string change = between(held.state, shown_at(ends_s + transition_s));
     if (ends_s >= until_s) return;
     double back_s = ends_s;
-    if (!change.empty()) {
+    if (set_between(held.state, shown_at(ends_s + transition_s), forecast.after)) {
         back_s = std::min(until_s, ends_s + transition_s);
-        forecast.push_back({ends_s, back_s, std::move(change)});
+        forecast.pieces.push_back({ends_s, back_s, forecast.after});
     }
     run(back_s, until_s, forecast);
 }
