@@ -4,7 +4,6 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -185,22 +184,31 @@ std::vector<SettingInfo> field_rows(const std::string& prefix = "") {
     return rows;
 }
 
-/// The table of one or more structs. The defaults are the initialisers of their members. Throws
-/// std::logic_error for a default that its own row refuses.
+/// Whether the default of each number lies in the range that its row gives.
+template <class Struct>
+constexpr bool defaults_lie_in_their_ranges() {
+    const Struct defaults{};
+    bool all = true;
+    for_each_field<Struct>([&](const auto& field) {
+        using Member = std::remove_cvref_t<decltype(defaults.*field.member)>;
+        if constexpr (std::is_arithmetic_v<Member> && !std::is_same_v<Member, bool>) {
+            const auto preset = static_cast<double>(defaults.*field.member);
+            all = all && preset >= field.minimum && preset <= field.maximum;
+        }
+    });
+    return all;
+}
+
+/// The table of one or more structs. The defaults are the initialisers of their members.
 template <class... Structs>
 SettingsTable settings_table() {
+    static_assert((defaults_lie_in_their_ranges<Structs>() && ...),
+                  "a default lies outside the range that its own row of the field table gives");
     SettingsTable table;
     [[maybe_unused]] const auto add = [&](std::vector<SettingInfo> rows) {
         std::ranges::move(rows, std::back_inserter(table.rows));
     };
     (add(field_rows<Structs>()), ...);
-    for (const SettingInfo& row : table.rows) {
-        const auto preset = number_from(row.preset);
-        const bool is_number = row.minimum < row.maximum;
-        if (preset && is_number && (*preset < row.minimum || *preset > row.maximum))
-            throw std::logic_error(fmt::format("the default of {} is out of its range: {} (allowed: {})",
-                                               row.name, row.preset, range_text(row)));
-    }
     table.check = [](const Settings& settings, const std::string& where) {
         std::tuple<Structs...> targets;
         return std::apply([&](auto&... target) { return apply_settings(settings, where, target...); },

@@ -130,7 +130,8 @@ class Rendered(Tree):
         self.rows(row())
         self.rendered(TABLE)
         golden = self.root / "tests/loop/golden.txt"
-        golden.write_text(golden.read_text(encoding="utf-8").replace("corridor 6", "corridor 7", 1),
+        digit = re.compile("^(vacate_lane )(.)", re.MULTILINE)
+        golden.write_text(digit.sub(lambda found: found[1] + ("0" if found[2] != "0" else "1"), golden.read_text(encoding="utf-8")),
                           encoding="utf-8")
         done = run(RENDER, "--root", self.root, "--check")
         self.assertEqual(done.returncode, 1)
