@@ -49,14 +49,6 @@ void for_each_demand(const study::StudyConfig& config, const scenario::BuiltNetw
     }
 }
 
-scenario::Outlook outlook_of(const roads::Network& network, const scenario::Prepared& prepared) {
-    std::vector<std::vector<std::string>> ways;
-    for (const traffic::EmergencyDeparture& departure : prepared.emergency)
-        ways.push_back(departure.edges);
-    return scenario::outlook(network, ways, scenario::planned_routes(prepared.route_files.front(), network),
-                             prepared.time.window_s);
-}
-
 }  // namespace
 
 EquipCandidates equip_candidates(const study::StudyConfig& config, const scenario::BuiltNetwork& built,
@@ -67,10 +59,14 @@ EquipCandidates equip_candidates(const study::StudyConfig& config, const scenari
     std::map<core::SignalIndex, double> red_s;       // of all of them
     std::vector<std::set<core::SignalIndex>> passed(config.replications);
     std::vector<std::vector<core::SignalIndex>> ways;
+    std::vector<std::vector<std::string>> edges;
+    scenario::PlannedRoutes others;  // of one run
+    double window_s = 0.0;
     for_each_demand(config, built, [&](std::uint32_t replication, const scenario::Prepared& prepared) {
         for (const traffic::EmergencyDeparture& departure : prepared.emergency) {
             const std::vector<core::SignalIndex>& way =
                 ways.emplace_back(detail::passed_by(departure.edges, crossings));
+            edges.push_back(departure.edges);
             passed[replication].insert(way.begin(), way.end());
             candidates.met.add(way.size());
             for (const core::SignalIndex signal : way)
@@ -78,8 +74,11 @@ EquipCandidates equip_candidates(const study::StudyConfig& config, const scenari
             for (const auto& [signal, wait_s] : scenario::red_waits_s(built.network, departure.edges))
                 red_s[signal] += wait_s;
         }
-        if (replication == 0) candidates.outlook = outlook_of(built.network, prepared);
+        if (replication > 0) return;
+        others = scenario::planned_routes(prepared.route_files.front(), built.network);
+        window_s = prepared.time.window_s;
     });
+    candidates.outlook = scenario::outlook(built.network, edges, others, window_s);
     candidates.not_passed = built.network.signals().size() - trips.size();
     candidates.switched_off = std::erase_if(trips, [&](const auto& one) {
         return !built.preemption.empty() && built.preemption[one.first.value].enabled.value_or(1) == 0;

@@ -247,7 +247,7 @@ std::string equipment_text(const EquipmentFacts& facts) {
     if (const std::string command = detail::more_seeds_command(facts); !command.empty())
         text += lines({detail::more_seeds_words}) + command + "\n";
     if (const std::string command = detail::study_command(facts); !command.empty())
-        text += lines({detail::study_words}) + command + "\n";
+        text += lines({detail::study_words(facts)}) + command + "\n";
     return text;
 }
 

@@ -30,10 +30,27 @@ std::string told(const MaybeEstimate& value, const char* more, const char* less)
     if (range == nullptr) return fmt::format("{}, from too few simulations for a range", mean);
     if (range->low * range->high > 0.0) {
         const auto [least, most] = std::minmax({std::abs(range->low), std::abs(range->high)});
-        return fmt::format("{} ({} to {})", mean, seconds(least), seconds(most));
+        constexpr double next_to_nothing = 0.05;  // of the mean
+        const bool is_barely_shown = least < next_to_nothing * std::abs(value->mean);
+        return fmt::format("{} ({} to {}{})", mean, seconds(least), seconds(most),
+                           is_barely_shown ? ": it may be next to nothing" : "");
     }
     return fmt::format("{} (from {} {} to {} {}: it may be chance)", mean, seconds(range->low), less,
                        seconds(range->high), more);
+}
+
+/// The first ones of the search that bring what is shown, where it is not shown that others add to it.
+std::string enough_of(const EquipmentFacts& facts) {
+    const auto is_enough = std::ranges::find_if(
+        facts.ranked, [](const EquippedSignal& signal) { return is_shown(signal.so_far); });
+    if (is_enough == facts.ranked.end() || std::next(is_enough) == facts.ranked.end()) return "";
+    const auto adds = [&](const EquippedSignal& signal) { return is_shown_of(facts, signal); };
+    if (std::any_of(std::next(is_enough), facts.ranked.end(), adds)) return "";
+    std::vector<std::string> numbers;
+    for (auto signal = facts.ranked.begin(); signal != std::next(is_enough); ++signal)
+        numbers.push_back(fmt::format("#{}", signal->number));
+    return fmt::format(" As far as is shown, {} {} enough.", fmt::join(numbers, " and "),
+                       numbers.size() == 1 ? "is" : "are");
 }
 
 std::string what_to_equip(const EquipmentFacts& facts) {
@@ -52,7 +69,8 @@ std::string what_to_equip(const EquipmentFacts& facts) {
         return fmt::format(
             "No recommendation: traffic blocked itself in most simulations. The best guess: {}.", all);
     if (tells_sum(facts))
-        return fmt::format("Equip {}. Which of them first, the simulations do not tell.", all);
+        return fmt::format("Equip {}. Which of them first, the simulations do not tell.{}", all,
+                           enough_of(facts));
     if (tells_passing(facts))
         return fmt::format("The best guess: {}. They help those who pass them; few do.", all);
     return fmt::format("No recommendation: that ambulances gain is not shown. The best guess: {}.", all);

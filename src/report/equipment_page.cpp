@@ -148,7 +148,7 @@ std::string list_of(const std::vector<std::string>& sentences) {
     return html + "</ul>\n";
 }
 
-std::string command_html(const char* words, const std::string& command) {
+std::string command_html(const std::string& words, const std::string& command) {
     if (command.empty()) return "";
     return fmt::format("<p>{}</p>\n<pre><code>{}</code></pre>\n", words, escaped(command));
 }
@@ -308,7 +308,7 @@ void write_equipment_page(const EquipmentFacts& facts, std::ostream& page) {
         note(facts.assumptions) + detail::coarse_step_note(facts.step_length_s) +
         list_of({findings.begin() + 1, findings.end()}) +
         command_html(detail::more_seeds_words, detail::more_seeds_command(facts)) +
-        command_html(detail::study_words, detail::study_command(facts)) +
+        command_html(detail::study_words(facts), detail::study_command(facts)) +
         figures({detail::equipment_map_figure(facts), detail::curve_figure(facts)}) +
         (facts.ranked.empty() ? ""
                               : to_html(detail::data_table_of(detail::ranks_table(facts))) +

@@ -169,8 +169,8 @@ std::string small_map_sentence(const EquipmentFacts& facts) {
     const std::string why = small_map_of(facts);
     if (why.empty()) return "";
     return fmt::format(
-        "More seeds are hardly worth it on this map: {}. What helps: the signals that the map lacks, your "
-        "stations, your calls, or a larger map.",
+        "More seeds would narrow the ranges, but find no order on this map: {}. What helps: the signals that "
+        "the map lacks, your stations, your calls, or a larger map.",
         why);
 }
 
@@ -379,6 +379,11 @@ std::string study_command(const EquipmentFacts& facts) {
         words = core::with_option(words, "--density", less_density(facts.density));
     words.insert(words.end(), {"--set", fmt::format("actuation.equipped={}", fmt::join(signals, ","))});
     return printable(core::shell_text(words));
+}
+
+std::string study_words(const EquipmentFacts& facts) {
+    return fmt::format("To study these signals on other seeds{}:",
+                       facts.unsound.say_little() ? " and with less traffic" : "");
 }
 
 std::string more_seeds_command(const EquipmentFacts& facts) {

@@ -228,7 +228,8 @@ void judge_signals(const roads::Network& network, const std::map<core::SignalInd
 std::string little_reason(const Outlook& outlook, const std::string& signals, const std::string& of_red) {
     if (outlook.signals == 0) return "the network has no signal";
     if (outlook.trips == 0) return "no trip of an EV is planned";
-    if (outlook.trips_passing == 0) return "no EV passes a signal";
+    if (outlook.trips_passing == 0)
+        return fmt::format("none of {} of EVs passes a signal", core::counted(outlook.trips, "trip"));
     if (2 * outlook.trips_passing >= outlook.trips) return signals;
     return fmt::format("few EVs pass a signal ({} of {}), and {}", outlook.trips_passing, outlook.trips,
                        of_red);

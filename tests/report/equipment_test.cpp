@@ -358,8 +358,8 @@ TEST(Equipment, SaysWhatASmallMapCannotDecide) {
     facts.more_seeds = {"clearway", "equip", "town"};
     EXPECT_THAT(
         flat_text(facts),
-        AllOf(HasSubstr("More seeds are hardly worth it on this map: 2 are nearly all of its 3 signals that "
-                        "EVs pass. What helps:"),
+        AllOf(HasSubstr("More seeds would narrow the ranges, but find no order on this map: 2 are nearly "
+                        "all of its 3 signals that EVs pass. What helps:"),
               Not(HasSubstr("would likely")), Not(HasSubstr("--seeds 29"))))
         << "one advice";
     facts.met = {60, 9, 25};

@@ -124,7 +124,8 @@ TEST(OutlookSentence, says_why_little_can_be_gained) {
     EXPECT_EQ(outlook_sentence({.signals = 3}),
               "By programs and trips alone, preemption has little to gain: no trip of an EV is planned.");
     EXPECT_EQ(outlook_sentence({.signals = 3, .trips = 6, .trip_s = 100.0}),
-              "By programs and trips alone, preemption has little to gain: no EV passes a signal.");
+              "By programs and trips alone, preemption has little to gain: none of 6 trips of EVs "
+              "passes a signal.");
     Outlook few{
         .signals = 3, .trips = 6, .trips_passing = 1, .signals_a_trip = 0.2, .red_s = 4.0, .trip_s = 219.0};
     EXPECT_EQ(outlook_sentence(few),

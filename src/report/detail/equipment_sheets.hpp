@@ -25,7 +25,8 @@ analysis::MaybeEstimate without_interval(analysis::MaybeEstimate value);
 std::vector<std::string> findings_of(const EquipmentFacts& facts);
 /// A command for a study of those that were chosen; empty without any.
 std::string study_command(const EquipmentFacts& facts);
-inline constexpr const char* study_words = "To study these signals on other seeds:";
+/// What stands above `study_command`.
+std::string study_words(const EquipmentFacts& facts);
 /// The command with as many seeds as would likely tell more; empty where they are not worth it.
 std::string more_seeds_command(const EquipmentFacts& facts);
 inline constexpr const char* more_seeds_words = "More seeds would likely tell:";
