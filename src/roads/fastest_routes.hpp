@@ -37,7 +37,7 @@ class FastestRoutes {
     };
     using Entry = std::pair<double, std::uint32_t>;  ///< Least time at the destination, and edge.
 
-    void add_ways_from(core::EdgeIndex edge);
+    void add_ways_from(core::EdgeIndex index);
     void add_way(const Connection& connection);
     std::span<const Way> ways_from(core::EdgeIndex edge) const;
     std::span<const double> inner_s(const Way& way) const;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/error.hpp"
 #include "roads/link_green.hpp"
 #include "traffic/signal.hpp"
 
