@@ -90,7 +90,9 @@ std::string what_it_brings(const EquipmentFacts& facts) {
 std::string how_sure(const EquipmentFacts& facts) {
     std::string text = fmt::format(
         "{} simulations with them and {} without, of the same traffic. The ranges cover chance among such "
-        "simulations (95 %), not whether your traffic is like what is simulated, which stands below.",
+        "simulations (95 %), not whether your traffic, signal programs and calls are like those simulated, "
+        "which "
+        "stand below.",
         facts.replications, facts.replications);
     if (facts.unsound.say_little()) text += fmt::format(" A doubt: {}.", facts.unsound.words());
     return text;

@@ -172,7 +172,8 @@ TEST(EquipmentPage, BeginsWithAnAnswerForThoseWhoDecide) {
             "Everybody else, a trip: 1.0 s more delay (0.6 s to 1.4 s).",
             "10 simulations with them and 10 without, of the same traffic. The ranges cover chance "
             "among such "
-            "simulations (95 %), not whether your traffic is like what is simulated, which stands below.",
+            "simulations (95 %), not whether your traffic, signal programs and calls are like "
+            "those simulated, which stand below.",
             "To know more: your signals' programs, your stations and your counts of traffic."));
     std::ostringstream page;
     write_equipment_page(facts, page);
