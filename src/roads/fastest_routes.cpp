@@ -3,17 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <functional>
 
 #include "roads/detail/walk.hpp"
 
 namespace clearway::roads {
 namespace {
-
-double free_flow_s(const Lane& lane) {
-    return lane.speed_limit_mps > 0.0F ? static_cast<double>(lane.length_m) / lane.speed_limit_mps
-                                       : std::numeric_limits<double>::infinity();
-}
 
 Point end_of(const Network& network, core::EdgeIndex edge) {
     return network.lane(core::LaneIndex{network.edge(edge).first_lane}).shape.back();
@@ -36,7 +30,8 @@ void FastestRoutes::add_ways_from(core::EdgeIndex index) {
     const Edge& edge = network_.edge(index);
     for (std::uint32_t row = edge.first_lane; row < edge.first_lane + edge.lane_count; ++row) {
         const Lane& lane = network_.lane(core::LaneIndex{row});
-        if (lane.allows_cars) edge_s_[index.value] = std::min(edge_s_[index.value], free_flow_s(lane));
+        if (lane.allows_cars)
+            edge_s_[index.value] = std::min(edge_s_[index.value], detail::free_flow_s(lane));
         if (edge.internal) continue;
         for (const Connection& connection : network_.connections_from(core::LaneIndex{row}))
             if (connection.allows_cars) add_way(connection);
@@ -48,7 +43,7 @@ void FastestRoutes::add_way(const Connection& connection) {
     if (network_.edge(to).internal) return;
     Way way{to, static_cast<std::uint32_t>(inner_s_.size())};
     detail::for_each_inner_lane(network_, connection, [&](core::LaneIndex inner) {
-        inner_s_.push_back(free_flow_s(network_.lane(inner)));
+        inner_s_.push_back(detail::free_flow_s(network_.lane(inner)));
         ++way.inner_count;
     });
     ways_.push_back(way);
@@ -93,9 +88,9 @@ std::optional<std::vector<core::EdgeIndex>> FastestRoutes::between(core::EdgeInd
     queue_.clear();
     Label& start = label(from, to);
     start.arrival_s = 0.0;
-    push(start.rest_s, from);
+    queue_.push(start.rest_s, from);
     while (!queue_.empty()) {
-        const auto [at_least_s, row] = pop();
+        const auto [at_least_s, row] = queue_.pop();
         const Label& reached = labels_[row];
         if (at_least_s > reached.arrival_s + reached.rest_s) continue;  // a faster way was there before
         const core::EdgeIndex edge{row};
@@ -117,7 +112,7 @@ void FastestRoutes::relax(core::EdgeIndex from, const Way& way, core::EdgeIndex 
     if (arrival_s < known.arrival_s) {
         known.arrival_s = arrival_s;
         known.before = from;
-        push(arrival_s + known.rest_s, way.to);
+        queue_.push(arrival_s + known.rest_s, way.to);
     } else if (arrival_s == known.arrival_s && left_s < arrival_s && known.before.exists() &&
                from < known.before) {
         known.before = from;
@@ -132,18 +127,6 @@ FastestRoutes::Label& FastestRoutes::label(core::EdgeIndex edge, core::EdgeIndex
     return label;
 }
 
-void FastestRoutes::push(double at_least_s, core::EdgeIndex edge) {
-    queue_.emplace_back(at_least_s, edge.value);
-    std::ranges::push_heap(queue_, std::greater{});
-}
-
-FastestRoutes::Entry FastestRoutes::pop() {
-    std::ranges::pop_heap(queue_, std::greater{});
-    const Entry least = queue_.back();
-    queue_.pop_back();
-    return least;
-}
-
 std::vector<core::EdgeIndex> FastestRoutes::path_to(core::EdgeIndex to) const {
     std::vector<core::EdgeIndex> path;
     for (core::EdgeIndex edge = to; edge.exists(); edge = labels_[edge.value].before) {
@@ -152,11 +135,6 @@ std::vector<core::EdgeIndex> FastestRoutes::path_to(core::EdgeIndex to) const {
     }
     std::ranges::reverse(path);
     return path;
-}
-
-std::optional<std::vector<core::EdgeIndex>> fastest_route(const Network& network, core::EdgeIndex from,
-                                                          core::EdgeIndex to) {
-    return FastestRoutes(network).between(from, to);
 }
 
 }  // namespace clearway::roads

@@ -4,10 +4,10 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "core/ids.hpp"
+#include "roads/detail/search.hpp"
 #include "roads/network.hpp"
 
 namespace clearway::roads {
@@ -35,7 +35,6 @@ class FastestRoutes {
         core::EdgeIndex before;
         std::uint64_t search = 0;  ///< That it belongs to.
     };
-    using Entry = std::pair<double, std::uint32_t>;  ///< Least time at the destination, and edge.
 
     void add_ways_from(core::EdgeIndex index);
     void add_way(const Connection& connection);
@@ -44,8 +43,6 @@ class FastestRoutes {
     double least_pace() const;
     double distance_m(core::EdgeIndex from, core::EdgeIndex to) const;
     Label& label(core::EdgeIndex edge, core::EdgeIndex destination);
-    void push(double at_least_s, core::EdgeIndex edge);
-    Entry pop();
     void relax(core::EdgeIndex from, const Way& way, core::EdgeIndex destination);
     std::vector<core::EdgeIndex> path_to(core::EdgeIndex to) const;
 
@@ -58,12 +55,8 @@ class FastestRoutes {
     std::vector<double> inner_s_;
     double pace_s_per_m_ = 0.0;  ///< No way gets nearer to a place, as the crow flies, in less time.
     std::vector<Label> labels_;
-    std::vector<Entry> queue_;
+    detail::LeastFirst queue_;  ///< By the least time at the destination.
     std::uint64_t searches_ = 0;
 };
-
-/// One route alone; for several, `FastestRoutes` prepares the network once.
-std::optional<std::vector<core::EdgeIndex>> fastest_route(const Network& network, core::EdgeIndex from,
-                                                          core::EdgeIndex to);
 
 }  // namespace clearway::roads

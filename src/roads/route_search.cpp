@@ -1,7 +1,6 @@
 #include "roads/route_search.hpp"
 
 #include <cassert>
-#include <functional>
 
 #include "roads/detail/walk.hpp"
 
@@ -13,10 +12,6 @@ bool is_open(const Lane& lane, Driver driver) {
 }
 bool is_open(const Connection& way, Driver driver) {
     return driver == Driver::car ? way.allows_cars : way.allows_emergency;
-}
-
-double lane_s(const Lane& lane) {
-    return lane.speed_limit_mps > 0.0F ? static_cast<double>(lane.length_m) / lane.speed_limit_mps : no_way_s;
 }
 
 }  // namespace
@@ -32,13 +27,14 @@ RouteSearch::RouteSearch(const Network& network, Driver driver)
         for (std::uint32_t lane = edge.first_lane; lane < edge.first_lane + edge.lane_count; ++lane) {
             const Lane& own = network.lane(core::LaneIndex{lane});
             if (!is_open(own, driver)) continue;
-            free_s_[row] = std::min(free_s_[row], lane_s(own));
+            free_s_[row] = std::min(free_s_[row], detail::free_flow_s(own));
             for (const Connection& way : network.connections_from(core::LaneIndex{lane})) {
                 const core::EdgeIndex to = network.lane(way.to).edge;
                 if (!is_open(way, driver) || network.edge(to).internal) continue;
                 double inner_s = 0.0;
-                detail::for_each_inner_lane(
-                    network, way, [&](core::LaneIndex inner) { inner_s += lane_s(network.lane(inner)); });
+                detail::for_each_inner_lane(network, way, [&](core::LaneIndex inner) {
+                    inner_s += detail::free_flow_s(network.lane(inner));
+                });
                 const auto known = std::find_if(arcs_.begin() + start, arcs_.end(),
                                                 [&](const Arc& arc) { return arc.to == to; });
                 if (known == arcs_.end())
@@ -75,19 +71,17 @@ const std::vector<double>& RouteSearch::bounds_to(core::EdgeIndex destination) {
     bounds.assign(free_s_.size(), no_way_s);
     if (free_s_[destination.value] == no_way_s) return bounds;
     bounds[destination.value] = 0.0;
-    std::vector<Entry> queue{{0.0, destination.value}};
+    detail::LeastFirst queue;
+    queue.push(0.0, destination);
     while (!queue.empty()) {
-        std::ranges::pop_heap(queue, std::greater{});
-        const auto [rest_s, row] = queue.back();
-        queue.pop_back();
+        const auto [rest_s, row] = queue.pop();
         if (rest_s > bounds[row]) continue;
         for (auto arc = std::ranges::lower_bound(backward, row, {}, &Back::to);
              arc != backward.end() && arc->to == row; ++arc) {
             const double whole_s = rest_s + free_s_[row] + arc->inner_s;
             if (whole_s >= bounds[arc->from]) continue;
             bounds[arc->from] = whole_s;
-            queue.emplace_back(whole_s, arc->from);
-            std::ranges::push_heap(queue, std::greater{});
+            queue.push(whole_s, core::EdgeIndex{arc->from});
         }
     }
     return bounds;
@@ -102,18 +96,6 @@ RouteSearch::Label& RouteSearch::label(core::EdgeIndex edge) {
     Label& label = labels_[edge.value];
     if (label.search != searches_) label = {no_way_s, core::EdgeIndex::none(), searches_};
     return label;
-}
-
-void RouteSearch::push(double at_least_s, core::EdgeIndex edge) {
-    queue_.emplace_back(at_least_s, edge.value);
-    std::ranges::push_heap(queue_, std::greater{});
-}
-
-RouteSearch::Entry RouteSearch::pop() {
-    std::ranges::pop_heap(queue_, std::greater{});
-    const Entry least = queue_.back();
-    queue_.pop_back();
-    return least;
 }
 
 double RouteSearch::finish(core::EdgeIndex to, std::vector<core::EdgeIndex>& way) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/ids.hpp"
+#include "roads/detail/search.hpp"
 #include "roads/exits.hpp"
 #include "roads/network.hpp"
 
@@ -72,7 +73,6 @@ class RouteSearch {
         core::EdgeIndex before;
         std::uint64_t search = 0;  ///< That it belongs to.
     };
-    using Entry = std::pair<double, std::uint32_t>;  ///< Least time at the destination, and edge.
 
     std::span<const Arc> arcs_from(core::EdgeIndex edge) const {
         return std::span(arcs_).subspan(first_arc_[edge.value],
@@ -83,8 +83,6 @@ class RouteSearch {
     const std::vector<double>& bounds_to(core::EdgeIndex destination);
     void begin();
     Label& label(core::EdgeIndex edge);
-    void push(double at_least_s, core::EdgeIndex edge);
-    Entry pop();
     double finish(core::EdgeIndex to, std::vector<core::EdgeIndex>& way) const;
 
     std::vector<double> free_s_;
@@ -92,7 +90,7 @@ class RouteSearch {
     std::vector<std::uint32_t> first_arc_;
     std::map<core::EdgeIndex, std::vector<double>> bounds_;
     std::vector<Label> labels_;
-    std::vector<Entry> queue_;
+    detail::LeastFirst queue_;  ///< By the least time at the destination.
     std::uint64_t searches_ = 0;
 };
 
@@ -103,9 +101,9 @@ double RouteSearch::search(const Trip& trip, const EdgeTime& edge_s, std::vector
     if (bounds[trip.from.value] == no_way_s) return no_way_s;
     begin();
     label(trip.from).leaves_s = trip.leaving_s;
-    push(trip.leaving_s + bounds[trip.from.value] / trip.pace, trip.from);
+    queue_.push(trip.leaving_s + bounds[trip.from.value] / trip.pace, trip.from);
     while (!queue_.empty()) {
-        const auto [at_least_s, row] = pop();
+        const auto [at_least_s, row] = queue_.pop();
         const core::EdgeIndex edge{row};
         const double leaves_s = label(edge).leaves_s;
         if (at_least_s > leaves_s + bounds[row] / trip.pace) continue;  // a better one was there before
@@ -118,7 +116,7 @@ double RouteSearch::search(const Trip& trip, const EdgeTime& edge_s, std::vector
             if (left_s >= known.leaves_s) continue;
             known.leaves_s = left_s;
             known.before = edge;
-            push(left_s + bounds[arc.to.value] / trip.pace, arc.to);
+            queue_.push(left_s + bounds[arc.to.value] / trip.pace, arc.to);
         }
     }
     return no_way_s;

@@ -149,7 +149,7 @@ TEST(RealNetwork, NoRouteOfSumosRouterIsFasterThanOurs) {
     ASSERT_EQ(theirs.size(), trips);
     std::size_t same = 0;
     for (std::uint64_t trip = 0; trip < trips; ++trip) {
-        const auto ours = fastest_route(network, end(trip, 0), end(trip, 1));
+        const auto ours = FastestRoutes(network).between(end(trip, 0), end(trip, 1));
         ASSERT_TRUE(ours.has_value()) << trip;
         const double ours_s = time_of(network, *ours);
         const double theirs_s = time_of(network, theirs[trip]);
@@ -174,9 +174,9 @@ TEST(RealNetwork, AWayThatIsWalkedOnceTellsWhatAWalkToEachPlaceTells) {
         const auto end = [&](std::uint64_t which) {
             return edges[random.below(edges.size(), core::Purpose::demand, trip, which)];
         };
-        auto route = *fastest_route(network, end(0), end(1));
+        auto route = *FastestRoutes(network).between(end(0), end(1));
         // A route may pass a junction twice.
-        const auto back = fastest_route(network, route.back(), route.front());
+        const auto back = FastestRoutes(network).between(route.back(), route.front());
         if (trip % 3 == 0 && back) route.insert(route.end(), back->begin() + 1, back->end());
         const double start_m = draw(0) * 0.5 * route_length(network, route).value;
         const auto state =
@@ -220,7 +220,7 @@ WrongShares wrong_shares(const Network& network, double sigma_m, RouteKnown rout
         const auto draw = [&](std::uint64_t end) {
             return edges[random.below(edges.size(), core::Purpose::demand, trip, end)];
         };
-        const auto route = fastest_route(network, draw(0), draw(1));
+        const auto route = FastestRoutes(network).between(draw(0), draw(1));
         if (!route) continue;
         traffic::MotionState state{.lane = network.lane_of(route->front(), 0)};
         for (std::uint64_t number = 0;; ++number) {

@@ -61,7 +61,7 @@ TEST(RealRouteSearch, FindsTheFastestRouteOfDijkstra) {
     std::vector<core::EdgeIndex> way;
     for (const Trip& pair : pairs_of(network, 100)) {
         const double found_s = search.search(pair, free, way);
-        const auto oracle = fastest_route(network, pair.from, pair.to);
+        const auto oracle = FastestRoutes(network).between(pair.from, pair.to);
         ASSERT_TRUE(oracle && way.front() == pair.from && way.back() == pair.to);
         EXPECT_NEAR(found_s, search.time_of(*oracle, 0.0, free), 1e-6);
         EXPECT_NEAR(found_s, search.time_of(way, 0.0, free), 1e-6);
@@ -77,7 +77,7 @@ TEST(RealRouteSearch, IsExactWhereTimesChangeOnTheWay) {
     for (const Trip& pair : pairs_of(network, 100)) {
         const double found_s = search.search(pair, fading, way);
         EXPECT_NEAR(found_s, dijkstra_s(network, search, pair.from, pair.to, fading), 1e-6);
-        changed += fastest_route(network, pair.from, pair.to) != way ? 1 : 0;
+        changed += FastestRoutes(network).between(pair.from, pair.to) != way ? 1 : 0;
     }
     EXPECT_GT(changed, 20) << "or the delays would not matter";
 }

@@ -41,11 +41,12 @@ class RouteTest : public ::testing::Test {
 };
 
 TEST_F(RouteTest, FastestRouteIncludesBothEnds) {
-    EXPECT_EQ(fastest_route(network_, edge("south"), edge("west")), route({"south", "east", "back", "west"}));
-    EXPECT_EQ(fastest_route(network_, edge("east"), edge("east")), route({"east"}));
-    EXPECT_FALSE(fastest_route(network_, edge("north"), edge("west")).has_value());
-    EXPECT_FALSE(fastest_route(network_, edge("west"), edge("path")).has_value());
-    EXPECT_FALSE(fastest_route(network_, edge("path"), edge("west")).has_value());
+    EXPECT_EQ(FastestRoutes(network_).between(edge("south"), edge("west")),
+              route({"south", "east", "back", "west"}));
+    EXPECT_EQ(FastestRoutes(network_).between(edge("east"), edge("east")), route({"east"}));
+    EXPECT_FALSE(FastestRoutes(network_).between(edge("north"), edge("west")).has_value());
+    EXPECT_FALSE(FastestRoutes(network_).between(edge("west"), edge("path")).has_value());
+    EXPECT_FALSE(FastestRoutes(network_).between(edge("path"), edge("west")).has_value());
 }
 
 TEST_F(RouteTest, LengthIncludesTheWaysAcrossJunctions) {

@@ -83,29 +83,42 @@ std::optional<core::EdgeIndex> edge_of(const DemandContext& context, const std::
     return std::nullopt;
 }
 
-/// The fastest route by car between two edges given by id; nothing after adding problems to `problems`.
-std::optional<RouteEdges> route_between(const DemandContext& context, const std::string& key,
-                                        const std::string& from, const std::string& to,
-                                        std::vector<core::Problem>& problems) {
-    const auto origin = edge_of(context, key + ".from", from, problems);
-    const auto destination = edge_of(context, key + ".to", to, problems);
-    if (!origin || !destination) return std::nullopt;
-    auto route = roads::fastest_route(context.network, *origin, *destination);
-    if (!route)
-        problems.push_back(
-            {context.config.where(key + ".to"), fmt::format("no car can reach \"{}\" from \"{}\"", to, from),
-             "an edge downstream by lanes open to cars", "choose other edges, or add connections"});
-    return route;
-}
+/// Routes between edges that a scenario names. The network is prepared for the search when the first is asked
+/// for.
+class NamedRoutes {
+  public:
+    explicit NamedRoutes(const DemandContext& context) : context_(context) {}
+
+    /// The fastest route by car between two edges given by id; nothing after adding problems to `problems`.
+    std::optional<RouteEdges> between(const std::string& key, const std::string& from, const std::string& to,
+                                      std::vector<core::Problem>& problems) {
+        const auto origin = edge_of(context_, key + ".from", from, problems);
+        const auto destination = edge_of(context_, key + ".to", to, problems);
+        if (!origin || !destination) return std::nullopt;
+        if (!fastest_) fastest_.emplace(context_.network);
+        auto route = fastest_->between(*origin, *destination);
+        if (!route)
+            problems.push_back({context_.config.where(key + ".to"),
+                                fmt::format("no car can reach \"{}\" from \"{}\"", to, from),
+                                "an edge downstream by lanes open to cars",
+                                "choose other edges, or add connections"});
+        return route;
+    }
+
+  private:
+    const DemandContext& context_;
+    std::optional<roads::FastestRoutes> fastest_;
+};
 
 /// Routes of the configured flows, by row.
 class FlowRoutes {
   public:
     explicit FlowRoutes(const DemandContext& context) : context_(context) {
+        NamedRoutes named(context);
         std::vector<core::Problem> problems;
         for (std::size_t row = 0; row < context.config.flows.size(); ++row) {
             const Flow& flow = context.config.flows[row];
-            auto route = route_between(context, fmt::format("flow[{}]", row), flow.from, flow.to, problems);
+            auto route = named.between(fmt::format("flow[{}]", row), flow.from, flow.to, problems);
             if (route) routes_.push_back(std::move(*route));
             shares_.push_back(flow.share);
         }
@@ -271,9 +284,9 @@ PlannedDemand generate(const DemandContext& context) {
 }
 
 /// The route of an emergency vehicle as its trip gives it; nothing after adding problems to `problems`.
-std::optional<RouteEdges> route_of(const DemandContext& context, const std::string& key,
+std::optional<RouteEdges> route_of(const DemandContext& context, NamedRoutes& named, const std::string& key,
                                    const EmergencyTrip& trip, std::vector<core::Problem>& problems) {
-    if (trip.edges.empty()) return route_between(context, key, trip.from, trip.to, problems);
+    if (trip.edges.empty()) return named.between(key, trip.from, trip.to, problems);
     RouteEdges route;
     std::istringstream ids(trip.edges);
     for (std::string id; ids >> id;) {
@@ -298,10 +311,11 @@ core::Seconds events_delay(const DemandContext& context) {
 
 void add_emergency_trips(const DemandContext& context, PlannedDemand& demand) {
     const double delay_s = events_delay(context).value;
+    NamedRoutes named(context);
     std::vector<core::Problem> problems;
     for (std::size_t row = 0; row < context.config.emergency_trips.size(); ++row) {
         const EmergencyTrip& trip = context.config.emergency_trips[row];
-        const auto route = route_of(context, fmt::format("emergency_trip[{}]", row), trip, problems);
+        const auto route = route_of(context, named, fmt::format("emergency_trip[{}]", row), trip, problems);
         if (!route) continue;
         demand.emergency.push_back(plan_emergency(context, fmt::format("emergency.trip.{}", row),
                                                   *core::value_from<traffic::VehicleKind>(trip.kind),
