@@ -74,7 +74,7 @@ bool HoldPlanner::is_due(const View& view, const Arrival& arrival, double rule_s
             constexpr double rounding = 1.0 + 1e-9;
             const double latest_s = settings_.emergency_worth > 0.0
                                         ? cost(best) / settings_.emergency_worth * rounding
-                                        : 2.0 * QueueModel::horizon_s;
+                                        : QueueModel::never_s;
             const std::optional<QueueModel::Outcome> other = model.outcome(start_s, latest_s);
             if (!other || cost(*other) > cost(best)) return;
             best = *other;

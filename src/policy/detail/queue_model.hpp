@@ -57,10 +57,10 @@ class QueueModel {
 
     /// How far it looks ahead, s: the longest hold and a cycle or two.
     static constexpr double horizon_s = 180.0;
+    /// Later than any passing: a slow start after the horizon is included.
+    static constexpr double never_s = 2.0 * horizon_s;
 
   private:
-    static constexpr double never_s = 2.0 * horizon_s;  ///< A slow start after the horizon is included.
-
     /// A piece of the forecast in which a link is green, and since when it is.
     struct Green {
         double to_s = 0.0;
