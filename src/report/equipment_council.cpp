@@ -91,8 +91,7 @@ std::string how_sure(const EquipmentFacts& facts) {
     std::string text = fmt::format(
         "{} simulations with them and {} without, of the same traffic. The ranges cover chance among such "
         "simulations (95 %), not whether your traffic, signal programs and calls are like those simulated, "
-        "which "
-        "stand below.",
+        "which stand below.",
         facts.replications, facts.replications);
     if (facts.unsound.say_little()) text += fmt::format(" A doubt: {}.", facts.unsound.words());
     return text;

@@ -63,24 +63,33 @@ TEST(AdjustGreen, ends_a_green_that_serves_nobody_it_names_after_its_least_time)
     EXPECT_EQ(sent[0].second.phase, 1U) << "the yellow of the program itself";
 }
 
-TEST(AdjustGreen, goes_on_where_greens_of_the_program_overlap) {
+/// Where signal A, under a program of its own, goes on after a hold for the north, for links that were asked
+/// for then.
+std::vector<traffic::RestoreProgram> restored_after_a_hold(const std::string& program,
+                                                           const std::vector<std::uint16_t>& asked) {
     const support::TemporaryFolder folder;
-    const auto overlapping = folder.write("tls.add.xml", R"(<additional>
-    <tlLogic id="A" type="static" programID="own">
-        <phase duration="30" state="GGGgrrrrGGGgrrrr"/><phase duration="4" state="yyyyrrrryyyyGGGg"/>
-        <phase duration="30" state="rrrrGGGgrrrrGGGg"/><phase duration="4" state="rrrryyyyrrrryyyy"/>
-    </tlLogic></additional>)");
+    const auto file = folder.write("tls.add.xml", "<additional>" + program + "</additional>");
     const roads::Network network =
-        roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml", {overlapping});
+        roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml", {file});
     ActuationBench bench(0.25, fixed_clearance(), network);
     bench.self.program = "own";
     std::vector<traffic::RestoreProgram> restored;
     while (bench.now.value < 40.0) {
         if (bench.now.value < 8.0) bench.offer(signal_a, traffic::HoldGreen{north}, 2.0);
-        if (bench.now.value < 12.0) bench.offer(signal_a, traffic::AdjustGreen{{12, 13}}, 2.0);
+        if (bench.now.value < 12.0) bench.offer(signal_a, traffic::AdjustGreen{asked}, 2.0);
         for (const auto& restore : bench.only<traffic::RestoreProgram>(bench.step()))
             restored.push_back(restore);
     }
+    return restored;
+}
+
+TEST(AdjustGreen, goes_on_where_greens_of_the_program_overlap) {
+    const auto restored = restored_after_a_hold(R"(
+    <tlLogic id="A" type="static" programID="own">
+        <phase duration="30" state="GGGgrrrrGGGgrrrr"/><phase duration="4" state="yyyyrrrryyyyGGGg"/>
+        <phase duration="30" state="rrrrGGGgrrrrGGGg"/><phase duration="4" state="rrrryyyyrrrryyyy"/>
+    </tlLogic>)",
+                                                {12, 13});
     ASSERT_EQ(restored.size(), 1U) << "a signal that shows yellow for ever goes back to no program";
     EXPECT_EQ(restored[0].phase, 2U);
 }
@@ -103,23 +112,12 @@ TEST(AdjustGreen, ends_with_its_time) {
 }
 
 TEST(AdjustGreen, starts_a_green_that_vehicles_prolong_with_its_least_time) {
-    const support::TemporaryFolder folder;
-    const auto actuated = folder.write("tls.add.xml", R"(<additional>
+    const auto restored = restored_after_a_hold(R"(
     <tlLogic id="A" type="actuated" programID="own">
         <phase duration="30" minDur="1" state="GGGgrrrrGGGgrrrr"/><phase duration="4" state="yyyyrrrryyyyrrrr"/>
         <phase duration="30" minDur="1" state="rrrrGGGgrrrrGGGg"/><phase duration="4" state="rrrryyyyrrrryyyy"/>
-    </tlLogic></additional>)");
-    const roads::Network network =
-        roads::Network::read(CLEARWAY_SOURCE_DIR "/tests/support/data/two_crossings.net.xml", {actuated});
-    ActuationBench bench(0.25, fixed_clearance(), network);
-    bench.self.program = "own";
-    std::vector<traffic::RestoreProgram> restored;
-    while (bench.now.value < 20.0) {
-        if (bench.now.value < 8.0) bench.offer(signal_a, traffic::HoldGreen{north}, 2.0);
-        if (bench.now.value < 12.0) bench.offer(signal_a, traffic::AdjustGreen{west}, 2.0);
-        for (const auto& restore : bench.only<traffic::RestoreProgram>(bench.step()))
-            restored.push_back(restore);
-    }
+    </tlLogic>)",
+                                                west);
     ASSERT_EQ(restored.size(), 1U);
     EXPECT_EQ(restored[0].phase, 2U);
     ASSERT_TRUE(restored[0].lasting.has_value());

@@ -126,16 +126,24 @@ class Rendered(Tree):
         self.assertIn("\N{DAGGER} Measured earlier and not repeated with this version: tree 2222222, 2026-11-24.\\\n"
                       "\N{DAGGER} Clearway's behaviour has changed since: tree 1111111, 2026-11-24.\n", text)
 
+    def test_rows_of_before_holds_by_queues_stand_while_the_runs_by_the_lead_do(self):
+        earlier = published_rows.behaviours(ROOT)[1]
+        self.assertNotEqual(earlier, BEHAVIOUR)
+        self.rows(row(behaviour=earlier))
+        self.assertNotIn("\N{DAGGER}", self.rendered(TABLE))
+
     def test_a_change_of_a_golden_run_makes_rows_old(self):
-        self.rows(row())
-        self.rendered(TABLE)
         golden = self.root / "tests/loop/golden.txt"
-        digit = re.compile("^(vacate_lane )(.)", re.MULTILINE)
-        golden.write_text(digit.sub(lambda found: found[1] + ("0" if found[2] != "0" else "1"), golden.read_text(encoding="utf-8")),
-                          encoding="utf-8")
-        done = run(RENDER, "--root", self.root, "--check")
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("| corridor \N{DAGGER} |", done.stderr)
+        runs = golden.read_text(encoding="utf-8")
+        changed = re.sub("^(vacate_lane )(.)", lambda found: found[1] + ("0" if found[2] != "0" else "1"), runs, flags=re.MULTILINE)
+        for behaviour in published_rows.behaviours(ROOT):
+            self.rows(row(behaviour=behaviour))
+            golden.write_text(runs, encoding="utf-8")
+            self.rendered(TABLE)
+            golden.write_text(changed, encoding="utf-8")
+            done = run(RENDER, "--root", self.root, "--check")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("| corridor \N{DAGGER} |", done.stderr)
 
     def test_a_picture_is_drawn_from_its_rows(self):
         self.rows(row("a"), row("b", low="", high=""), row("c", measure="b_s", mean="1.0", low="0.0", high="2.0"))

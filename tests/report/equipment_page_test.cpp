@@ -211,7 +211,14 @@ TEST(EquipmentPage, TellsACouncilNoMoreThanTheRunsShow) {
     EXPECT_THAT(detail::council_lines(facts)[0], HasSubstr("No recommendation: that ambulances gain is not"));
     facts.ranked.back().so_far = about(9.0, 6.0);
     EXPECT_THAT(detail::council_lines(facts)[0],
-                HasSubstr("Which of them first, the simulations do not tell"));
+                testing::EndsWith("Which of them first, the simulations do not tell."));
+    facts.ranked.front().so_far = about(8.0, 6.0);
+    EXPECT_THAT(detail::council_lines(facts)[0],
+                testing::EndsWith("the simulations do not tell. As far as is shown, #4 is enough."))
+        << "what #9 adds is not shown";
+    facts.ranked.back().so_far = about(9.0, 8.9);
+    EXPECT_THAT(detail::council_lines(facts)[1],
+                HasSubstr("sooner (0.1 s to 18 s: it may be next to nothing)"));
     facts.unsound = {10, 8, 6, 0, 0, 0};
     lines = detail::council_lines(facts);
     EXPECT_THAT(lines[0], HasSubstr("No recommendation: traffic blocked itself in most simulations."));
