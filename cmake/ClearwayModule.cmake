@@ -25,6 +25,9 @@ function(clearway_compile_options target)
     endif()
     if(CLEARWAY_ASSERTIONS)
         target_compile_options(${target} PRIVATE -UNDEBUG -D_GLIBCXX_ASSERTIONS)
+    else()
+        # What only an assertion uses is not used here; presets with assertions report the rest.
+        target_compile_options(${target} PRIVATE -Wno-unused)
     endif()
     if(CLEARWAY_SANITIZE MATCHES thread)
         target_compile_options(${target} PRIVATE -Wno-tsan)  # Boost.Asio has fences, beside locks that the sanitizer knows

@@ -79,8 +79,7 @@ char LinkTransition::next_letter(std::uint16_t link, const std::string& shown,
 
 std::string LinkTransition::next_state(const std::string& shown, const TransitionContext& around) const {
     assert(shown.size() == target_.size());
-    constexpr double far_beyond_all_s = 600.0;
-    assert((around.now - since_).value < far_beyond_all_s && "a transition ends");
+    assert((around.now - since_).value < 600.0 && "a transition ends");
     std::string state = shown;
     for (std::size_t link = 0; link < shown.size(); ++link)
         state[link] = next_letter(static_cast<std::uint16_t>(link), shown, around);
